@@ -1,0 +1,21 @@
+#include "checks/check.h"
+
+namespace contort {
+
+#define X(name, scale, help)                     \
+  int name##_subject_count(const Character&);    \
+  Subject name##_subject(const Character&, int); \
+  void name##_measure(const CheckInput&, MarginFold&);
+#include "checks/check_list.inc"
+#undef X
+
+std::span<const CheckDef> all_checks() {
+  static const CheckDef checks[] = {
+#define X(name, scale, help) {#name, scale, help, name##_subject_count, name##_subject, name##_measure},
+#include "checks/check_list.inc"
+#undef X
+  };
+  return checks;
+}
+
+}  // namespace contort

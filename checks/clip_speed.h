@@ -1,0 +1,41 @@
+// angular_velocity for animations made elsewhere: the speed of every rotation channel of a glTF clip between its own
+// neighbouring keys, so that no peak between keys is averaged away.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "checks/fold.h"
+#include "generator/gltf/asset.h"
+
+namespace contort {
+
+struct SpeedLimits {
+  double max_rad_s = 0.0;                 // for every node without its own limit, > 0
+  std::map<std::string, double> of_node;  // rad/s, by node label or name
+};
+
+// A finding of one clip. Frames of the finding are key intervals: interval i is between keys i and i + 1.
+struct ClipFinding {
+  Finding finding;
+  double worst_t0_s = 0.0;  // the interval of the worst margin
+  double worst_t1_s = 0.0;
+  double worst_speed_rad_s = 0.0;
+};
+
+struct ClipSpeeds {
+  std::string clip;
+  std::string peak_node;  // "" where nothing turns
+  double peak_rad_s = 0.0;
+  double peak_t0_s = 0.0;
+  double peak_t1_s = 0.0;
+  int channels = 0;
+  std::vector<ClipFinding> findings;  // in the order of channels, then time
+};
+
+// With `name` empty, all clips. Nothing fails: a clip without rotations has a peak of 0.
+std::vector<ClipSpeeds> check_clip_speeds(const GltfAsset& asset, const SpeedLimits& limits,
+                                          const std::string& name = "");
+
+}  // namespace contort

@@ -1,0 +1,205 @@
+#include "checks/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contort {
+
+namespace {
+
+double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+// A segment as centre and half vector: its points are center + t * half, t in [-1, 1].
+struct Segment {
+  Vec3 center;
+  Vec3 half;
+};
+
+// Closest points of two segments: minimise over one parameter in closed form, clamp, then the other for it; the
+// distance is convex, so clamping one and solving the other again ends at the minimum.
+double segment_distance(const Segment& a, const Segment& b) {
+  const Vec3 between = a.center - b.center;
+  const double aa = glm::dot(a.half, a.half);
+  const double bb = glm::dot(b.half, b.half);
+  const double ab = glm::dot(a.half, b.half);
+  const double ar = glm::dot(a.half, between);
+  const double br = glm::dot(b.half, between);
+  const double determinant = aa * bb - ab * ab;
+  double s = 0.0;  // parallel segments and points: any s will do, t below settles the rest
+  if (determinant > 1e-14 * aa * bb) s = std::clamp((ab * br - ar * bb) / determinant, -1.0, 1.0);
+  double t = bb > 0.0 ? std::clamp((ab * s + br) / bb, -1.0, 1.0) : 0.0;
+  s = aa > 0.0 ? std::clamp((ab * t - ar) / aa, -1.0, 1.0) : 0.0;
+  t = bb > 0.0 ? std::clamp((ab * s + br) / bb, -1.0, 1.0) : 0.0;
+  return length(between + s * a.half - t * b.half);
+}
+
+// From the nearest point of a box at the origin, along the axes, to p outside of it; 0 inside.
+double point_box_distance(const Vec3& p, const Vec3& half) { return length(glm::max(glm::abs(p) - half, Vec3(0.0))); }
+
+// Everything below stands in the frame of box A: A is centred at the origin with half sides `half`; B is a point, a
+// segment or a box.
+struct Local {
+  Vec3 half;
+  Vec3 center;    // of B
+  Vec3 reach[3];  // half axes of B: three for a box, one for a segment, none for a point
+  int reach_count;
+};
+
+Local in_frame_of(const Solid& box, const Solid& other) {
+  const Mat3 to_box = glm::transpose(box.axes);
+  Local local{box.half_m, to_box * (other.center_m - box.center_m), {}, 0};
+  if (other.core == Solid::Core::segment) local.reach[local.reach_count++] = to_box * other.half_segment_m;
+  if (other.core == Solid::Core::box)
+    for (int i = 0; i < 3; ++i) local.reach[local.reach_count++] = to_box * (other.axes[i] * other.half_m[i]);
+  return local;
+}
+
+// A direction across which A and B are apart by `gap` (negative: they overlap by that much everywhere).
+struct Separation {
+  double gap = -std::numeric_limits<double>::infinity();
+  Vec3 axis{0.0};  // unit
+};
+
+// Gap between the projections of A and B on the axis n (unit); negative where they overlap.
+double gap_along(const Local& l, const Vec3& n) {
+  double gap = std::fabs(glm::dot(l.center, n)) - glm::dot(l.half, glm::abs(n));
+  for (int i = 0; i < l.reach_count; ++i) gap -= std::fabs(glm::dot(l.reach[i], n));
+  return gap;
+}
+
+// The greatest gap over all face normals of the Minkowski difference: > 0 is a lower bound of the distance, <= 0 is
+// minus the depth (separating axis theorem: Gottschalk, Lin, Manocha 1996). Stops at the first gap greater than
+// `enough`.
+Separation separation(const Local& l, double enough) {
+  Separation best;
+  Vec3 faces = glm::abs(l.center) - l.half;
+  for (int i = 0; i < l.reach_count; ++i) faces -= glm::abs(l.reach[i]);
+  for (int i = 0; i < 3; ++i)
+    if (faces[i] > best.gap) best = {faces[i], Vec3(i == 0, i == 1, i == 2)};
+  const auto try_axis = [&](const Vec3& v) {
+    const double size = length(v);
+    if (size < 1e-9) return;
+    const double gap = gap_along(l, v / size);
+    if (gap > best.gap) best = {gap, v / size};
+  };
+  if (best.gap > enough) return best;
+  if (l.reach_count == 3)
+    for (int i = 0; i < 3; ++i) try_axis(glm::cross(l.reach[i], l.reach[(i + 1) % 3]));
+  if (best.gap > enough) return best;
+  for (int b = 0; b < l.reach_count; ++b) {
+    const Vec3 d = unit_or(l.reach[b], Vec3(0.0));
+    try_axis(Vec3(0.0, -d.z, d.y));
+    try_axis(Vec3(d.z, 0.0, -d.x));
+    try_axis(Vec3(-d.y, d.x, 0.0));
+  }
+  return best;
+}
+
+// Corners of B against A; for a box also corners of A against B.
+double nearest_corners(const Local& l) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < (1 << l.reach_count); ++corner) {
+    Vec3 p = l.center;
+    for (int i = 0; i < l.reach_count; ++i) p += (corner >> i & 1 ? 1.0 : -1.0) * l.reach[i];
+    best = std::min(best, point_box_distance(p, l.half));
+  }
+  if (l.reach_count < 3) return best;
+  Vec3 sizes;
+  for (int i = 0; i < 3; ++i) sizes[i] = length(l.reach[i]);
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 p = -l.center;
+    for (int i = 0; i < 3; ++i) p[i] += corner >> i & 1 ? l.half[i] : -l.half[i];
+    Vec3 in_b;
+    for (int i = 0; i < 3; ++i) in_b[i] = glm::dot(p, l.reach[i]) / sizes[i];
+    best = std::min(best, point_box_distance(in_b, sizes));
+  }
+  return best;
+}
+
+// Edges of a box, at most twelve.
+struct Edges {
+  Segment edge[12];
+  int count = 0;
+};
+
+// The edges of the box (half axes, centre) that come within `slack` of its farthest point along n. The nearest point of
+// two solids that are `gap` apart along n and at most gap + slack apart in all cannot be farther back than that.
+Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& n, double slack) {
+  double reach[3];
+  for (int i = 0; i < 3; ++i) reach[i] = glm::dot(axes[i], n);
+  const double front = std::fabs(reach[0]) + std::fabs(reach[1]) + std::fabs(reach[2]);
+  Edges out;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    for (const double u : {-1.0, 1.0})
+      for (const double v : {-1.0, 1.0})
+        if (u * reach[j] + v * reach[k] + std::fabs(reach[i]) >= front - slack)
+          out.edge[out.count++] = {center + u * axes[j] + v * axes[k], axes[i]};
+  }
+  return out;
+}
+
+double nearest_edges(const Local& l, const Separation& apart, double best) {
+  const Vec3 a_axes[3] = {Vec3(l.half.x, 0, 0), Vec3(0, l.half.y, 0), Vec3(0, 0, l.half.z)};
+  const Vec3 towards_b = glm::dot(l.center, apart.axis) < 0.0 ? -apart.axis : apart.axis;
+  const double slack = best - apart.gap + 1e-9;
+  const Edges of_a = edges_ahead(Vec3(0.0), a_axes, towards_b, slack);
+  const Edges of_b =
+      l.reach_count == 3 ? edges_ahead(l.center, l.reach, -towards_b, slack) : Edges{{{l.center, l.reach[0]}}, 1};
+  for (int a = 0; a < of_a.count; ++a)
+    for (int b = 0; b < of_b.count; ++b) best = std::min(best, segment_distance(of_a.edge[a], of_b.edge[b]));
+  return best;
+}
+
+// Two convex polytopes that are apart are nearest at a corner and a face, or at two edges.
+double box_distance(const Solid& box, const Solid& other, double band_m) {
+  const Local l = in_frame_of(box, other);
+  if (l.reach_count == 0) {
+    const Vec3 outside = glm::abs(l.center) - l.half;
+    const double inside = std::max({outside.x, outside.y, outside.z});
+    return inside > 0.0 ? point_box_distance(l.center, l.half) : inside;
+  }
+  const Separation apart = separation(l, band_m);
+  if (apart.gap <= 0.0 || apart.gap > band_m) return apart.gap;
+  return nearest_edges(l, apart, nearest_corners(l));
+}
+
+struct MakeSolid {
+  Solid operator()(const Sphere& s) const {
+    return {Solid::Core::point, s.center_m, Vec3(0.0), Mat3(1.0), Vec3(0.0), s.radius_m, s.radius_m};
+  }
+  Solid operator()(const Capsule& c) const {
+    const Vec3 half = 0.5 * (c.b_m - c.a_m);
+    return {Solid::Core::segment, 0.5 * (c.a_m + c.b_m),    half, Mat3(1.0), Vec3(0.0),
+            c.radius_m,           length(half) + c.radius_m};
+  }
+  Solid operator()(const Box& b) const {
+    const Mat3 axes = glm::mat3_cast(from_rotation_vector(b.rotation_deg * kRadPerDeg));
+    return {Solid::Core::box, b.center_m, Vec3(0.0), axes, b.half_m, 0.0, length(b.half_m)};
+  }
+};
+
+}  // namespace
+
+Solid solid_of(const ColliderShape& shape) { return std::visit(MakeSolid{}, shape); }
+
+Solid moved(const Rigid& to_from_own, const Solid& solid) {
+  Solid out = solid;
+  out.center_m = to_from_own * solid.center_m;
+  if (solid.core == Solid::Core::segment) out.half_segment_m = to_from_own.q * solid.half_segment_m;
+  if (solid.core == Solid::Core::box) out.axes = glm::mat3_cast(to_from_own.q) * solid.axes;
+  return out;
+}
+
+double signed_distance(const Solid& a, const Solid& b, double band_m) {
+  const double poison = a.center_m.x + a.center_m.y + a.center_m.z + b.center_m.x + b.center_m.y + b.center_m.z;
+  if (!std::isfinite(poison)) return std::numeric_limits<double>::quiet_NaN();
+  const double radii = a.radius_m + b.radius_m;
+  if (a.core == Solid::Core::box) return box_distance(a, b, band_m + radii) - radii;
+  if (b.core == Solid::Core::box) return box_distance(b, a, band_m + radii) - radii;
+  return segment_distance({a.center_m, a.half_segment_m}, {b.center_m, b.half_segment_m}) - radii;
+}
+
+}  // namespace contort

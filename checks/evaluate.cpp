@@ -1,0 +1,67 @@
+#include "checks/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+void append_findings(const CheckDef& check, const Character& character, const MarginFold& fold,
+                     std::vector<Finding>& out) {
+  for (const MarginFold::Episode& episode : fold.episodes()) {
+    Finding finding;
+    finding.check = check.name;
+    const Subject subject = check.subject(character, episode.subject);
+    finding.subject = subject.name;
+    finding.unit = subject.unit;
+    finding.first_frame = episode.first, finding.worst_frame = episode.worst, finding.last_frame = episode.last;
+    finding.worst_margin = episode.worst_margin;
+    finding.depth = std::isnan(episode.worst_margin) ? std::numeric_limits<double>::infinity()
+                                                     : -episode.worst_margin / check.scale;
+    out.push_back(std::move(finding));
+  }
+}
+
+}  // namespace
+
+Evaluation Evaluator::run(const Stage& stage) {
+  generate(stage, scratch_, motion_);
+  Evaluation evaluation;
+  evaluation.motion_hash = motion_hash(motion_);
+  evaluation.frame_count = motion_.frame_count;
+  evaluation.findings = judge(*stage.character, motion_);
+  return evaluation;
+}
+
+std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion) {
+  const std::size_t joints = character.joints().size();
+  world_.resize(joints * static_cast<std::size_t>(motion.frame_count));
+  for (int frame = 0; frame < motion.frame_count; ++frame) {
+    const auto f = static_cast<std::size_t>(frame);
+    forward_kinematics(character, motion.root[f], motion.row(frame), std::span(world_).subspan(f * joints, joints));
+  }
+  const CheckInput input{character, motion, world_, settings_};
+  std::vector<Finding> findings;
+  for (const CheckDef& check : all_checks()) {
+    MarginFold fold(check.subject_count(character), settings_.merge_gap_frames);
+    check.measure(input, fold);
+    append_findings(check, character, fold, findings);
+  }
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& l, const Finding& r) { return l.first_frame < r.first_frame; });
+  return findings;
+}
+
+const Finding* deepest(const std::vector<Finding>& findings, const std::string& check, const std::string& subject) {
+  const Finding* best = nullptr;
+  for (const Finding& finding : findings)
+    if (finding.check == check && finding.subject == subject && (best == nullptr || finding.depth > best->depth))
+      best = &finding;
+  return best;
+}
+
+}  // namespace contort

@@ -1,0 +1,42 @@
+#include "checks/fold.h"
+
+#include <algorithm>
+
+namespace contort {
+
+std::string family_of(const std::string& character, const Finding& finding) {
+  return finding.check + "|" + character + "|" + finding.subject;
+}
+
+MarginFold::MarginFold(int subject_count, int merge_gap_frames)
+    : merge_gap_frames_(merge_gap_frames),
+      smallest_(static_cast<std::size_t>(subject_count), std::numeric_limits<double>::infinity()),
+      open_(static_cast<std::size_t>(subject_count), -1) {}
+
+void MarginFold::violated(int subject, int frame, double margin) {
+  double& smallest = smallest_[static_cast<std::size_t>(subject)];
+  if (!(margin >= smallest)) smallest = margin;  // a NaN is worse than anything, and stays
+  int& open = open_[static_cast<std::size_t>(subject)];
+  if (open < 0 || frame - episodes_[static_cast<std::size_t>(open)].last > merge_gap_frames_ + 1) {
+    open = static_cast<int>(episodes_.size());
+    episodes_.push_back({subject, frame, frame, frame, margin});
+    return;
+  }
+  Episode& episode = episodes_[static_cast<std::size_t>(open)];
+  episode.last = frame;
+  const bool worst_is_nan = episode.worst_margin != episode.worst_margin;
+  if (!worst_is_nan && !(margin >= episode.worst_margin)) {
+    episode.worst = frame;
+    episode.worst_margin = margin;
+  }
+}
+
+std::vector<MarginFold::Episode> MarginFold::episodes() const {
+  std::vector<Episode> sorted = episodes_;
+  std::sort(sorted.begin(), sorted.end(), [](const Episode& l, const Episode& r) {
+    return l.first != r.first ? l.first < r.first : l.subject < r.subject;
+  });
+  return sorted;
+}
+
+}  // namespace contort

@@ -1,0 +1,62 @@
+// From margins to findings.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace contort {
+
+// An episode of negative margins of one subject.
+struct Finding {
+  std::string check;    // "joint_range"
+  std::string subject;  // "arm_left/elbow max", "arm_left/forearm ~ torso/chest"
+  std::string unit;     // of worst_margin
+  int first_frame = 0;
+  int worst_frame = 0;
+  int last_frame = 0;
+  double worst_margin = 0.0;  // < 0, or NaN
+  double depth = 0.0;         // -worst_margin / scale of the check: comparable between checks; infinite for NaN
+  bool operator==(const Finding&) const = default;
+};
+
+// The identity of a failure, without numbers: "joint_range|human|arm_left/elbow max".
+std::string family_of(const std::string& character, const Finding& finding);
+
+// Folds margins as they are measured, without storing them: per subject the open episode and the smallest margin.
+// Frames of one subject must come in rising order.
+class MarginFold {
+ public:
+  struct Episode {
+    int subject;
+    int first, worst, last;
+    double worst_margin;
+  };
+
+  MarginFold(int subject_count, int merge_gap_frames);
+
+  void report(int subject, int frame, double margin) {
+    double& smallest = smallest_[static_cast<std::size_t>(subject)];
+    if (margin >= 0.0) {
+      if (margin < smallest) smallest = margin;
+    } else {  // negative, or NaN
+      violated(subject, frame, margin);
+    }
+  }
+
+  // Episodes in the order of their first frame, then of subjects.
+  std::vector<Episode> episodes() const;
+
+  // Smallest margin of each subject; +infinity where it was never judged.
+  const std::vector<double>& smallest() const { return smallest_; }
+
+ private:
+  void violated(int subject, int frame, double margin);
+
+  int merge_gap_frames_;
+  std::vector<double> smallest_;
+  std::vector<int> open_;  // per subject: index of its last episode, or -1
+  std::vector<Episode> episodes_;
+};
+
+}  // namespace contort

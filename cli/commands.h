@@ -1,0 +1,50 @@
+// The subcommands. Each adds itself to the parser and, when it is called, leaves its exit code in the context.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace contort::cli {
+
+// docs/cli.md lists them too.
+enum Exit : int {
+  kClean = 0,         // nothing gating
+  kFindings = 1,      // new or regressed failures
+  kBadInput = 2,      // usage, configuration, unreadable input
+  kInternal = 3,      // a fault of ours or of the machine: the store cannot be written, no renderer
+  kInconclusive = 4,  // nondeterminism, or less work done than asked for
+  kInterrupted = 75,  // stopped early; what was found is kept
+};
+
+struct Context {
+  int exit_code = kClean;
+  std::vector<std::string> library_folders;  // --library
+  const Library* library = nullptr;          // stock and folders, made on first use
+
+  // The library, or nothing with the reason printed and the exit code set.
+  const Library* load_library();
+
+  // Prints the one line that a user sees, and sets the exit code.
+  void fail(const Issue& issue, Exit code = kBadInput);
+};
+
+void add_fuzz(CLI::App& app, Context& context);
+void add_replay(CLI::App& app, Context& context);
+void add_generate(CLI::App& app, Context& context);
+void add_check(CLI::App& app, Context& context);
+void add_shrink(CLI::App& app, Context& context);
+void add_render(CLI::App& app, Context& context);
+void add_report(CLI::App& app, Context& context);
+void add_list(CLI::App& app, Context& context);
+void add_schema(CLI::App& app, Context& context);
+void add_version(CLI::App& app, Context& context);
+
+}  // namespace contort::cli

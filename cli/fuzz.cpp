@@ -1,0 +1,178 @@
+// contort fuzz: compose, generate, check, shrink, store.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/report.h"
+#include "fuzz/run.h"
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+void on_interrupt(int) { interrupted = 1; }
+
+struct Options {
+  std::vector<std::string> characters;
+  std::int64_t cases = -1;
+  std::string time;
+  std::int64_t seed = 1;
+  int jobs = 0;
+  int shrinks_per_family = 2;
+  int shrink_evaluations = 300;
+  std::string corpus = "contort-out/corpus";
+  std::string report;
+  bool json = false;
+};
+
+// One line on standard error, rewritten in place; only on a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const RunConfig& config) : config_(config), shown_(::isatty(STDERR_FILENO) == 1) {}
+  void show(const RunProgress& p) {
+    if (!shown_) return;
+    const double share = config_.cases > 0      ? static_cast<double>(p.cases) / static_cast<double>(config_.cases)
+                         : config_.time_s > 0.0 ? p.elapsed_s / config_.time_s
+                                                : 0.0;
+    const int filled = static_cast<int>(24 * std::min(1.0, share));
+    std::fprintf(stderr, "\r[%.*s%*s] %lld cases, %lld failing, %d families, %d new buckets%s, %.0f s ", filled,
+                 "########################", 24 - filled, "", static_cast<long long>(p.cases),
+                 static_cast<long long>(p.failing), p.families, p.buckets_new,
+                 p.shrinking > 0 ? (", shrinking " + std::to_string(p.shrinking)).c_str() : "", p.elapsed_s);
+    std::fflush(stderr);
+  }
+  void clear() {
+    if (shown_) std::fprintf(stderr, "\r%100s\r", "");
+  }
+
+ private:
+  const RunConfig& config_;
+  bool shown_;
+};
+
+Result<RunConfig> configure(const Options& options, const Library& library) {
+  RunConfig config;
+  config.draw.characters = options.characters;
+  if (config.draw.characters.empty())
+    for (const auto& [name, desc] : library.characters) config.draw.characters.push_back(name);
+  for (const std::string& name : config.draw.characters)
+    if (const auto built = build_character({name, {}, {}}, library); !built) return built.issue();
+  if (!options.time.empty()) {
+    const Result<double> time_s = parse_time_s(options.time);
+    if (!time_s) return time_s.issue();
+    config.time_s = *time_s;
+  }
+  config.cases = options.cases >= 0 ? options.cases : options.time.empty() ? 2000 : -1;
+  config.seed = options.seed;
+  config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  config.shrinks_per_family = options.shrinks_per_family;
+  config.shrink.max_evaluations = options.shrink_evaluations;
+  config.tool = CONTORT_VERSION;
+  return config;
+}
+
+void print_found(const RunResult& result) {
+  for (const std::string& folder : result.new_buckets) {
+    const Result<std::string> line = bucket_line(folder);
+    std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
+  }
+  for (const std::string& lead : result.unconfirmed)
+    std::printf("NOT CONFIRMED (a second run differed): %s\n", lead.c_str());
+}
+
+void print_totals(const RunResult& result, const Options& options) {
+  const RunProgress& t = result.totals;
+  if (options.json) {
+    json_fields::Json out = {{"cases", t.cases},
+                             {"frames", t.frames},
+                             {"failing", t.failing},
+                             {"families", result.families},
+                             {"new_buckets", result.new_buckets},
+                             {"known_buckets", result.known_buckets},
+                             {"unconfirmed", result.unconfirmed},
+                             {"discarded", result.discarded},
+                             {"tested", result.tested}};
+    std::printf("%s\n", out.dump(2).c_str());
+    return;
+  }
+  print_found(result);
+  std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
+              static_cast<long long>(t.cases), static_cast<long long>(t.frames), t.elapsed_s,
+              static_cast<long long>(t.failing), result.families.size(), options.corpus.c_str());
+  std::printf("RESULT findings=%lld new=%zu known=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
+              static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(),
+              result.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
+              static_cast<long long>(t.frames));
+}
+
+int exit_code_of(const RunResult& result) {
+  if (!result.issue.code.empty()) return kInternal;
+  if (result.interrupted) return kInterrupted;
+  if (!result.unconfirmed.empty() || result.discarded > 0) return kInconclusive;
+  return result.new_buckets.empty() && result.known_buckets.empty() ? kClean : kFindings;
+}
+
+void run(const Options& options, Context& context) {
+  const Library* library = context.load_library();
+  if (library == nullptr) return;
+  const Result<RunConfig> config = configure(options, *library);
+  if (!config) return context.fail(config.issue());
+  const Result<Corpus> corpus = Corpus::create(options.corpus);
+  if (!corpus) return context.fail(corpus.issue(), kInternal);
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  ProgressLine line(*config);
+  const RunResult result = run_fuzz(
+      *config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
+  line.clear();
+  context.exit_code = exit_code_of(result);
+  print_totals(result, options);
+  if (!result.issue.code.empty()) context.fail(result.issue, kInternal);
+  if (result.discarded > 0)
+    std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
+                 static_cast<long long>(result.discarded));
+  if (options.report.empty()) return;
+  ReportRequest request{options.corpus, options.report};
+  request.cases = result.totals.cases;
+  request.frames = result.totals.frames;
+  request.tested = result.tested;
+  make_report(request, *library, context);
+}
+
+}  // namespace
+
+void add_fuzz(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("fuzz", "Compose random motions, check every frame, shrink and store what fails");
+  command->add_option("--character", options->characters, "Character to fuzz; may be repeated (default: all)");
+  command->add_option("--cases", options->cases, "Stop after so many cases (default: 2000, or no limit with --time)")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53));
+  command->add_option("--time", options->time, "Stop after this time: 45s, 10m, 2h");
+  command->add_option("--seed", options->seed, "Case i is a function of the seed and i")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--shrinks-per-family", options->shrinks_per_family,
+                   "Failures of one family that are shrunk and stored")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--shrink-evaluations", options->shrink_evaluations, "Motions generated per shrink, at most")
+      ->check(CLI::Range(0, 36000))
+      ->capture_default_str();
+  command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
+  command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->footer("Example: contort fuzz --character mech --time 10m --seed 7 --report contort-out/report");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace contort::cli

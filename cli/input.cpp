@@ -1,0 +1,87 @@
+#include "cli/input.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+
+#include "corpus/corpus.h"
+#include "generator/core/files.h"
+
+namespace contort::cli {
+
+namespace {
+
+constexpr std::size_t kMaxSpecBytes = 16 << 20;
+
+Issue in_file(const std::string& path, Issue issue) {
+  issue.text = path + ": " + issue.text;
+  return issue;
+}
+
+}  // namespace
+
+Result<SpecInput> read_spec_input(const std::string& path) {
+  const Result<std::string> text = read_file(path, kMaxSpecBytes);
+  if (!text) return text.issue();
+  Result<Spec> spec = parse_spec(*text);
+  if (spec) return SpecInput{std::move(spec).value(), {}};
+  if (spec.issue().code != "spec.wrong_format") return in_file(path, spec.issue());
+  Result<Case> stored = parse_case(*text);
+  if (!stored && stored.issue().code == "case.wrong_format")
+    return in_file(path, {"spec.wrong_format", "/format", "expected \"contort.spec/1\" or \"contort.case/1\""});
+  if (!stored) return in_file(path, stored.issue());
+  SpecInput input{stored->spec, {}};
+  input.stored = std::move(stored).value();
+  return input;
+}
+
+bool is_gltf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".glb" || ending == ".gltf";
+}
+
+Result<double> parse_time_s(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string unit(end, text.data() + text.size());
+  const double scale = unit.empty() || unit == "s" ? 1.0 : unit == "m" ? 60.0 : unit == "h" ? 3600.0 : 0.0;
+  if (error != std::errc{} || !(value > 0.0) || scale == 0.0 || value * scale > 1e7)
+    return Issue{"usage.bad_time", "", "found \"" + text + "\", allowed is a number with s, m or h, like 45s or 10m"};
+  return value * scale;
+}
+
+Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths) {
+  std::vector<std::string> cases;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error)) {
+      cases.push_back(path);
+      continue;
+    }
+    const Result<Corpus> corpus = Corpus::open(path);
+    if (!corpus) return corpus.issue();
+    std::vector<Issue> damaged;
+    for (const Bucket& bucket : corpus->buckets(damaged))
+      for (const std::string& file : {bucket.min, bucket.worst, bucket.orig}) {
+        const std::string full = corpus->folder_of(bucket) + "/" + file;
+        if (!file.empty()) cases.push_back(full);
+      }
+    if (!damaged.empty()) return damaged.front();
+  }
+  return cases;
+}
+
+std::string shell_quoted(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=+,@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string replay_command(const std::string& case_path) { return "contort replay " + shell_quoted(case_path); }
+
+}  // namespace contort::cli

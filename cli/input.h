@@ -1,0 +1,33 @@
+// Files that a user names on the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/case.h"
+#include "generator/core/result.h"
+#include "generator/spec.h"
+
+namespace contort::cli {
+
+// A spec, or the spec of a case; told apart by "format".
+struct SpecInput {
+  Spec spec;
+  std::optional<Case> stored;  // when the file is a case
+};
+Result<SpecInput> read_spec_input(const std::string& path);
+
+bool is_gltf(const std::string& path);  // by its ending
+
+// "45s", "10m", "2h", "90" (seconds). Code usage.bad_time.
+Result<double> parse_time_s(const std::string& text);
+
+// Case files named directly, and all cases of the corpus folders named: each bucket's min, worst and orig.
+Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths);
+
+// How to see a case again, quoted for a shell.
+std::string replay_command(const std::string& case_path);
+std::string shell_quoted(const std::string& text);
+
+}  // namespace contort::cli

@@ -1,0 +1,163 @@
+// contort list, contort schema, contort version: what there is, from the manifests.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+#include <set>
+
+#include "checks/check.h"
+#include "cli/commands.h"
+#include "corpus/case.h"
+#include "generator/actions/action.h"
+#include "generator/character/character.h"
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+using json_fields::Json;
+
+Json list_characters(const Library& library) {
+  Json out = Json::array();
+  for (const auto& [name, desc] : library.characters) {
+    Json slots = Json::object();
+    for (const SlotDesc& slot : desc.slots) slots[slot.name] = slot.parts;
+    out.push_back({{"name", name}, {"help", desc.help}, {"slots", slots}, {"objects", desc.objects}});
+  }
+  return out;
+}
+
+Json list_parts(const Library& library) {
+  Json out = Json::array();
+  for (const auto& [name, part] : library.parts) {
+    Json joints = Json::array();
+    for (const JointDesc& joint : part.joints) joints.push_back(joint.name);
+    out.push_back({{"name", name}, {"kind", part.kind}, {"help", part.help}, {"joints", joints}});
+  }
+  return out;
+}
+
+Json param_json(const ParamDef& def) {
+  return {{"name", def.name},         {"type", def.type == ParamType::number ? "number" : "three numbers"},
+          {"low", def.low},           {"high", def.high},
+          {"optional", def.optional}, {"help", def.help}};
+}
+
+// An action's parameters can depend on the part: shown for the first part of each kind that it works on.
+Json list_actions(const Library& library) {
+  Json out = Json::array();
+  for (const ActionDef& action : all_actions()) {
+    Json on = Json::object();
+    for (const auto& [name, desc] : library.characters)
+      if (const Result<Character> character = build_character({name, {}, {}}, library); character)
+        for (const Part& part : character->parts())
+          if (action.supports(part) && !on.contains(part.name)) {
+            Json params = Json::array();
+            for (const ParamDef& def : action.params(*character, part)) params.push_back(param_json(def));
+            on[part.name] = params;
+          }
+    out.push_back(
+        {{"name", action.name}, {"layer", layer_name(action.layer)}, {"help", action.help}, {"params_on", on}});
+  }
+  return out;
+}
+
+Json list_checks(const Library&) {
+  Json out = Json::array();
+  for (const CheckDef& check : all_checks())
+    out.push_back({{"name", check.name}, {"scale", check.scale}, {"help", check.help}});
+  return out;
+}
+
+std::string range_text(const Json& param) {
+  char text[80];
+  std::snprintf(text, sizeof text, "[%g, %g]", param["low"].get<double>(), param["high"].get<double>());
+  return text;
+}
+
+void print_params(const Json& action) {
+  std::set<std::string> shown;  // parts of one shape have the same parameters
+  for (const auto& [part, params] : action["params_on"].items()) {
+    if (!shown.insert(params.dump()).second) continue;
+    std::printf("    on %s\n", part.c_str());
+    for (const Json& param : params)
+      std::printf("      %-22s %-13s %-14s %s\n", param["name"].get<std::string>().c_str(),
+                  param["type"].get<std::string>().c_str(), range_text(param).c_str(),
+                  param["help"].get<std::string>().c_str());
+  }
+}
+
+void print_slots(const Json& character) {
+  for (const auto& [slot, parts] : character["slots"].items()) {
+    std::string names;
+    for (const Json& part : parts) names += (names.empty() ? "" : ", ") + part.get<std::string>();
+    std::printf("    %-12s %s\n", slot.c_str(), names.c_str());
+  }
+}
+
+void print_text(const Json& list) {
+  for (const Json& item : list) {
+    std::printf("%-18s %s\n", item["name"].get<std::string>().c_str(), item["help"].get<std::string>().c_str());
+    if (item.contains("params_on")) print_params(item);
+    if (item.contains("slots")) print_slots(item);
+  }
+}
+
+using Lister = std::function<Json(const Library&)>;
+const std::map<std::string, Lister>& listers() {
+  static const std::map<std::string, Lister> all = {
+      {"characters", list_characters}, {"parts", list_parts}, {"actions", list_actions}, {"checks", list_checks}};
+  return all;
+}
+
+const std::map<std::string, std::function<std::string()>>& schemas() {
+  static const std::map<std::string, std::function<std::string()>> all = {{"spec", spec_schema},
+                                                                          {"case", case_schema},
+                                                                          {"part", part_schema},
+                                                                          {"object", object_schema},
+                                                                          {"character", character_schema}};
+  return all;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Context& context) {
+  struct Options {
+    std::string what;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("list", "List characters, parts, actions or checks");
+  command->add_option("WHAT", options->what, "characters, parts, actions or checks")
+      ->required()
+      ->check(CLI::IsMember(listers()));
+  command->add_flag("--json", options->json, "Print as JSON");
+  command->footer("Example: contort list actions");
+  command->callback([options, &context] {
+    const Library* library = context.load_library();
+    if (library == nullptr) return;
+    const Json list = listers().at(options->what)(*library);
+    if (options->json)
+      std::printf("%s\n", list.dump(2).c_str());
+    else
+      print_text(list);
+  });
+}
+
+void add_schema(CLI::App& app, Context&) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a file format");
+  command->add_option("FORMAT", *what, "spec, case, part, object or character")
+      ->required()
+      ->check(CLI::IsMember(schemas()));
+  command->footer("Example: contort schema spec > spec.schema.json");
+  command->callback([what] { std::printf("%s", schemas().at(*what)().c_str()); });
+}
+
+void add_version(CLI::App& app, Context&) {
+  CLI::App* command = app.add_subcommand("version", "Print the version");
+  command->footer("Example: contort version");
+  command->callback([] { std::printf("contort %s\n", CONTORT_VERSION); });
+}
+
+}  // namespace contort::cli

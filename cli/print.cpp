@@ -1,0 +1,44 @@
+#include "cli/print.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+using json_fields::Json;
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string finding_line(const Finding& finding, double rate_hz) {
+  char frames[120];
+  std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%.3f s)", finding.first_frame, finding.last_frame,
+                finding.worst_frame, finding.worst_frame / rate_hz);
+  return finding.check + "  " + finding.subject + "  " + short_number(finding.worst_margin) + " " + finding.unit +
+         "  " + frames;
+}
+
+std::string findings_json(const std::vector<Finding>& findings, double rate_hz) {
+  Json list = Json::array();
+  for (const Finding& finding : findings) {
+    const bool finite = std::isfinite(finding.worst_margin);
+    list.push_back({{"check", finding.check},
+                    {"subject", finding.subject},
+                    {"unit", finding.unit},
+                    {"worst_margin", finite ? Json(finding.worst_margin) : Json()},
+                    {"depth", finite ? Json(finding.depth) : Json()},
+                    {"first_frame", finding.first_frame},
+                    {"worst_frame", finding.worst_frame},
+                    {"last_frame", finding.last_frame},
+                    {"worst_time_s", finding.worst_frame / rate_hz}});
+  }
+  return list.dump(2);
+}
+
+}  // namespace contort::cli

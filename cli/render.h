@@ -1,0 +1,17 @@
+// Starting the renderer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/core/result.h"
+
+namespace contort::cli {
+
+// Path of contort-render, beside the running program.
+std::string renderer_path();
+
+// Runs a program to its end; its exit code, or kInternal where a signal ended it. Code render.no_process.
+Result<int> run_program(const std::vector<std::string>& command);
+
+}  // namespace contort::cli

@@ -1,0 +1,154 @@
+// contort report: corpus to HTML.
+#include "cli/report.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "cli/input.h"
+#include "cli/print.h"
+#include "cli/render.h"
+#include "corpus/corpus.h"
+#include "fuzz/parallel.h"
+#include "generator/core/files.h"
+#include "renders/report.h"
+
+namespace contort::cli {
+
+namespace {
+
+struct Picture {
+  std::string case_path;
+  std::string png;
+};
+
+std::int64_t total_seen(const Bucket& bucket) {
+  std::int64_t total = 0;
+  for (const auto& [run, count] : bucket.seen) total += count;
+  return total;
+}
+
+ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored) {
+  ReportRow row;
+  const std::string path = folder + "/" + bucket.min;
+  row.family = bucket.family, row.check = bucket.check, row.subject = stored.expect.subject,
+  row.unit = stored.expect.unit;
+  row.worst_margin = stored.expect.worst_margin;
+  row.cases_seen = total_seen(bucket);
+  row.bucket = bucket.id, row.state = bucket.state;
+  row.gating = bucket.state == "new" || bucket.state == "regressed";
+  row.spec_json = pretty_spec(stored.spec);
+  row.replay_command = replay_command(path);
+  row.strip = "strips/" + bucket.check + "-" + bucket.id + ".png";
+  row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
+  row.last_frame = stored.expect.last_frame;
+  row.rate_hz = stored.spec.rate_hz;
+  row.features = bucket.features;
+  return row;
+}
+
+// Rows by how deep the failure is; ties by name, so that equal corpora give equal pages.
+void fill_rows(const Corpus& corpus, ReportModel& model, std::vector<Picture>& pictures, const std::string& out,
+               Context& context) {
+  std::vector<Issue> damaged;
+  std::vector<std::pair<double, ReportRow>> rows;
+  for (const Bucket& bucket : corpus.buckets(damaged)) {
+    const std::string folder = corpus.folder_of(bucket);
+    const Result<Case> stored = read_case(folder + "/" + bucket.min);
+    if (!stored) {
+      damaged.push_back(stored.issue());
+      continue;
+    }
+    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored));
+    pictures.push_back({folder + "/" + bucket.min, out + "/" + rows.back().second.strip});
+  }
+  for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& l, const auto& r) {
+    return l.first != r.first ? l.first > r.first : l.second.bucket < r.second.bucket;
+  });
+  for (auto& [depth, row] : rows) model.rows.push_back(std::move(row));
+}
+
+void count_totals(ReportModel& model) {
+  std::set<std::string> families;
+  for (const ReportRow& row : model.rows) families.insert(row.family);
+  model.families = static_cast<std::int64_t>(families.size());
+  model.buckets = static_cast<std::int64_t>(model.rows.size());
+  for (const std::string& family : families)
+    for (const ReportRow& row : model.rows)
+      if (row.family == family) {
+        model.findings += row.cases_seen;  // counted by family, so once for all of its buckets
+        break;
+      }
+}
+
+// Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
+int draw(const std::vector<Picture>& pictures, const Context& context) {
+  const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<int> codes(static_cast<std::size_t>(jobs), 0);
+  parallel_for(
+      jobs, jobs,
+      [&](int, int share) {
+        std::vector<std::string> call = {renderer_path(), "--many"};
+        for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+        for (std::size_t i = static_cast<std::size_t>(share); i < pictures.size(); i += static_cast<std::size_t>(jobs))
+          call.insert(call.end(), {pictures[i].case_path, pictures[i].png});
+        const std::size_t fixed = 2 + 2 * context.library_folders.size();
+        const Result<int> code = call.size() > fixed ? run_program(call) : Result<int>(0);
+        codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
+      },
+      [] {});
+  return *std::max_element(codes.begin(), codes.end());
+}
+
+}  // namespace
+
+Result<std::string> bucket_line(const std::string& bucket_folder) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(bucket_folder, error)) {
+    if (entry.path().filename().string().rfind("min-", 0) != 0) continue;
+    const Result<Case> stored = read_case(entry.path().string());
+    if (!stored) return stored.issue();
+    return "NEW " + family_of(*stored) + "  " + short_number(stored->expect.worst_margin) + " " + stored->expect.unit +
+           "  " + replay_command(entry.path().string());
+  }
+  return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
+}
+
+void make_report(const ReportRequest& request, const Library&, Context& context) {
+  const Result<Corpus> corpus = Corpus::open(request.corpus);
+  if (!corpus) return context.fail(corpus.issue());
+  if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
+    return context.fail(made.issue(), kInternal);
+  ReportModel model;
+  model.title = "Contort report";
+  model.cases = request.cases, model.frames = request.frames;
+  model.tested.assign(request.tested.begin(), request.tested.end());
+  std::vector<Picture> pictures;
+  fill_rows(*corpus, model, pictures, request.folder, context);
+  count_totals(model);
+  if (const Result<Done> written = write_report(model, request.folder); !written)
+    return context.fail(written.issue(), kInternal);
+  if (const int code = draw(pictures, context); code != 0) {
+    std::fprintf(stderr, "contort: some pictures are missing; the report is complete without them\n");
+    context.exit_code = std::max<int>(context.exit_code, kInternal);
+  }
+  std::printf("report: %s/index.html (%zu buckets, %lld families)\n", request.folder.c_str(), model.rows.size(),
+              static_cast<long long>(model.families));
+}
+
+void add_report(CLI::App& app, Context& context) {
+  auto request = std::make_shared<ReportRequest>();
+  CLI::App* command = app.add_subcommand("report", "Write an HTML report of a corpus, with film strips");
+  command->add_option("CORPUS", request->corpus, "Corpus folder")->required();
+  command->add_option("-o,--output", request->folder, "Folder of the report")->required();
+  command->footer("Example: contort report contort-out/corpus -o contort-out/report");
+  command->callback([request, &context] {
+    if (const Library* library = context.load_library()) make_report(*request, *library, context);
+  });
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,26 @@
+// The HTML report of a corpus.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "cli/commands.h"
+
+namespace contort::cli {
+
+struct ReportRequest {
+  std::string corpus;
+  std::string folder;
+  std::int64_t cases = 0;  // of the run that just ended; 0: unknown
+  std::int64_t frames = 0;
+  std::map<std::string, std::int64_t> tested{};
+};
+
+// Writes the page first and the pictures after it, so that no picture can cost a finding.
+void make_report(const ReportRequest& request, const Library& library, Context& context);
+
+// "NEW self_collision|mech|… -0.03 m  contort replay …/min-….json", for a bucket's folder.
+Result<std::string> bucket_line(const std::string& bucket_folder);
+
+}  // namespace contort::cli

@@ -1,0 +1,15 @@
+# Writes a C++ file that holds the texts of FILES: embed.cmake -DOUTPUT=… -DFILES=a.json;b.json
+if(NOT OUTPUT)
+  message(FATAL_ERROR "embed.cmake needs -DOUTPUT=… and -DFILES=…")
+endif()
+set(text "#include \"generator/character/stock_files.h\"\n\nnamespace contort {\n\n")
+string(APPEND text "std::span<const StockFile> stock_files() {\n  static const StockFile files[] = {\n")
+list(SORT FILES)
+foreach(file IN LISTS FILES)
+  file(READ ${file} content)
+  get_filename_component(name ${file} NAME)
+  # A string literal holds at most 64 KiB in the standard; our files are far below, and a bigger one fails to compile.
+  string(APPEND text "      {\"${name}\", R\"json(${content})json\"},\n")
+endforeach()
+string(APPEND text "  };\n  return files;\n}\n\n}  // namespace contort\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,85 @@
+#include "corpus/case.h"
+
+#include <cmath>
+
+#include "generator/core/hash.h"
+#include "generator/spec_fields.h"
+
+namespace contort {
+
+namespace {
+
+using json_fields::Rule;
+using json_fields::Text;
+
+const Rule kText{.text = Text::label, .may_be_empty = true};
+const Rule kNeeded{.text = Text::label, .required = true};
+const Rule kHash{.required = true};
+const Rule kFrame{.low = 0, .high = 36000};
+const Rule kCount{.low = -1, .high = 0x1p53};
+
+}  // namespace
+
+template <class V>
+void fields(V& v, const Expectation*) {
+  v.field("check", &Expectation::check, {.required = true}, "The check that fails.");
+  v.field("subject", &Expectation::subject, kNeeded, "What it judges.");
+  v.field("unit", &Expectation::unit, kText, "Of worst_margin.");
+  v.field("first_frame", &Expectation::first_frame, kFrame, "First violated frame.");
+  v.field("worst_frame", &Expectation::worst_frame, kFrame, "Frame of the worst margin.");
+  v.field("last_frame", &Expectation::last_frame, kFrame, "Last violated frame.");
+  v.field("worst_margin", &Expectation::worst_margin, {.low = -1e300, .high = 0, .may_be_nan = true},
+          "Signed distance to the limit.");
+  v.field("depth", &Expectation::depth, {.low = 0, .high = 1e300}, "-worst_margin in the check's scale.");
+  v.field("motion_hash", &Expectation::motion_hash, kHash, "Hash of all frames.");
+  v.field("character_hash", &Expectation::character_hash, kHash, "Hash of the assembled character.");
+  v.field("trace", &Expectation::trace, {.text = Text::hex}, "Running hash, four hex digits a frame.");
+}
+
+template <class V>
+void fields(V& v, const Provenance*) {
+  v.field("tool", &Provenance::tool, kText, "Version that found it.");
+  v.field("seed", &Provenance::seed, kCount, "Of the run; -1: written by a person.");
+  v.field("index", &Provenance::index, kCount, "Of the case in the run.");
+  v.field("shrunk_from", &Provenance::shrunk_from, kText, "Content id of the spec before shrinking.");
+  v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
+  v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations or time.");
+}
+
+template <class V>
+void fields(V& v, const Case*) {
+  v.constant("format", "contort.case/1");
+  v.field("spec", &Case::spec, {.required = true}, "The action specification.");
+  v.field("expect", &Case::expect, {.required = true}, "What running it shows.");
+  v.field("provenance", &Case::provenance, {}, "Where it came from.");
+}
+
+std::string family_of(const Case& stored) {
+  return stored.expect.check + "|" + stored.spec.character.name + "|" + stored.expect.subject;
+}
+
+Result<Case> parse_case(std::string_view json) { return json_fields::read_document<Case>(json, "case"); }
+std::string print_case(const Case& stored) { return json_fields::write_pretty(stored); }
+std::string case_schema() { return json_fields::write_schema<Case>("Contort case"); }
+
+Expectation expectation_of(const Stage& stage, const Motion& motion, const Evaluation& evaluation,
+                           const Finding& finding) {
+  Expectation expect{finding.check,
+                     finding.subject,
+                     finding.unit,
+                     finding.first_frame,
+                     finding.worst_frame,
+                     finding.last_frame,
+                     finding.worst_margin,
+                     0.0,
+                     {},
+                     {},
+                     {}};
+  if (std::isfinite(finding.depth)) expect.depth = finding.depth;
+  expect.motion_hash = to_hex(evaluation.motion_hash);
+  expect.character_hash = to_hex(stage.character->hash());
+  for (const std::uint16_t step : motion_trace(motion)) expect.trace += to_hex(step).substr(12);
+  return expect;
+}
+
+}  // namespace contort

@@ -1,0 +1,60 @@
+// A case: a spec, what it is expected to show, and where it came from. One JSON file, contort.case/1.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "checks/evaluate.h"
+#include "generator/core/result.h"
+#include "generator/spec.h"
+
+namespace contort {
+
+// What running the spec is expected to show.
+struct Expectation {
+  std::string check;    // "self_collision"; with the subject and the character's name, the family
+  std::string subject;  // "arm_left/forearm ~ torso/trunk"
+  std::string unit;     // of worst_margin
+  int first_frame = 0;
+  int worst_frame = 0;
+  int last_frame = 0;
+  double worst_margin = 0.0;   // < 0, or NaN
+  double depth = 0.0;          // -worst_margin in the check's scale; 0 for NaN
+  std::string motion_hash;     // 16 hex digits
+  std::string character_hash;  // the same; another one means that the parts changed since
+  std::string trace;           // motion_trace, four hex digits a frame: tells the first frame that differs
+  bool operator==(const Expectation&) const = default;
+};
+
+// How the case came to be. Not part of its identity.
+struct Provenance {
+  std::string tool;         // version that found it
+  std::int64_t seed = -1;   // of the run; -1: written by a person
+  std::int64_t index = -1;  // of the case in the run
+  std::string shrunk_from;  // spec_id of the spec before shrinking; "" where it was not
+  int shrink_evaluations = 0;
+  std::string shrink_stopped;  // "fixpoint", "evaluations" or "time"
+  bool operator==(const Provenance&) const = default;
+};
+
+struct Case {
+  Spec spec;
+  Expectation expect;
+  Provenance provenance;
+  bool operator==(const Case&) const = default;
+};
+
+// "self_collision|mech|arm_left/forearm ~ torso/trunk": the identity of a failure, without numbers.
+std::string family_of(const Case& stored);
+
+// Codes "case.*" and "json.*".
+Result<Case> parse_case(std::string_view json);
+std::string print_case(const Case& stored);  // indented, sorted keys
+std::string case_schema();
+
+// What an evaluation shows of one finding.
+Expectation expectation_of(const Stage& stage, const Motion& motion, const Evaluation& evaluation,
+                           const Finding& finding);
+
+}  // namespace contort

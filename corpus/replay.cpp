@@ -1,0 +1,59 @@
+#include "corpus/replay.h"
+
+#include <algorithm>
+
+namespace contort {
+
+std::string_view verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::same: return "same";
+    case Verdict::same_family: return "same family";
+    case Verdict::different: return "different";
+    case Verdict::passes: return "passes";
+    case Verdict::refused: return "refused";
+  }
+  return "";
+}
+
+namespace {
+
+// Four digits a frame; the running hash differs from the first frame on that differs.
+int first_traced_difference(const std::string& stored, const std::string& now) {
+  if (stored.empty() || stored == now) return -1;
+  const auto [at, other] = std::mismatch(
+      stored.begin(), stored.begin() + static_cast<std::ptrdiff_t>(std::min(stored.size(), now.size())), now.begin());
+  return static_cast<int>((at - stored.begin()) / 4);
+}
+
+bool as_expected(const Expectation& stored, const Expectation& now) {
+  return stored.motion_hash == now.motion_hash && stored.first_frame == now.first_frame &&
+         stored.worst_frame == now.worst_frame && stored.last_frame == now.last_frame && stored.depth == now.depth;
+}
+
+}  // namespace
+
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator) {
+  Replay result;
+  const Result<Stage> stage = build_stage(stored.spec, library);
+  if (!stage) {
+    result.issue = stage.issue();
+    return result;
+  }
+  const Evaluation evaluation = evaluator.run(*stage);
+  const Finding* expected = deepest(evaluation.findings, stored.expect.check, stored.expect.subject);
+  const Finding* shown = expected != nullptr           ? expected
+                         : evaluation.findings.empty() ? nullptr
+                                                       : &evaluation.findings.front();
+  result.now = expectation_of(*stage, evaluator.motion(), evaluation, shown != nullptr ? *shown : Finding{});
+  result.character_changed = result.now.character_hash != stored.expect.character_hash;
+  result.first_difference = first_traced_difference(stored.expect.trace, result.now.trace);
+  if (shown == nullptr)
+    result.verdict = Verdict::passes;
+  else if (expected == nullptr)
+    result.verdict = Verdict::different;
+  else
+    result.verdict = as_expected(stored.expect, result.now) ? Verdict::same : Verdict::same_family;
+  return result;
+}
+
+}  // namespace contort

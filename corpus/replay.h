@@ -1,0 +1,30 @@
+// Does a stored case still do what it says?
+#pragma once
+
+#include <string>
+
+#include "corpus/case.h"
+#include "generator/character/library.h"
+
+namespace contort {
+
+enum class Verdict {
+  same,         // equal motion, bit by bit, and the expected finding in it
+  same_family,  // the motion differs, but it still fails in the same way
+  different,    // it fails, but in another way
+  passes,       // nothing is found any more
+  refused,      // the spec no longer builds
+};
+std::string_view verdict_name(Verdict verdict);
+
+struct Replay {
+  Verdict verdict = Verdict::refused;
+  int first_difference = -1;       // first frame that differs from the stored trace; -1 where none does
+  bool character_changed = false;  // the parts are not what they were when the case was stored
+  Expectation now;                 // of the expected family where it is found, else of the first finding
+  Issue issue;                     // for `refused`
+};
+
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator);
+
+}  // namespace contort

@@ -1,0 +1,207 @@
+#include "fuzz/compose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/actions/action.h"
+#include "generator/character/character.h"
+#include "generator/core/detmath.h"
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+double fraction(int raw) { return static_cast<double>(raw) / kLattice; }
+
+// One of `count`; raw = kLattice is the last one, not one past it.
+std::size_t pick(int raw, std::size_t count) {
+  return std::min(count - 1, static_cast<std::size_t>(raw) * count / (kLattice + 1));
+}
+
+// Whole numbers from low to high.
+int between(int raw, int low, int high) {
+  return low + static_cast<int>(pick(raw, static_cast<std::size_t>(high - low + 1)));
+}
+
+// Mostly the default, else one of a few: 0.5, 2, 0.8, 1.25.
+double speed_of(int raw) {
+  constexpr double kSpeeds[] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 2.0, 0.8, 1.25};
+  return kSpeeds[pick(raw, std::size(kSpeeds))];
+}
+
+// On the lattice, and never beyond the ends.
+double within(double value, double steps_per_unit, double low, double high) {
+  const double rounded = contort::on_lattice(value, steps_per_unit);
+  if (rounded < low) return std::ceil(low * steps_per_unit) / steps_per_unit + 0.0;
+  if (rounded > high) return std::floor(high * steps_per_unit) / steps_per_unit + 0.0;
+  return rounded;
+}
+
+Vec3 on_lattice(const Vec3& v, double steps_per_unit) {
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) out[i] = contort::on_lattice(v[i], steps_per_unit);
+  return out;
+}
+
+// Reads the raw values of one action one after another; wraps around where a part has more joints than there are
+// values.
+class Values {
+ public:
+  explicit Values(const std::array<int, kRawValues>& raw) : raw_(raw) {}
+  double next() { return fraction(raw_[used_++ % kRawValues]); }
+
+ private:
+  const std::array<int, kRawValues>& raw_;
+  std::size_t used_ = 0;
+};
+
+// A rotation within the ball joint's cone and twist, as a rotation vector in whole degrees. Rounding may carry it half
+// a degree over, so the draw stays 2 % inside.
+Vec3 draw_ball_deg(const Joint& joint, Values& values) {
+  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
+  const double radius = 0.98 * std::sqrt(values.next());  // even over the ellipse
+  const Vec3 other = glm::cross(joint.axis, joint.swing_axis);
+  const Vec3 swing =
+      radius * (joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other);
+  const double twist = 0.98 * (joint.low + (joint.high - joint.low) * values.next());
+  const Quat q = joint.swing_center * from_rotation_vector(swing) * axis_angle(joint.axis, twist);
+  return on_lattice(to_rotation_vector(q) * kDegPerRad, 1.0);
+}
+
+ParamValue draw_joint(const Joint& joint, Values& values) {
+  if (joint.kind == JointKind::ball) return draw_ball_deg(joint, values);
+  const double value = joint.low + (joint.high - joint.low) * values.next();
+  if (joint.kind == JointKind::prismatic) return within(value, 100.0, joint.low, joint.high);
+  return within(value * kDegPerRad, 1.0, joint.low * kDegPerRad, joint.high * kDegPerRad);
+}
+
+double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+// A point around the chain's upper joint at rest, between 0.3 and 1.1 of the stretched chain away, in centimetres.
+ParamValue draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  const Vec3 upper = world[static_cast<std::size_t>(chain.upper)].p_m;
+  const Vec3 middle = world[static_cast<std::size_t>(chain.middle)].p_m;
+  const Vec3 tip = world_from_socket(character, world, chain.tip).p_m;
+  const double distance = (length(middle - upper) + length(tip - middle)) * (0.3 + 0.8 * values.next());
+  const double height = 2.0 * values.next() - 1.0;  // even over the sphere
+  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
+  const double across = std::sqrt(1.0 - height * height);
+  return on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
+}
+
+ParamValue draw_uniform(const ParamDef& def, Values& values) {
+  const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), 1.0, def.low, def.high); };
+  if (def.type == ParamType::number) return one();
+  const double x = one(), y = one(), z = one();
+  return Vec3(x, y, z);
+}
+
+ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
+                      Values& values) {
+  switch (def.domain) {
+    case Domain::joint_range:
+      return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
+    case Domain::within_reach: return draw_reach_point(character, part.reach.front(), values);
+    case Domain::uniform: break;
+  }
+  return draw_uniform(def, values);
+}
+
+void draw_params(const Character& character, const Part& part, const ActionDef& action, Values values, ActionUse& use) {
+  const std::vector<ParamDef> defs = action.params(character, part);
+  for (std::size_t i = 0; i < defs.size(); ++i) {
+    if (defs[i].optional && values.next() < 0.4) continue;
+    use.params[defs[i].name] = draw_param(character, part, i, defs[i], values);
+  }
+}
+
+std::vector<const Part*> movable_parts(const Character& character) {
+  std::vector<const Part*> parts;
+  for (const Part& part : character.parts())
+    if (std::any_of(all_actions().begin(), all_actions().end(), [&](const ActionDef& a) { return a.supports(part); }))
+      parts.push_back(&part);
+  return parts;
+}
+
+ActionUse compose_action(const RawAction& raw, const Character& character, const std::vector<const Part*>& parts) {
+  const Part& part = *parts[pick(raw.slot, parts.size())];
+  std::vector<const ActionDef*> actions;
+  for (const ActionDef& action : all_actions())
+    if (action.supports(part)) actions.push_back(&action);
+  const ActionDef& action = *actions[pick(raw.action, actions.size())];
+  ActionUse use;
+  use.action = action.name;
+  use.slot = part.slot;
+  use.start_frame = between(raw.start, 0, 40);
+  use.duration_frames = between(raw.duration, 6, 90);
+  use.speed = speed_of(raw.speed);
+  draw_params(character, part, action, Values(raw.values), use);
+  return use;
+}
+
+ClipDesc compose_clip(const RawClip& raw, const Character& character, const std::vector<const Part*>& parts) {
+  ClipDesc clip;
+  clip.start_frame = between(raw.start, 0, 30);
+  clip.speed = speed_of(raw.speed);
+  if (pick(raw.stretch, 5) == 0) clip.duration_frames = between(raw.stretch * 5 % (kLattice + 1), 20, 120);
+  for (const RawAction& action : raw.actions) clip.actions.push_back(compose_action(action, character, parts));
+  return clip;
+}
+
+CharacterChoice compose_character(const RawSpec& raw, const std::string& name, const Library& library) {
+  const CharacterDesc& desc = library.characters.at(name);
+  CharacterChoice choice;
+  choice.name = name;
+  for (std::size_t i = 0; i < desc.slots.size(); ++i) {
+    const SlotDesc& slot = desc.slots[i];
+    const int raw_part = raw.parts[i % kRawParts];
+    // Half of the slots keep their default, so that a swap is a difference and not the rule.
+    if (slot.parts.size() < 2 || raw_part < kLattice / 2) continue;
+    const std::size_t option = pick((raw_part - kLattice / 2) * 2, slot.parts.size());
+    if (option > 0) choice.parts[slot.name] = slot.parts[option];
+  }
+  return choice;
+}
+
+// Attaches each object with odds of one in three, at one of the sockets that it is made for.
+void compose_attachments(const RawSpec& raw, const Library& library, CharacterChoice& choice) {
+  const Result<Character> bare = build_character(choice, library);
+  const CharacterDesc& desc = library.characters.at(choice.name);
+  for (std::size_t i = 0; bare && i < desc.objects.size() && i < kRawObjects; ++i) {
+    const auto object = library.objects.find(desc.objects[i]);
+    if (raw.objects[i] >= kLattice / 3 || object == library.objects.end()) continue;
+    std::vector<AttachmentDesc> places;
+    for (const Socket& socket : bare->sockets()) {
+      const std::size_t slash = socket.name.find('/');
+      const std::string local = socket.name.substr(slash + 1);
+      const std::vector<std::string>& docks = object->second.docks;
+      if (std::find(docks.begin(), docks.end(), local) != docks.end())
+        places.push_back({object->first, socket.name.substr(0, slash), local});
+    }
+    if (!places.empty()) choice.attachments.push_back(places[pick(raw.objects[i] * 3 % (kLattice + 1), places.size())]);
+  }
+}
+
+}  // namespace
+
+Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, const Library& library) {
+  Spec spec;
+  spec.character = compose_character(raw, characters[pick(raw.character, characters.size())], library);
+  compose_attachments(raw, library, spec.character);
+  spec.hold_frames = between(raw.hold, 0, 10);
+  const Result<Character> character = build_character(spec.character, library);
+  if (!character) return spec;  // the caller's build says why
+  const std::vector<const Part*> parts = movable_parts(*character);
+  for (const std::vector<RawClip>& raw_sequence : raw.sequences) {
+    SequenceDesc sequence;
+    for (const RawClip& clip : raw_sequence)
+      if (!parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, *character, parts));
+    if (!sequence.clips.empty()) spec.sequences.push_back(std::move(sequence));
+  }
+  return spec;
+}
+
+}  // namespace contort

@@ -1,0 +1,45 @@
+// From raw numbers to a spec that builds.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "generator/character/library.h"
+#include "generator/spec.h"
+
+namespace contort {
+
+inline constexpr int kLattice = 10000;  // every raw number is in [0, kLattice]
+inline constexpr std::size_t kRawValues = 24;
+inline constexpr std::size_t kRawParts = 16;
+inline constexpr std::size_t kRawObjects = 4;
+
+struct RawAction {
+  int slot = 0;
+  int action = 0;
+  int start = 0;
+  int duration = 0;
+  int speed = 0;
+  std::array<int, kRawValues> values{};
+};
+
+struct RawClip {
+  int start = 0;
+  int speed = 0;
+  int stretch = 0;
+  std::vector<RawAction> actions;
+};
+
+struct RawSpec {
+  int character = 0;
+  int hold = 0;
+  std::array<int, kRawParts> parts{};
+  std::array<int, kRawObjects> objects{};
+  std::vector<std::vector<RawClip>> sequences;
+};
+
+// Every number is read as a choice among what there is, so every raw value makes a spec that builds.
+Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, const Library& library);
+
+}  // namespace contort

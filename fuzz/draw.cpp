@@ -1,0 +1,72 @@
+// RapidCheck draws a RawSpec, which is nothing but bounded whole numbers; compose() reads it as choices among what the
+// library offers. RapidCheck traps that shape this file (docs/fuzzing.md): gen::exec and `*gen` are not thread safe, so
+// only pure combinators are used; list lengths of gen::container follow the size parameter and multiply when nested, so
+// lists have their own generator; there is no bounded real, so reals are whole numbers on a lattice.
+#include "fuzz/draw.h"
+
+#include <rapidcheck.h>
+
+#include <array>
+
+#include "fuzz/compose.h"
+
+namespace contort {
+
+namespace {
+
+constexpr int kSize = 100;                                    // RapidCheck's size; nothing here depends on it
+constexpr std::uint64_t kDrawStream = 0x636f6e746f727431ULL;  // changes when the meaning of (seed, index) changes
+
+// Uniform on 0 … kLattice, from one draw of the splittable generator.
+rc::Gen<int> lattice() {
+  return [](const rc::Random& random, int) {
+    rc::Random own(random);
+    return rc::shrinkable::just(static_cast<int>(own.next() % (kLattice + 1)));
+  };
+}
+
+// 0 to `most` elements; the length is drawn apart from the elements.
+template <class T>
+rc::Gen<std::vector<T>> list_up_to(int most, const rc::Gen<T>& element) {
+  return [=](const rc::Random& random, int size) {
+    rc::Random own(random);
+    rc::Random for_length = own.split();
+    const auto length = static_cast<std::size_t>(for_length.next() % static_cast<std::uint64_t>(most + 1));
+    std::vector<T> list;
+    for (std::size_t i = 0; i < length; ++i) list.push_back(element(own.split(), size).value());
+    return rc::shrinkable::just(std::move(list));
+  };
+}
+
+rc::Gen<RawAction> raw_action() {
+  return rc::gen::build<RawAction>(
+      rc::gen::set(&RawAction::slot, lattice()), rc::gen::set(&RawAction::action, lattice()),
+      rc::gen::set(&RawAction::start, lattice()), rc::gen::set(&RawAction::duration, lattice()),
+      rc::gen::set(&RawAction::speed, lattice()),
+      rc::gen::set(&RawAction::values, rc::gen::container<std::array<int, kRawValues>>(lattice())));
+}
+
+rc::Gen<RawClip> raw_clip() {
+  return rc::gen::build<RawClip>(rc::gen::set(&RawClip::start, lattice()), rc::gen::set(&RawClip::speed, lattice()),
+                                 rc::gen::set(&RawClip::stretch, lattice()),
+                                 rc::gen::set(&RawClip::actions, list_up_to(4, raw_action())));
+}
+
+rc::Gen<RawSpec> raw_spec() {
+  return rc::gen::build<RawSpec>(
+      rc::gen::set(&RawSpec::character, lattice()), rc::gen::set(&RawSpec::hold, lattice()),
+      rc::gen::set(&RawSpec::parts, rc::gen::container<std::array<int, kRawParts>>(lattice())),
+      rc::gen::set(&RawSpec::objects, rc::gen::container<std::array<int, kRawObjects>>(lattice())),
+      rc::gen::set(&RawSpec::sequences, list_up_to(2, list_up_to(3, raw_clip()))));
+}
+
+}  // namespace
+
+Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index) {
+  static const rc::Gen<RawSpec> gen = raw_spec();
+  const rc::Random random(
+      rc::Random::Key{{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(index), kDrawStream, 0}});
+  return compose(gen(random, kSize).value(), config.characters, library);
+}
+
+}  // namespace contort

@@ -1,0 +1,160 @@
+#include "fuzz/edits.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace contort {
+
+namespace {
+
+// Calls visit(container, index in it, number among all) for the elements of nested lists.
+template <class Visit>
+void for_clips(Spec& spec, Visit visit) {
+  for (SequenceDesc& sequence : spec.sequences)
+    for (ClipDesc& clip : sequence.clips) visit(clip);
+}
+
+template <class Visit>
+void for_actions(Spec& spec, Visit visit) {
+  for_clips(spec, [&](ClipDesc& clip) {
+    for (ActionUse& use : clip.actions) visit(use);
+  });
+}
+
+// Removes elements [first, first + count) of a list whose own elements are numbered from `base` on.
+template <class List>
+void remove_numbered(List& list, int base, int first, int count) {
+  const int size = static_cast<int>(list.size());
+  const int from = std::clamp(first - base, 0, size);
+  const int to = std::clamp(first + count - base, 0, size);
+  list.erase(std::next(list.begin(), from), std::next(list.begin(), to));
+}
+
+// The same over many lists that are numbered through.
+template <class List>
+struct Numbering {
+  int first;
+  int count;
+  int base = 0;
+  void remove_from(List& list) {
+    const int size = static_cast<int>(list.size());
+    remove_numbered(list, base, first, count);
+    base += size;
+  }
+};
+
+int count_sequences(const Spec& spec) { return static_cast<int>(spec.sequences.size()); }
+void remove_sequences(Spec& spec, int first, int count) { remove_numbered(spec.sequences, 0, first, count); }
+
+int count_clips(const Spec& spec) {
+  int total = 0;
+  for (const SequenceDesc& sequence : spec.sequences) total += static_cast<int>(sequence.clips.size());
+  return total;
+}
+void remove_clips(Spec& spec, int first, int count) {
+  Numbering<std::vector<ClipDesc>> numbering{first, count};
+  for (SequenceDesc& sequence : spec.sequences) numbering.remove_from(sequence.clips);
+}
+
+int count_actions(const Spec& spec) {
+  int total = 0;
+  for (const SequenceDesc& sequence : spec.sequences)
+    for (const ClipDesc& clip : sequence.clips) total += static_cast<int>(clip.actions.size());
+  return total;
+}
+void remove_actions(Spec& spec, int first, int count) {
+  Numbering<std::vector<ActionUse>> numbering{first, count};
+  for_clips(spec, [&](ClipDesc& clip) { numbering.remove_from(clip.actions); });
+}
+
+int count_attachments(const Spec& spec) { return static_cast<int>(spec.character.attachments.size()); }
+void remove_attachments(Spec& spec, int first, int count) {
+  remove_numbered(spec.character.attachments, 0, first, count);
+}
+
+int count_swaps(const Spec& spec) { return static_cast<int>(spec.character.parts.size()); }
+void remove_swaps(Spec& spec, int first, int count) { remove_numbered(spec.character.parts, 0, first, count); }
+
+int count_params(const Spec& spec) {
+  int total = 0;
+  for_actions(const_cast<Spec&>(spec), [&](const ActionUse& use) { total += static_cast<int>(use.params.size()); });
+  return total;
+}
+void remove_params(Spec& spec, int first, int count) {
+  Numbering<std::map<std::string, ParamValue>> numbering{first, count};
+  for_actions(spec, [&](ActionUse& use) { numbering.remove_from(use.params); });
+}
+
+constexpr UnitKind kUnitKinds[] = {
+    {"sequences", count_sequences, remove_sequences},
+    {"clips", count_clips, remove_clips},
+    {"actions", count_actions, remove_actions},
+    {"attachments", count_attachments, remove_attachments},
+    {"swaps", count_swaps, remove_swaps},
+    {"params", count_params, remove_params},
+};
+
+// The a-th action of the c-th clip of the s-th sequence.
+ActionUse& action_at(Spec& spec, std::size_t s, std::size_t c, std::size_t a) {
+  return spec.sequences[s].clips[c].actions[a];
+}
+
+template <class Visit>
+void for_places(const Spec& spec, Visit visit) {
+  for (std::size_t s = 0; s < spec.sequences.size(); ++s)
+    for (std::size_t c = 0; c < spec.sequences[s].clips.size(); ++c)
+      for (std::size_t a = 0; a < spec.sequences[s].clips[c].actions.size(); ++a) visit(s, c, a);
+}
+
+// Whole degrees, or centimetres for a name that ends in _m.
+double steps_of(const std::string& name) { return name.ends_with("_m") ? 100.0 : 1.0; }
+
+void add_param_numbers(const Spec& spec, std::size_t s, std::size_t c, std::size_t a, std::vector<NumberRef>& out) {
+  for (const auto& [name, value] : spec.sequences[s].clips[c].actions[a].params) {
+    const std::string key = name;
+    if (std::holds_alternative<double>(value))
+      out.push_back({[=](Spec& x) -> double& { return std::get<double>(action_at(x, s, c, a).params.at(key)); }, 0.0,
+                     steps_of(key)});
+    for (int i = 0; std::holds_alternative<Vec3>(value) && i < 3; ++i)
+      out.push_back({[=](Spec& x) -> double& { return std::get<Vec3>(action_at(x, s, c, a).params.at(key))[i]; }, 0.0,
+                     steps_of(key)});
+  }
+}
+
+}  // namespace
+
+std::span<const UnitKind> unit_kinds() { return kUnitKinds; }
+
+std::vector<Edit> default_edits(const Spec& spec) {
+  static const Spec plain_spec;
+  static const SequenceDesc plain_sequence;
+  static const ClipDesc plain_clip;
+  static const ActionUse plain_use;
+  std::vector<Edit> edits;
+  edits.push_back([](Spec& x) { x.hold_frames = plain_spec.hold_frames; });
+  edits.push_back([](Spec& x) { x.rate_hz = plain_spec.rate_hz; });
+  for (std::size_t s = 0; s < spec.sequences.size(); ++s) {
+    edits.push_back([=](Spec& x) { x.sequences[s].name = plain_sequence.name; });
+    edits.push_back([=](Spec& x) { x.sequences[s].duration_frames = plain_sequence.duration_frames; });
+    for (std::size_t c = 0; c < spec.sequences[s].clips.size(); ++c) {
+      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].name = plain_clip.name; });
+      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].start_frame = plain_clip.start_frame; });
+      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].duration_frames = plain_clip.duration_frames; });
+      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].speed = plain_clip.speed; });
+    }
+  }
+  for_places(spec, [&](std::size_t s, std::size_t c, std::size_t a) {
+    edits.push_back([=](Spec& x) { action_at(x, s, c, a).start_frame = plain_use.start_frame; });
+    edits.push_back([=](Spec& x) { action_at(x, s, c, a).duration_frames = plain_use.duration_frames; });
+    edits.push_back([=](Spec& x) { action_at(x, s, c, a).speed = plain_use.speed; });
+  });
+  return edits;
+}
+
+std::vector<NumberRef> numbers_of(const Spec& spec) {
+  std::vector<NumberRef> numbers;
+  for_places(spec, [&](std::size_t s, std::size_t c, std::size_t a) { add_param_numbers(spec, s, c, a, numbers); });
+  return numbers;
+}
+
+}  // namespace contort

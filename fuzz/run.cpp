@@ -1,0 +1,236 @@
+#include "fuzz/run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "corpus/replay.h"
+#include "fuzz/parallel.h"
+
+namespace contort {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What one case gave.
+struct Outcome {
+  bool ran = false;
+  bool built = false;
+  Spec spec;
+  int frames = 0;
+  std::vector<Case> failures;  // the deepest finding of each family, in order of first appearance
+};
+
+std::vector<Case> failures_of(const Spec& spec, const Stage& stage, const Motion& motion,
+                              const Evaluation& evaluation) {
+  std::vector<Case> failures;
+  std::set<std::string> seen;
+  for (const Finding& finding : evaluation.findings) {
+    if (!seen.insert(family_of(spec.character.name, finding)).second) continue;
+    const Finding& worst = *deepest(evaluation.findings, finding.check, finding.subject);
+    failures.push_back({spec,
+                        {worst.check,
+                         worst.subject,
+                         worst.unit,
+                         worst.first_frame,
+                         worst.worst_frame,
+                         worst.last_frame,
+                         worst.worst_margin,
+                         std::isfinite(worst.depth) ? worst.depth : 0.0,
+                         {},
+                         {},
+                         {}},
+                        {}});
+  }
+  // Hash and trace are the motion's: the same for all of its failures, and computed only where there are any.
+  if (failures.empty()) return failures;
+  const Expectation whole = expectation_of(stage, motion, evaluation, evaluation.findings.front());
+  for (Case& failure : failures) {
+    failure.expect.motion_hash = whole.motion_hash;
+    failure.expect.character_hash = whole.character_hash;
+    failure.expect.trace = whole.trace;
+  }
+  return failures;
+}
+
+class Run {
+ public:
+  Run(const RunConfig& config, const Library& library, const Corpus& corpus,
+      const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop)
+      : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop) {
+    for (int i = 0; i < config.jobs; ++i) evaluators_.emplace_back(config.checks);
+    run_name_ = "seed_" + std::to_string(config.seed);
+  }
+
+  RunResult run() {
+    for (std::int64_t first = 0; !finished(first) && ok(); first += config_.batch) {
+      std::int64_t count = config_.batch;
+      if (config_.cases >= 0) count = std::min(count, config_.cases - first);
+      run_batch(first, static_cast<int>(count));
+    }
+    count_late_families();
+    report();
+    return std::move(result_);
+  }
+
+ private:
+  bool ok() const { return result_.issue.code.empty(); }
+  bool out_of_time() const { return config_.time_s > 0.0 && seconds_since(start_) >= config_.time_s; }
+  bool finished(std::int64_t first) {
+    if (stop_()) result_.interrupted = true;
+    return result_.interrupted || out_of_time() || (config_.cases >= 0 && first >= config_.cases);
+  }
+  bool halted() { return stop_() || out_of_time(); }
+
+  void run_batch(std::int64_t first, int count) {
+    std::vector<Outcome> outcomes(static_cast<std::size_t>(count));
+    parallel_for(
+        config_.jobs, count,
+        [&](int worker, int i) {
+          if (!halted())
+            outcomes[static_cast<std::size_t>(i)] = run_case(evaluators_[static_cast<std::size_t>(worker)], first + i);
+        },
+        [&] { report(); });
+    std::vector<Case> candidates;
+    for (Outcome& outcome : outcomes) {
+      if (!outcome.ran) break;  // time is up; what ran out of order behind the gap does not count
+      fold(outcome, candidates);
+    }
+    settle(candidates);
+    report();
+  }
+
+  Outcome run_case(Evaluator& evaluator, std::int64_t index) const {
+    Outcome outcome;
+    outcome.ran = true;
+    outcome.spec = draw_spec(config_.draw, library_, config_.seed, index);
+    const Result<Stage> stage = build_stage(outcome.spec, library_);
+    if (!stage) return outcome;
+    outcome.built = true;
+    const Evaluation evaluation = evaluator.run(*stage);
+    outcome.frames = evaluation.frame_count;
+    outcome.failures = failures_of(outcome.spec, *stage, evaluator.motion(), evaluation);
+    for (Case& failure : outcome.failures) failure.provenance = {config_.tool, config_.seed, index, "", 0, ""};
+    return outcome;
+  }
+
+  void fold(Outcome& outcome, std::vector<Case>& candidates) {
+    RunProgress& totals = result_.totals;
+    ++totals.cases;
+    totals.frames += outcome.frames;
+    if (!outcome.built) ++result_.discarded;
+    if (!outcome.failures.empty()) ++totals.failing;
+    count_tested(outcome.spec);
+    for (Case& failure : outcome.failures) {
+      const std::int64_t seen = ++result_.families[family_of(failure)];
+      if (seen <= config_.shrinks_per_family) candidates.push_back(std::move(failure));
+    }
+    totals.families = static_cast<int>(result_.families.size());
+  }
+
+  void count_tested(const Spec& spec) {
+    ++result_.tested["character " + spec.character.name];
+    for (const auto& [slot, part] : spec.character.parts) ++result_.tested["part " + part];
+    for (const AttachmentDesc& attachment : spec.character.attachments) ++result_.tested["object " + attachment.object];
+    for (const SequenceDesc& sequence : spec.sequences)
+      for (const ClipDesc& clip : sequence.clips)
+        for (const ActionUse& use : clip.actions) ++result_.tested["action " + use.action + " on " + use.slot];
+  }
+
+  // Written to disk first, then confirmed from there, then shrunk, then stored: a kill at any point loses nothing.
+  void settle(const std::vector<Case>& candidates) {
+    std::vector<std::string> leads;
+    for (const Case& candidate : candidates) {
+      const Result<std::string> lead = corpus_.add_lead(candidate);
+      if (!lead) return fail(lead.issue());
+      leads.push_back(*lead);
+    }
+    std::vector<Case> minimal(candidates.size());
+    std::vector<char> confirmed(candidates.size(), 0);
+    shrinking_ = static_cast<int>(candidates.size());
+    parallel_for(
+        config_.jobs, static_cast<int>(candidates.size()),
+        [&](int worker, int i) {
+          const auto c = static_cast<std::size_t>(i);
+          confirmed[c] = confirm(leads[c], evaluators_[static_cast<std::size_t>(worker)]);
+          if (confirmed[c]) minimal[c] = shrink_one(candidates[c]);
+          --shrinking_;
+        },
+        [&] { report(); });
+    for (std::size_t c = 0; c < candidates.size() && ok(); ++c) {
+      if (confirmed[c])
+        store(minimal[c], candidates[c]);
+      else
+        result_.unconfirmed.push_back(leads[c]);
+    }
+  }
+
+  bool confirm(const std::string& lead, Evaluator& evaluator) const {
+    const Result<Case> stored = read_case(lead);
+    return stored && replay(*stored, library_, evaluator).verdict == Verdict::same;
+  }
+
+  Case shrink_one(const Case& candidate) {
+    ShrinkConfig config = config_.shrink;
+    config.out_of_time = [this] { return halted(); };
+    return shrink(candidate, library_, config);
+  }
+
+  void store(const Case& minimal, const Case& original) {
+    const std::string family = family_of(original);
+    const Result<Corpus::Added> added = corpus_.add({minimal, original, run_name_, result_.families[family]});
+    if (!added) return fail(added.issue());
+    stored_[family].push_back({minimal, original});
+    std::vector<std::string>& list = added->is_new ? result_.new_buckets : result_.known_buckets;
+    const auto known = [&](const std::vector<std::string>& l) {
+      return std::find(l.begin(), l.end(), added->bucket) != l.end();
+    };
+    if (!known(result_.new_buckets) && !known(result_.known_buckets)) list.push_back(added->bucket);
+    result_.totals.buckets_new = static_cast<int>(result_.new_buckets.size());
+  }
+
+  // Buckets were stored with the count of that moment; the family may have been seen again since.
+  void count_late_families() {
+    for (const auto& [family, pairs] : stored_)
+      for (const auto& [minimal, original] : pairs)
+        if (ok())
+          if (const auto added = corpus_.add({minimal, original, run_name_, result_.families[family]}); !added)
+            fail(added.issue());
+  }
+
+  void fail(const Issue& issue) {
+    if (ok()) result_.issue = issue;
+  }
+
+  void report() {
+    result_.totals.elapsed_s = seconds_since(start_);
+    result_.totals.shrinking = shrinking_;
+    progress_(result_.totals);
+  }
+
+  const RunConfig& config_;
+  const Library& library_;
+  const Corpus& corpus_;
+  const std::function<void(const RunProgress&)>& progress_;
+  const std::function<bool()>& stop_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<Evaluator> evaluators_;
+  std::string run_name_;
+  std::map<std::string, std::vector<std::pair<Case, Case>>> stored_;  // by family: minimal and original
+  std::atomic<int> shrinking_{0};
+  RunResult result_;
+};
+
+}  // namespace
+
+RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
+                   const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop) {
+  return Run(config, library, corpus, progress, stop).run();
+}
+
+}  // namespace contort

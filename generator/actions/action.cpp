@@ -1,0 +1,99 @@
+#include "generator/actions/action.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace contort {
+
+#define X(name, layer, help)                                          \
+  std::vector<ParamDef> name##_params(const Character&, const Part&); \
+  bool name##_supports(const Part&);                                  \
+  void name##_rule(const RuleInput&, std::span<double>);
+#include "generator/actions/action_list.inc"
+#undef X
+
+std::span<const ActionDef> all_actions() {
+  static const ActionDef actions[] = {
+#define X(name, layer, help) {#name, Layer::layer, help, name##_params, name##_supports, name##_rule},
+#include "generator/actions/action_list.inc"
+#undef X
+  };
+  return actions;
+}
+
+const ActionDef* find_action(std::string_view name) {
+  for (const ActionDef& action : all_actions())
+    if (action.name == name) return &action;
+  return nullptr;
+}
+
+std::string_view layer_name(Layer layer) {
+  switch (layer) {
+    case Layer::overwrite: return "overwrite";
+    case Layer::ik: return "ik";
+    case Layer::additive: return "additive";
+  }
+  return "";
+}
+
+namespace {
+
+std::string number_text(double value) {
+  std::string text = std::to_string(value);  // "1.500000"
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+Issue param_issue(const char* code, const std::string& name, std::string text) {
+  return {std::string("spec.") + code, "/params/" + name, std::move(text)};
+}
+
+std::string names_of(const std::vector<ParamDef>& defs) {
+  std::string text;
+  for (const ParamDef& def : defs) text += (text.empty() ? "" : ", ") + def.name;
+  return text.empty() ? "none" : text;
+}
+
+Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<double>& bound) {
+  const bool right =
+      def.type == ParamType::number ? std::holds_alternative<double>(value) : std::holds_alternative<Vec3>(value);
+  if (!right)
+    return param_issue("wrong_type", def.name,
+                       def.type == ParamType::number ? "expected a number" : "expected three numbers");
+  const Vec3 numbers = def.type == ParamType::number ? Vec3(std::get<double>(value)) : std::get<Vec3>(value);
+  const int count = def.type == ParamType::number ? 1 : 3;
+  for (int i = 0; i < count; ++i) {
+    if (!(numbers[i] >= def.low && numbers[i] <= def.high))
+      return param_issue("out_of_range", def.name,
+                         "found " + number_text(numbers[i]) + ", allowed is [" + number_text(def.low) + ", " +
+                             number_text(def.high) + "]");
+    bound.push_back(numbers[i]);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::vector<double>> bind_params(const ActionDef& action, const Character& character, const Part& part,
+                                        const std::map<std::string, ParamValue>& values) {
+  const std::vector<ParamDef> defs = action.params(character, part);
+  for (const auto& value : values)
+    if (std::none_of(defs.begin(), defs.end(), [&](const ParamDef& def) { return def.name == value.first; }))
+      return param_issue("unknown_param", value.first,
+                         "part " + part.name + " with action " + std::string(action.name) + " takes " + names_of(defs));
+  std::vector<double> bound;
+  for (const ParamDef& def : defs) {
+    const auto given = values.find(def.name);
+    if (given == values.end() && def.optional) {
+      bound.insert(bound.end(), def.type == ParamType::number ? 1 : 3, std::numeric_limits<double>::quiet_NaN());
+    } else if (const Result<Done> done = append(def, given == values.end() ? def.preset : given->second, bound);
+               !done) {
+      return done.issue();
+    }
+  }
+  return bound;
+}
+
+}  // namespace contort

@@ -1,0 +1,26 @@
+// One use of an action: what a spec says about it. Plain values.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+
+#include "generator/core/math.h"
+
+namespace contort {
+
+// Angles in degrees, lengths in metres, as the parameter's name says.
+using ParamValue = std::variant<double, Vec3, std::string>;
+
+// One registered action on one part. Frames count from the clip's start.
+struct ActionUse {
+  std::string action = "pose";
+  std::string slot;
+  int start_frame = 0;       // [0, 36000]
+  int duration_frames = 30;  // [1, 36000]; a longer period plays slower
+  double speed = 1.0;        // [0.1, 10]; progress within the period: at 2 the target is reached halfway, then held
+  std::map<std::string, ParamValue> params;  // by the names that the action declares; the rest at their defaults
+  bool operator==(const ActionUse&) const = default;
+};
+
+}  // namespace contort

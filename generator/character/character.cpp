@@ -1,0 +1,309 @@
+#include "generator/character/character.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "generator/character/assembly.h"
+#include "generator/character/part_rules.h"
+#include "generator/core/hash.h"
+
+namespace contort {
+
+int coord_size(JointKind kind) {
+  switch (kind) {
+    case JointKind::root: return 0;
+    case JointKind::ball: return 4;
+    case JointKind::hinge:
+    case JointKind::prismatic: return 1;
+  }
+  return 0;
+}
+
+namespace {
+
+// Lowest y of a shape that is placed by world_from_joint.
+struct LowestPoint {
+  const Rigid& world;
+  double operator()(const Sphere& s) const { return (world * s.center_m).y - s.radius_m; }
+  double operator()(const Capsule& c) const { return std::min((world * c.a_m).y, (world * c.b_m).y) - c.radius_m; }
+  double operator()(const Box& b) const {
+    const Mat3 r = glm::mat3_cast(world.q * from_rotation_vector(b.rotation_deg * kRadPerDeg));
+    double low = (world * b.center_m).y;
+    for (int i = 0; i < 3; ++i) low -= std::fabs(r[i].y) * b.half_m[i];
+    return low;
+  }
+};
+
+std::string names_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+template <class T>
+std::string names_of(const std::map<std::string, T>& items) {
+  std::vector<std::string> names;
+  for (const auto& [name, item] : items) names.push_back(name);
+  return names_of(names);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Issue unknown(const std::string& code, const std::string& pointer, const std::string& found,
+              const std::string& allowed) {
+  return {"character." + code, pointer, "found \"" + found + "\", allowed are " + (allowed.empty() ? "none" : allowed)};
+}
+
+Issue in_file(const std::string& name, Issue issue) {
+  issue.text = name + ".json: " + issue.text;
+  return issue;
+}
+
+struct HashShape {
+  Hash64& hash;
+  void operator()(const Sphere& s) const { add(0, {s.center_m}, s.radius_m); }
+  void operator()(const Capsule& c) const { add(1, {c.a_m, c.b_m}, c.radius_m); }
+  void operator()(const Box& b) const { add(2, {b.center_m, b.half_m, b.rotation_deg}, 0.0); }
+  void add(std::uint64_t tag, std::initializer_list<Vec3> vectors, double radius_m) const {
+    hash.add(tag);
+    for (const Vec3& v : vectors)
+      for (int i = 0; i < 3; ++i) hash.add(v[i]);
+    hash.add(radius_m);
+  }
+};
+
+void add_vec(Hash64& hash, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) hash.add(v[i]);
+}
+
+void add_quat(Hash64& hash, const Quat& q) {
+  for (const double value : {q.w, q.x, q.y, q.z}) hash.add(value);
+}
+
+void add_joint(Hash64& hash, const Joint& joint) {
+  hash.add(joint.name);
+  hash.add(static_cast<std::uint64_t>(joint.kind));
+  hash.add(static_cast<std::uint64_t>(joint.parent + 1));
+  add_quat(hash, joint.parent_from_joint.q);
+  add_quat(hash, joint.swing_center);
+  for (const Vec3& v : {joint.parent_from_joint.p_m, joint.axis, joint.swing_axis, joint.center_of_mass_m,
+                        joint.inertia_kg_m2[0], joint.inertia_kg_m2[1], joint.inertia_kg_m2[2]})
+    add_vec(hash, v);
+  for (const double value : {joint.low, joint.high, joint.swing_a_rad, joint.swing_b_rad, joint.max_speed,
+                             joint.strength_low, joint.strength_high, joint.mass_kg})
+    hash.add(value);
+}
+
+}  // namespace
+
+class CharacterBuilder {
+ public:
+  CharacterBuilder(const CharacterChoice& choice, const Library& library) : choice_(choice), library_(library) {}
+
+  Result<Character> build() {
+    const auto found = library_.characters.find(choice_.name);
+    if (found == library_.characters.end())
+      return unknown("unknown_character", "/name", choice_.name, names_of(library_.characters));
+    desc_ = &found->second;
+    for (const auto step : {&CharacterBuilder::check_choice, &CharacterBuilder::add_slots,
+                            &CharacterBuilder::add_attachments, &CharacterBuilder::add_pairs})
+      if (const Result<Done> done = (this->*step)(); !done) return done.issue();
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  Result<Done> check_choice() {
+    std::vector<std::string> slots;
+    for (const SlotDesc& slot : desc_->slots) slots.push_back(slot.name);
+    for (const auto& [slot, part] : choice_.parts)
+      if (!contains(slots, slot)) return unknown("unknown_slot", "/parts/" + slot, slot, names_of(slots));
+    return Done{};
+  }
+
+  Result<Done> add_slots() {
+    Joint root;
+    root.name = root.local_name = "root";
+    assembly_.joints.push_back(root);
+    if (desc_->slots.empty()) return Issue{"character.no_slot", "/name", desc_->name + " has no slot"};
+    for (std::size_t i = 0; i < desc_->slots.size(); ++i)
+      if (const Result<Done> added = add_slot(desc_->slots[i], i == 0); !added) return added;
+    return Done{};
+  }
+
+  Result<Done> add_slot(const SlotDesc& slot, bool is_root) {
+    if (slot.parts.empty())
+      return in_file(desc_->name, {"character.no_part", "/name", "slot " + slot.name + " has no parts"});
+    const auto chosen = choice_.parts.find(slot.name);
+    const std::string pointer = "/parts/" + slot.name;
+    const std::string& name = chosen == choice_.parts.end() ? slot.parts.front() : chosen->second;
+    if (!contains(slot.parts, name)) return unknown("unknown_part", pointer, name, names_of(slot.parts));
+    const auto part = library_.parts.find(name);
+    if (part == library_.parts.end())
+      return in_file(desc_->name, unknown("unknown_part", pointer, name, names_of(library_.parts)));
+    if (part->second.kind != slot.kind)
+      return in_file(name, {"character.wrong_kind", pointer,
+                            "found kind \"" + part->second.kind + "\", the slot takes \"" + slot.kind + "\""});
+    if (const Result<Done> rules = check_part(part->second); !rules) return in_file(name, rules.issue());
+    for (const Part& earlier : assembly_.parts)
+      if (earlier.slot == slot.name)
+        return in_file(desc_->name, {"character.duplicate_name", "/name", "slot " + slot.name + " stands twice"});
+    Dock dock;
+    if (is_root != slot.on_slot.empty())
+      return in_file(desc_->name,
+                     {"character.bad_root", "/name", "the first slot, and no other, has an empty on_slot"});
+    if (!is_root) {
+      const int socket = find_socket(assembly_, slot.on_slot + "/" + slot.on_socket);
+      if (socket < 0)
+        return in_file(desc_->name, {"character.unknown_socket", pointer,
+                                     "slot " + slot.name + " docks at \"" + slot.on_slot + "/" + slot.on_socket +
+                                         "\", which is not there"});
+      dock = dock_at(socket);
+    }
+    add_part(assembly_, slot, part->second, dock);
+    return Done{};
+  }
+
+  Dock dock_at(int socket) const {
+    const Socket& s = assembly_.sockets[static_cast<std::size_t>(socket)];
+    return {s.joint, s.joint_from_socket};
+  }
+
+  Result<Done> add_attachments() {
+    std::vector<std::string> seen;
+    for (std::size_t i = 0; i < choice_.attachments.size(); ++i) {
+      const AttachmentDesc& attachment = choice_.attachments[i];
+      const std::string pointer = "/attachments/" + std::to_string(i);
+      const auto object = library_.objects.find(attachment.object);
+      if (!contains(desc_->objects, attachment.object) || object == library_.objects.end())
+        return unknown("unknown_object", pointer + "/object", attachment.object, names_of(desc_->objects));
+      if (contains(seen, attachment.object))
+        return Issue{"character.duplicate_object", pointer + "/object",
+                     "\"" + attachment.object + "\" is attached already"};
+      const int socket = find_socket(assembly_, attachment.slot + "/" + attachment.socket);
+      if (socket < 0)
+        return unknown("unknown_socket", pointer + "/socket", attachment.slot + "/" + attachment.socket,
+                       socket_names());
+      add_object(assembly_, object->second, dock_at(socket));
+      seen.push_back(attachment.object);
+    }
+    return Done{};
+  }
+
+  std::string socket_names() const {
+    std::vector<std::string> names;
+    for (const Socket& socket : assembly_.sockets) names.push_back(socket.name);
+    return names_of(names);
+  }
+
+  // A user's pair may name parts that are swapped out now: it then waits until they are back.
+  Result<Done> add_pairs() {
+    std::vector<Body> bodies = group_colliders(assembly_);
+    std::vector<AllowedPair> by_user;
+    for (const AllowedPairDesc& pair : desc_->allowed_pairs) {
+      const int a = find_collider_index(pair.a);
+      const int b = find_collider_index(pair.b);
+      if (a >= 0 && b >= 0 && a != b) by_user.push_back({std::min(a, b), std::max(a, b), "user: " + pair.reason});
+    }
+    CollisionPlan plan = plan_collisions(assembly_, std::move(bodies), by_user);
+    out_.bodies_ = std::move(plan.bodies);
+    out_.allowed_pairs_ = std::move(plan.allowed);
+    out_.judged_colliders_ = std::move(plan.colliders);
+    out_.judged_pairs_ = std::move(plan.judged);
+    return Done{};
+  }
+
+  int find_collider_index(const std::string& name) const {
+    for (std::size_t i = 0; i < assembly_.colliders.size(); ++i)
+      if (assembly_.colliders[i].name == name) return static_cast<int>(i);
+    return -1;
+  }
+
+  void finish() {
+    out_.name_ = desc_->name;
+    out_.joints_ = std::move(assembly_.joints);
+    out_.parts_ = std::move(assembly_.parts);
+    out_.colliders_ = std::move(assembly_.colliders);
+    out_.mesh_ = std::move(assembly_.mesh);
+    out_.sockets_ = std::move(assembly_.sockets);
+    out_.coord_count_ = assembly_.coord_count;
+    set_rest();
+    set_hash();
+  }
+
+  void set_rest() {
+    out_.rest_coords_.assign(static_cast<std::size_t>(out_.coord_count_), 0.0);
+    std::vector<Rigid> world(out_.joints_.size());
+    for (std::size_t i = 1; i < out_.joints_.size(); ++i) {
+      const Joint& joint = out_.joints_[i];
+      world[i] = world[static_cast<std::size_t>(joint.parent)] * joint.parent_from_joint;
+      if (joint.kind == JointKind::ball) out_.rest_coords_[static_cast<std::size_t>(joint.coord)] = 1.0;
+    }
+    double lowest = out_.colliders_.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+    for (const Collider& c : out_.colliders_)
+      lowest = std::min(lowest, std::visit(LowestPoint{world[static_cast<std::size_t>(c.joint)]}, c.shape));
+    out_.rest_root_ = {kNoRotation, Vec3(0.0, -lowest, 0.0)};
+  }
+
+  void set_hash() {
+    Hash64 hash;
+    for (const Joint& joint : out_.joints_) add_joint(hash, joint);
+    for (const Collider& collider : out_.colliders_) {
+      hash.add(collider.name);
+      hash.add(static_cast<std::uint64_t>(collider.joint));
+      std::visit(HashShape{hash}, collider.shape);
+    }
+    for (const Body& body : out_.bodies_) hash.add(body.name);
+    for (const ColliderPair& pair : out_.judged_colliders_)
+      hash.add(static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint64_t>(pair.b));
+    for (const Socket& socket : out_.sockets_) {
+      hash.add(socket.name);
+      add_quat(hash, socket.joint_from_socket.q);
+      add_vec(hash, socket.joint_from_socket.p_m);
+    }
+    out_.hash_ = hash.value();
+  }
+
+  const CharacterChoice& choice_;
+  const Library& library_;
+  const CharacterDesc* desc_ = nullptr;
+  Assembly assembly_;
+  Character out_;
+};
+
+Result<Character> build_character(const CharacterChoice& choice, const Library& library) {
+  return CharacterBuilder(choice, library).build();
+}
+
+namespace {
+
+template <class T>
+int find_named(std::span<const T> items, std::string_view name) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+int Character::find_part(std::string_view slot) const {
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (parts_[i].slot == slot) return static_cast<int>(i);
+  return -1;
+}
+
+int Character::find_joint(int part, std::string_view local_name) const {
+  const Part& p = parts_[static_cast<std::size_t>(part)];
+  for (int i = p.first_joint; i < p.first_joint + p.joint_count; ++i)
+    if (joints_[static_cast<std::size_t>(i)].local_name == local_name) return i;
+  return -1;
+}
+
+int Character::find_joint(std::string_view name) const { return find_named(joints(), name); }
+int Character::find_socket(std::string_view name) const { return find_named(sockets(), name); }
+int Character::find_collider(std::string_view name) const { return find_named(colliders(), name); }
+
+}  // namespace contort

@@ -1,0 +1,41 @@
+// All descriptions by name: the stock ones, which are compiled in, and those of a user's folder.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "generator/character/desc.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+struct Library {
+  std::map<std::string, PartDesc> parts;
+  std::map<std::string, ObjectDesc> objects;
+  std::map<std::string, CharacterDesc> characters;
+};
+
+// `human` and `mech`. Built once; always there, without any file.
+const Library& stock_library();
+
+// Adds every *.json of `folder` (parts, objects, characters, told apart by their "format") to `into`. A name that is
+// there already is an error: a file never silently changes what a stored case means.
+Result<Done> load_folder(const std::string& folder, Library& into);
+
+// One description from JSON text; codes "part.*", "object.*", "character.*", "json.*".
+Result<PartDesc> parse_part(std::string_view json);
+Result<ObjectDesc> parse_object(std::string_view json);
+Result<CharacterDesc> parse_character(std::string_view json);
+
+// Indented text: sorted keys, defaults left out, shortest numbers that read back to the same bits.
+std::string print_part(const PartDesc& part);
+std::string print_object(const ObjectDesc& object);
+std::string print_character(const CharacterDesc& character);
+
+// JSON Schemas (draft 2020-12), from the same field lists as the readers.
+std::string part_schema();
+std::string object_schema();
+std::string character_schema();
+
+}  // namespace contort

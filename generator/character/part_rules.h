@@ -1,0 +1,13 @@
+// What the fields of a part must satisfy together, beyond the limits of each.
+#pragma once
+
+#include "generator/character/desc.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+// Codes part.duplicate_name, .unknown_joint, .unknown_socket, .bad_axis, .bad_range, .other_type, .bad_shape,
+// .bad_reach, .bad_facing, with pointers into the part.
+Result<Done> check_part(const PartDesc& part);
+
+}  // namespace contort

@@ -1,0 +1,13 @@
+// Lane one of three for trouble: a mistake of ours. Bad input is an Issue (result.h); a fault in the animation is a
+// Finding (checks). Asserts are alive in every build preset except `release`, where the expression is not evaluated.
+#pragma once
+
+#ifdef CONTORT_ASSERTS
+namespace contort {
+[[noreturn]] void assertion_failed(const char* expression, const char* file, int line);
+}
+#define CONTORT_ASSERT(expression) \
+  ((expression) ? static_cast<void>(0) : ::contort::assertion_failed(#expression, __FILE__, __LINE__))
+#else
+#define CONTORT_ASSERT(expression) static_cast<void>(0)
+#endif

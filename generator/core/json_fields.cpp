@@ -1,0 +1,234 @@
+#include "generator/core/json_fields.h"
+
+#include <algorithm>
+#include <set>
+
+namespace contort::json_fields {
+
+namespace {
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+  return text;
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+bool is_hex(std::string_view text) {
+  return text.size() <= (1 << 18) && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool accepts(const std::string& text, const Rule& rule) {
+  if (text.empty()) return rule.may_be_empty || rule.text == Text::prose || rule.text == Text::hex;
+  switch (rule.text) {
+    case Text::name: return is_name(text);
+    case Text::label: return text.size() <= 200;
+    case Text::prose: return text.size() <= 4000;
+    case Text::hex: return is_hex(text);
+  }
+  return false;
+}
+
+std::string allowed_text(const Rule& rule) {
+  switch (rule.text) {
+    case Text::name: return "a name of 1 to 64 characters a-z, 0-9 and _";
+    case Text::label: return "1 to 200 bytes";
+    case Text::prose: return "up to 4000 bytes";
+    case Text::hex: return "digits 0-9 and a-f";
+  }
+  return "";
+}
+
+// Quoted for a message: bounded, and without control characters that would break the line.
+std::string quoted(const std::string& text) {
+  const std::string shown = Json(text.substr(0, 60)).dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() > 60 ? shown + "…" : shown;
+}
+
+std::string range_text(const Rule& rule) { return "[" + shortest(rule.low) + ", " + shortest(rule.high) + "]"; }
+
+// Thrown inside the parser callback only, and caught in parse_document.
+struct Refusal {
+  Issue issue;
+};
+
+class DocumentGuard {  // depth and duplicate keys, seen while parsing
+ public:
+  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > kMaxDepth) throw Refusal{{"json.too_deep", "", "nested deeper than " + std::to_string(kMaxDepth)}};
+    if (event == Json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys_.pop_back();
+    if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second)
+      throw Refusal{
+          {"json.duplicate_key", "", "the key " + quoted(parsed.get<std::string>()) + " stands twice in one object"}};
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> keys_;
+};
+
+}  // namespace
+
+void ReadContext::push(std::string_view token) {
+  std::string escaped;  // RFC 6901
+  for (const char c : token) {
+    if (c == '~')
+      escaped += "~0";
+    else if (c == '/')
+      escaped += "~1";
+    else
+      escaped += c;
+  }
+  path_.push_back(std::move(escaped));
+}
+
+void ReadContext::fail(std::string_view code, std::string text) {
+  if (!ok()) return;
+  std::string pointer;
+  for (const std::string& token : path_) pointer += "/" + token;
+  issue_ = {area_ + "." + std::string(code), std::move(pointer), std::move(text)};
+}
+
+Result<Json> parse_document(std::string_view text) {
+  if (text.size() > kMaxDocumentBytes)
+    return Issue{"json.too_large", "",
+                 std::to_string(text.size()) + " bytes, allowed are " + std::to_string(kMaxDocumentBytes)};
+  try {
+    DocumentGuard guard;
+    return Json::parse(
+        text, [&guard](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
+  } catch (const Refusal& refusal) {
+    return refusal.issue;
+  } catch (const Json::exception& error) {
+    const std::string what = error.what();  // "[json.exception.…] parse error at line 1, …"
+    const std::size_t start = what.find("] ");
+    return Issue{"json.syntax", "", start == std::string::npos ? what : what.substr(start + 2)};
+  }
+}
+
+std::string kind_of(const Json& value) {
+  switch (value.type()) {
+    case Json::value_t::null: return "null";
+    case Json::value_t::object: return "an object";
+    case Json::value_t::array: return "a list";
+    case Json::value_t::string: return "a text";
+    case Json::value_t::boolean: return "true or false";
+    default: return "a number";
+  }
+}
+
+std::string shortest(double value) {
+  if (value == std::floor(value) && std::fabs(value) < 1e15) return std::to_string(static_cast<long long>(value));
+  return Json(value).dump();
+}
+
+bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context) {
+  if (rule.may_be_nan && in == "nan") return out = std::numeric_limits<double>::quiet_NaN(), true;
+  if (!in.is_number()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected a number"), false;
+  const double value = in.get<double>();
+  if (!(value >= rule.low && value <= rule.high) || !std::isfinite(value))
+    return context.fail("out_of_range", "found " + shortest(value) + ", allowed is " + range_text(rule)), false;
+  out = value == 0.0 ? 0.0 : value;  // -0 is 0
+  return true;
+}
+
+bool read_integer64(const Json& in, const Rule& rule, std::int64_t& out, ReadContext& context) {
+  double value = 0.0;
+  if (!read_number(in, rule, value, context)) return false;
+  if (value != std::floor(value) || std::fabs(value) > 0x1p53)
+    return context.fail("wrong_type", "found " + shortest(value) + ", expected a whole number"), false;
+  out = static_cast<std::int64_t>(value);
+  return true;
+}
+
+bool read_integer(const Json& in, const Rule& rule, int& out, ReadContext& context) {
+  Rule narrow = rule;
+  narrow.low = std::max(rule.low, -2147483647.0);
+  narrow.high = std::min(rule.high, 2147483647.0);
+  std::int64_t value = 0;
+  if (!read_integer64(in, narrow, value, context)) return false;
+  out = static_cast<int>(value);
+  return true;
+}
+
+bool read_bool(const Json& in, bool& out, ReadContext& context) {
+  if (!in.is_boolean()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected true or false"), false;
+  out = in.get<bool>();
+  return true;
+}
+
+bool read_text(const Json& in, const Rule& rule, std::string& out, ReadContext& context) {
+  if (!in.is_string()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected a text"), false;
+  const std::string& text = in.get_ref<const std::string&>();
+  if (!accepts(text, rule))
+    return context.fail("bad_text", "found " + quoted(text) + ", allowed is " + allowed_text(rule)), false;
+  out = text;
+  return true;
+}
+
+bool read_choice(const Json& in, std::span<const std::string_view> names, int& out, ReadContext& context) {
+  if (!in.is_string())
+    return context.fail("wrong_type", "found " + kind_of(in) + ", expected one of " + joined(names)), false;
+  const auto found = std::find(names.begin(), names.end(), in.get_ref<const std::string&>());
+  if (found == names.end())
+    return context.fail("unknown_name", "found " + quoted(in.get<std::string>()) + ", allowed are " + joined(names)),
+           false;
+  out = static_cast<int>(found - names.begin());
+  return true;
+}
+
+bool expect_array(const Json& in, std::size_t low, std::size_t high, ReadContext& context) {
+  if (!in.is_array()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected a list"), false;
+  if (in.size() >= low && in.size() <= high) return true;
+  const std::string allowed = low == high ? std::to_string(low) : std::to_string(low) + " to " + std::to_string(high);
+  context.fail(low == high ? "wrong_type" : "too_many",
+               "found " + std::to_string(in.size()) + " entries, allowed are " + allowed);
+  return false;
+}
+
+bool expect_object(const Json& in, ReadContext& context) {
+  if (!in.is_object()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected an object"), false;
+  return true;
+}
+
+void refuse_unknown(const Json& in, std::span<const std::string_view> known, ReadContext& context) {
+  for (const auto& [key, value] : in.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    context.push(key);
+    context.fail("unknown_field", "found " + quoted(key) + ", allowed are " + joined(known));
+    context.pop();
+    return;
+  }
+}
+
+Json number_schema(const Rule& rule, bool integer) {
+  Json schema = {{"type", integer ? "integer" : "number"}};
+  if (std::isfinite(rule.low)) schema["minimum"] = rule.low;
+  if (std::isfinite(rule.high)) schema["maximum"] = rule.high;
+  return schema;
+}
+
+Json text_schema(const Rule& rule) {
+  const int least = rule.may_be_empty ? 0 : 1;
+  switch (rule.text) {
+    case Text::name: return {{"type", "string"}, {"pattern", least == 0 ? "^[a-z0-9_]{0,64}$" : "^[a-z0-9_]{1,64}$"}};
+    case Text::label: return {{"type", "string"}, {"minLength", least}, {"maxLength", 200}};
+    case Text::prose: return {{"type", "string"}, {"maxLength", 4000}};
+    case Text::hex: return {{"type", "string"}, {"pattern", "^[0-9a-f]*$"}};
+  }
+  return {};
+}
+
+Json names_schema(std::span<const std::string_view> names) {
+  Json list = Json::array();
+  for (const std::string_view name : names) list.push_back(std::string(name));
+  return {{"enum", list}};
+}
+
+}  // namespace contort::json_fields

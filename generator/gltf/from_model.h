@@ -1,0 +1,33 @@
+// From tinygltf's structs to ours: nodes first, then skins, then clips. The model has passed check_document, so that
+// its indices are valid, except where said.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "generator/core/result.h"
+#include "generator/gltf/accessor.h"
+#include "generator/gltf/asset.h"
+
+namespace contort {
+
+// A name of its own for each: the name, or "<name>#<index>" where that is empty or stands more than once. Then none of
+// the equal names keeps it, so that a label never means another node than the name did.
+std::vector<std::string> unique_labels(std::span<const std::string> names);
+
+// A 4x4 matrix, column by column, as translation, rotation and scale; a mirroring one gets a negative x scale. False
+// where it is no such product: sheared, or a last row other than 0 0 0 1.
+bool decompose(std::span<const double> matrix, Trs& out);
+
+// Fills nodes and order. Codes gltf.bad_node, .not_unit, .two_parents, .cycle.
+Result<Done> read_nodes(const tinygltf::Model& model, GltfAsset& asset);
+
+// Fills skins and GltfNode::is_joint. Codes gltf.bad_skin and those of AccessorReader.
+Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset);
+
+// Fills clips. Codes gltf.bad_index, .unsupported, .duplicate_channel, .bad_times, .bad_accessor, .not_unit and those
+// of AccessorReader.
+Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset);
+
+}  // namespace contort

@@ -1,0 +1,146 @@
+#include "generator/motion/ik.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/core/detmath.h"
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+const Joint& joint_at(const Character& character, int index) {
+  return character.joints()[static_cast<std::size_t>(index)];
+}
+
+double& coord_of(std::span<double> row, const Joint& joint) { return row[static_cast<std::size_t>(joint.coord)]; }
+
+// The tip seen from the middle joint's moving frame, with the joints between them as they are.
+Vec3 tip_in_middle(const Character& character, const ReachChain& chain, std::span<const double> row) {
+  const Socket& tip = character.sockets()[static_cast<std::size_t>(chain.tip)];
+  Vec3 point = tip.joint_from_socket.p_m;
+  for (int j = tip.joint; j != chain.middle && j > 0; j = joint_at(character, j).parent) {
+    const Joint& joint = joint_at(character, j);
+    point = joint.parent_from_joint * (joint_motion(joint, row) * point);
+  }
+  return point;
+}
+
+// How far v is outside [low, high].
+double outside(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
+
+// Angle of a hinge at `elbow` (axis a) that brings a point, `tip` in the hinge's frame, to the distance from the
+// origin. |elbow + R tip|^2 is a constant plus 2 |elbow_t| |tip_t| cos(angle + phase), t: across the axis.
+double bend_for_distance(const Vec3& elbow, const Vec3& tip, const Joint& hinge, double distance_m) {
+  const Vec3& a = hinge.axis;
+  const Vec3 elbow_t = elbow - glm::dot(elbow, a) * a;
+  const Vec3 tip_t = tip - glm::dot(tip, a) * a;
+  const double lever = std::sqrt(glm::dot(elbow_t, elbow_t) * glm::dot(tip_t, tip_t));
+  if (lever < 1e-12) return 0.0;
+  const double along = glm::dot(elbow, a) * glm::dot(tip, a);
+  const double wanted = distance_m * distance_m - glm::dot(elbow, elbow) - glm::dot(tip, tip);
+  const double open = det::acos((0.5 * wanted - along) / lever);
+  const double phase = det::atan2(glm::dot(a, glm::cross(elbow_t, tip_t)), glm::dot(elbow_t, tip_t));
+  const auto wrapped = [](double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); };
+  const double first = wrapped(open - phase);
+  const double second = wrapped(-open - phase);
+  return outside(first, hinge.low, hinge.high) <= outside(second, hinge.low, hinge.high) ? first : second;
+}
+
+void set_upper(const Character& character, const ReachChain& chain, const Quat& rotation, std::span<double> row) {
+  const Joint& upper = joint_at(character, chain.upper);
+  double* q = &coord_of(row, upper);
+  if (upper.kind == JointKind::ball) {
+    q[0] = rotation.w, q[1] = rotation.x, q[2] = rotation.y, q[3] = rotation.z;
+    return;
+  }
+  const Joint& second = joint_at(character, chain.upper + 1);
+  const Joint& third = joint_at(character, chain.upper + 2);
+  const Vec3 angles = hinge_angles(upper.axis, second.axis, third.axis, rotation);
+  coord_of(row, upper) = angles.x;
+  coord_of(row, second) = angles.y;
+  coord_of(row, third) = angles.z;
+}
+
+void set_to_rest(const Joint& joint, std::span<double> row) {
+  double* q = &coord_of(row, joint);
+  q[0] = joint.kind == JointKind::ball ? 1.0 : 0.0;
+  if (joint.kind == JointKind::ball) q[1] = q[2] = q[3] = 0.0;
+}
+
+// Angle about the unit axis that turns v nearest to d.
+double turn_towards(const Vec3& axis, const Vec3& v, const Vec3& d) {
+  const double along = glm::dot(axis, v) * glm::dot(axis, d);
+  return det::atan2(glm::dot(axis, glm::cross(v, d)), glm::dot(v, d) - along);
+}
+
+// Turns one joint so that `facing` (world) comes nearest to `wanted`; answers false where the joint cannot help.
+bool turn_joint(const Joint& joint, const Rigid& world_from_joint, const Vec3& facing, const Vec3& wanted,
+                std::span<double> row) {
+  double* q = &coord_of(row, joint);
+  if (joint.kind == JointKind::ball) {
+    const Quat in_joint = glm::conjugate(world_from_joint.q) * shortest_arc(facing, wanted) * world_from_joint.q;
+    const Quat turned = glm::normalize(Quat(q[0], q[1], q[2], q[3]) * in_joint);
+    q[0] = turned.w, q[1] = turned.x, q[2] = turned.y, q[3] = turned.z;
+    return true;
+  }
+  const double step = turn_towards(world_from_joint.q * joint.axis, facing, wanted);
+  q[0] += step;
+  return std::fabs(step) > 1e-9;
+}
+
+}  // namespace
+
+Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation) {
+  // In the basis of the three axes the rotation is Rx(a) Ry(b) Rz(c). A left-handed basis turns the third one over.
+  const double hand = glm::dot(glm::cross(first_axis, second_axis), third_axis) < 0.0 ? -1.0 : 1.0;
+  const Vec3 e[3] = {first_axis, second_axis, hand * third_axis};
+  const auto entry = [&](int row, int column) { return glm::dot(e[row], rotation * e[column]); };
+  const double b = det::asin(entry(0, 2));
+  const double a = det::atan2(-entry(1, 2), entry(2, 2));
+  const double c = det::atan2(-entry(0, 1), entry(0, 0));
+  return {a, b, hand * c};
+}
+
+void reach_for(const Character& character, const ReachChain& chain, std::span<const Rigid> world,
+               const Vec3& target_world_m, double swivel_rad, std::span<double> row) {
+  const Joint& upper = joint_at(character, chain.upper);
+  const Joint& middle = joint_at(character, chain.middle);
+  const Rigid upper_from_world = inverse(world[static_cast<std::size_t>(upper.parent)] * upper.parent_from_joint);
+  const Vec3 target = upper_from_world * target_world_m;
+  const double distance_m = std::sqrt(glm::dot(target, target));
+
+  // The elbow in the hinge's own axes, because that is where its axis is given.
+  const Vec3 tip = tip_in_middle(character, chain, row);
+  const Rigid& upper_from_middle = middle.parent_from_joint;
+  const Vec3 elbow = glm::conjugate(upper_from_middle.q) * upper_from_middle.p_m;
+  coord_of(row, middle) = bend_for_distance(elbow, tip, middle, distance_m);
+
+  const Vec3 tip_at_rest = upper_from_middle * (joint_motion(middle, row) * tip);
+  const Vec3 to_target = unit_or(target, Vec3(0, -1, 0));
+  const Quat swing = shortest_arc(unit_or(tip_at_rest, to_target), to_target);
+  set_upper(character, chain, axis_angle(to_target, swivel_rad) * swing, row);
+}
+
+void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
+                    const Vec3& direction_world, std::span<double> row) {
+  constexpr int kMaxSweeps = 12;
+  for (const int j : chain.joints) set_to_rest(joint_at(character, j), row);
+  const int first = chain.joints.front();
+  const int last = std::max(chain.joints.back(), character.sockets()[static_cast<std::size_t>(chain.socket)].joint) + 1;
+  forward_kinematics(character, row, first, last, world);
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    bool moved = false;
+    for (std::size_t i = chain.joints.size(); i-- > 0;) {
+      const int j = chain.joints[i];
+      const Vec3 facing = world_from_socket(character, world, chain.socket).q * Vec3(0, 0, 1);
+      if (glm::dot(facing, direction_world) > 1.0 - 1e-14) return;
+      moved |= turn_joint(joint_at(character, j), world[static_cast<std::size_t>(j)], facing, direction_world, row);
+      forward_kinematics(character, row, j, last, world);
+    }
+    if (!moved) return;
+  }
+}
+
+}  // namespace contort

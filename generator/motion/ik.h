@@ -1,0 +1,28 @@
+// Inverse kinematics. Nothing here clamps to joint ranges: a rule says what it wants, and a clamp would hide exactly
+// the fault that the checks look for.
+#pragma once
+
+#include <span>
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+// Turns the chain so that its tip is at the target, as near as its bones allow; writes the coordinates of `upper` and
+// `middle` and leaves the rest as it is. The middle joint bends by the law of cosines; the upper joint takes the
+// smallest rotation from rest that points the tip at the target, then turns by swivel_rad about the line to the target.
+// `world` must hold the parent of the upper joint.
+void reach_for(const Character& character, const ReachChain& chain, std::span<const Rigid> world,
+               const Vec3& target_world_m, double swivel_rad, std::span<double> row);
+
+// Turns the chain so that its socket's +Z faces the (unit) direction: cyclic coordinate descent over directions, from
+// the rest pose of the chain, outermost joint first. Writes the coordinates of the chain's joints; `world` must hold
+// the parent of the first, and its entries for the part's joints are used as scratch.
+void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
+                    const Vec3& direction_world, std::span<double> row);
+
+// The coordinates of three successive hinges with axes at right angles that give the rotation (Euler angles about the
+// hinges' own axes; the middle one in [-pi/2, pi/2]).
+Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation);
+
+}  // namespace contort

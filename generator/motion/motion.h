@@ -1,0 +1,52 @@
+// Motion: what the generator makes of a Spec, frame by frame. A value; flat arrays, row = frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+// Which action moved a part in which frames.
+struct ActionSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  int sequence = 0;    // indices into the spec
+  int clip = 0;
+  int action = 0;
+  bool operator==(const ActionSpan&) const = default;
+};
+
+struct Motion {
+  double rate_hz = 60.0;
+  int frame_count = 0;
+  int coord_count = 0;         // doubles in a row, see Character
+  std::vector<double> coords;  // frame_count * coord_count
+  std::vector<Rigid> root;     // frame_count: world_from_root
+  std::vector<ActionSpan> spans;
+
+  std::span<const double> row(int frame) const {
+    return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
+                                     static_cast<std::size_t>(coord_count));
+  }
+  std::span<double> row(int frame) {
+    return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
+                                     static_cast<std::size_t>(coord_count));
+  }
+  bool operator==(const Motion&) const = default;
+};
+
+// Hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
+// (docs/determinism.md).
+std::uint64_t motion_hash(const Motion& motion);
+
+// Running hash after each frame, 16 bits each: frame f of two motions differs first where these do.
+std::vector<std::uint16_t> motion_trace(const Motion& motion);
+
+// First frame at which the traces differ, or -1. Lengths that differ count as a difference at the shorter one's end.
+int first_difference(const Motion& a, const Motion& b);
+
+}  // namespace contort

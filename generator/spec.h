@@ -1,0 +1,35 @@
+// Spec: the action specification, one value that says everything about one motion. It is what the fuzzer draws, what a
+// case stores, what a person writes by hand. Its JSON form, limits and schema come from the field lists in spec.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/character/desc.h"
+#include "generator/core/result.h"
+#include "generator/timeline/clip.h"
+
+namespace contort {
+
+struct Spec {
+  CharacterChoice character;
+  double rate_hz = 60.0;                // [1, 1000] frames per second
+  int hold_frames = 0;                  // [0, 6000] frames after the last sequence
+  std::vector<SequenceDesc> sequences;  // played in this order
+  bool operator==(const Spec&) const = default;
+};
+
+// Codes "spec.*" and "json.*" with pointers. parse_spec(print_spec(x)) == x for every x that it accepts.
+Result<Spec> parse_spec(std::string_view json);
+
+// Canonical text: sorted keys, no spaces, defaults left out, shortest numbers that read back to the same bits.
+std::string print_spec(const Spec& spec);
+std::string pretty_spec(const Spec& spec);  // the same, indented for people
+
+// Name of the spec by its content: content_id of the canonical text.
+std::string spec_id(const Spec& spec);
+
+std::string spec_schema();
+
+}  // namespace contort

@@ -1,0 +1,88 @@
+// Field lists (json_fields.h) of what specs and their parts hold. Included from .cpp files only.
+#pragma once
+
+#include "generator/character/desc.h"
+#include "generator/core/json_fields.h"
+#include "generator/spec.h"
+
+namespace contort {
+
+inline const json_fields::Rule kFrames{.low = 0, .high = 36000};
+inline const json_fields::Rule kSpeed{.low = 0.1, .high = 10};
+inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
+
+namespace json_fields {
+
+// A parameter is written plainly: a number, three numbers, or a word. The action's declaration says which is right.
+template <>
+struct Codec<ParamValue> {
+  static void read(const Json& in, const Rule&, ParamValue& out, ReadContext& c) {
+    if (in.is_number())
+      Codec<double>::read(in, Rule{}, out.emplace<double>(), c);
+    else if (in.is_array())
+      Codec<Vec3>::read(in, Rule{}, out.emplace<Vec3>(), c);
+    else if (in.is_string())
+      Codec<std::string>::read(in, Rule{}, out.emplace<std::string>(), c);
+    else
+      c.fail("wrong_type", "found " + kind_of(in) + ", expected a number, three numbers, or a name");
+  }
+  static Json write(const ParamValue& v, const Rule& r) {
+    return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
+  }
+  static Json schema(const Rule& r) {
+    return {{"anyOf", Json::array({Codec<double>::schema(r), Codec<Vec3>::schema(r), Codec<std::string>::schema(r)})}};
+  }
+};
+
+}  // namespace json_fields
+
+template <class V>
+void fields(V& v, const ActionUse*) {
+  v.field("action", &ActionUse::action, {.required = true}, "A registered action; see `contort list actions`.");
+  v.field("slot", &ActionUse::slot, {.required = true}, "The slot whose part moves.");
+  v.field("start_frame", &ActionUse::start_frame, kFrames, "From the clip's start.");
+  v.field("duration_frames", &ActionUse::duration_frames, {.low = 1, .high = 36000}, "A longer period plays slower.");
+  v.field("speed", &ActionUse::speed, kSpeed, "Progress within the period.");
+  v.field("params", &ActionUse::params, {.max_count = 64}, "Parameters by the names that the action declares.");
+}
+
+template <class V>
+void fields(V& v, const ClipDesc*) {
+  v.field("name", &ClipDesc::name, kLabel, "For reports.");
+  v.field("start_frame", &ClipDesc::start_frame, kFrames, "From the sequence's start.");
+  v.field("duration_frames", &ClipDesc::duration_frames, kFrames, "0: natural length; else stretched to this.");
+  v.field("speed", &ClipDesc::speed, kSpeed, "Divides the length.");
+  v.field("actions", &ClipDesc::actions, {.max_count = 256}, "Actions that run in this clip.");
+}
+
+template <class V>
+void fields(V& v, const SequenceDesc*) {
+  v.field("name", &SequenceDesc::name, kLabel, "For reports.");
+  v.field("duration_frames", &SequenceDesc::duration_frames, kFrames, "0: natural length; else stretched to this.");
+  v.field("clips", &SequenceDesc::clips, {.max_count = 256}, "Clips on one time line.");
+}
+
+template <class V>
+void fields(V& v, const AttachmentDesc*) {
+  v.field("object", &AttachmentDesc::object, {.required = true}, "An object of the character.");
+  v.field("slot", &AttachmentDesc::slot, {.required = true}, "The slot whose part carries it.");
+  v.field("socket", &AttachmentDesc::socket, {.required = true}, "A socket of that part.");
+}
+
+template <class V>
+void fields(V& v, const CharacterChoice*) {
+  v.field("name", &CharacterChoice::name, {.required = true}, "See `contort list characters`.");
+  v.field("parts", &CharacterChoice::parts, {.max_count = 64}, "Slot to part, where it is not the default.");
+  v.field("attachments", &CharacterChoice::attachments, {.max_count = 16}, "Objects that follow a socket.");
+}
+
+template <class V>
+void fields(V& v, const Spec*) {
+  v.constant("format", "contort.spec/1");
+  v.field("character", &Spec::character, {.required = true}, "Who moves.");
+  v.field("rate_hz", &Spec::rate_hz, {.low = 1, .high = 1000}, "Frames per second.");
+  v.field("hold_frames", &Spec::hold_frames, {.low = 0, .high = 6000}, "Frames after the last sequence.");
+  v.field("sequences", &Spec::sequences, {.max_count = 64}, "Played one after another.");
+}
+
+}  // namespace contort

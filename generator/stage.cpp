@@ -1,0 +1,30 @@
+#include "generator/stage.h"
+
+namespace contort {
+
+Result<Stage> build_stage(const Spec& spec, const Library& library) {
+  Result<Character> character = build_character(spec.character, library);
+  if (!character) {
+    Issue issue = character.issue();
+    issue.pointer = "/character" + issue.pointer;
+    return issue;
+  }
+  return build_stage(spec, std::make_shared<const Character>(std::move(character).value()));
+}
+
+Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character) {
+  Result<Timeline> timeline = lay_out(spec.sequences, *character);
+  if (!timeline) return timeline.issue();
+  Stage stage;
+  stage.timeline = std::move(timeline).value();
+  stage.rate_hz = spec.rate_hz;
+  // One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
+  stage.frame_count = stage.timeline.frame_count + spec.hold_frames + 1;
+  if (stage.frame_count > kMaxFrames + 1)
+    return Issue{"spec.too_long", "/hold_frames",
+                 "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
+  stage.character = std::move(character);
+  return stage;
+}
+
+}  // namespace contort

@@ -1,0 +1,101 @@
+#include "renders/camera.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "generator/core/detmath.h"
+
+namespace contort {
+namespace {
+
+constexpr double kTanHalfHeight = 0.25;  // 28 degrees: long enough a lens that limbs near the camera do not swell.
+constexpr double kMargin = 1.07;         // Picture edge over figure edge.
+constexpr double kMinDistance_m = 0.6;
+constexpr double kElevation_rad = 14.0 * kRadPerDeg;
+constexpr double kFollowGain = 0.75;
+
+// Along one picture axis with half-angle tangent t, a point (side, toward) is in the picture of an eye at (c, d) if
+// |side - c| <= t * (d - toward). The nearest eye for all points touches both edges.
+struct Fit {
+  double center = 0.0;
+  double distance = 0.0;
+};
+
+Fit fit_axis(std::span<const Vec3> points, const Vec3& side, const Vec3& back, double tangent) {
+  double plus = -std::numeric_limits<double>::infinity(), minus = plus;
+  for (const Vec3& p : points) {
+    plus = std::max(plus, glm::dot(side, p) + tangent * glm::dot(back, p));
+    minus = std::max(minus, -glm::dot(side, p) + tangent * glm::dot(back, p));
+  }
+  return {0.5 * (plus - minus), (plus + minus) / (2.0 * tangent)};
+}
+
+double middle_depth(std::span<const Vec3> points, const Vec3& back) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& p : points) {
+    low = std::min(low, glm::dot(back, p));
+    high = std::max(high, glm::dot(back, p));
+  }
+  return 0.5 * (low + high);
+}
+
+// From the eye to the middle of the frame that is farthest away: where a figure is drawn smallest.
+double farthest(const Camera& camera, std::span<const std::vector<Vec3>> frames) {
+  double distance = 0.0;
+  for (const std::vector<Vec3>& points : frames)
+    if (!points.empty())
+      distance = std::max(distance, glm::dot(camera.back, camera.eye_m) - middle_depth(points, camera.back));
+  return distance;
+}
+
+}  // namespace
+
+Camera frame_points(std::span<const Vec3> points, const View& view, double aspect) {
+  static constexpr Vec3 kNothing[] = {{-1, 0, -1}, {1, 2, 1}};
+  if (points.empty()) points = kNothing;
+  const det::SinCos azimuth = det::sincos(view.azimuth_rad), elevation = det::sincos(view.elevation_rad);
+  Camera camera;
+  camera.tan_half_height = kTanHalfHeight;
+  camera.right = Vec3(azimuth.cos, 0.0, -azimuth.sin);
+  camera.back = Vec3(azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos);
+  camera.up = glm::cross(camera.back, camera.right);
+
+  const double tan_y = kTanHalfHeight / kMargin, tan_x = tan_y * aspect;
+  const Fit x = fit_axis(points, camera.right, camera.back, tan_x);
+  const Fit y = fit_axis(points, camera.up, camera.back, tan_y);
+  const double middle = middle_depth(points, camera.back);
+  const double distance = std::max({x.distance, y.distance, middle + kMinDistance_m});
+  const Vec3 on_axis = x.center * camera.right + y.center * camera.up;
+  camera.eye_m = on_axis + distance * camera.back;
+  camera.center_m = on_axis + middle * camera.back;
+  return camera;
+}
+
+StripCamera frame_strip(std::span<const std::vector<Vec3>> points, std::span<const Vec3> anchors, const View& view,
+                        double aspect) {
+  std::vector<std::vector<Vec3>> gathered(points.begin(), points.end());
+  std::vector<Vec3> fixed, following;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    fixed.insert(fixed.end(), points[i].begin(), points[i].end());
+    for (Vec3& p : gathered[i]) p -= anchors[i];
+    following.insert(following.end(), gathered[i].begin(), gathered[i].end());
+  }
+  const Camera still = frame_points(fixed, view, aspect), moving = frame_points(following, view, aspect);
+  if (farthest(moving, gathered) < kFollowGain * farthest(still, points)) return {moving, true};
+  return {still, false};
+}
+
+Camera moved(Camera camera, const Vec3& by_m) {
+  camera.eye_m += by_m;
+  camera.center_m += by_m;
+  return camera;
+}
+
+std::vector<View> probe_views() {
+  std::vector<View> views;
+  for (const int degrees : {30, -30, 60, -60, 0, 90, -90, 120, -120, 150, -150, 180})
+    views.push_back({degrees * kRadPerDeg, kElevation_rad});
+  return views;
+}
+
+}  // namespace contort

@@ -1,0 +1,46 @@
+// Where the picture is taken from. Plain geometry; the choice among several views is made in raster/auto_camera.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/core/math.h"
+
+namespace contort {
+
+struct Camera {
+  Vec3 eye_m{0.0, 1.0, 4.0};
+  Vec3 right{1.0, 0.0, 0.0};  // Unit vectors at right angles, right x up = back.
+  Vec3 up{0.0, 1.0, 0.0};
+  Vec3 back{0.0, 0.0, 1.0};  // Against the direction of view.
+  double tan_half_height = 0.27;
+  Vec3 center_m{0.0};  // What it looks at: the middle of what was framed, on the axis of view.
+};
+
+// A direction of view. Azimuth 0 looks at the front of a character at rest (from +Z), positive from its left (+X);
+// elevation is positive from above.
+struct View {
+  double azimuth_rad = 0.0;
+  double elevation_rad = 0.0;
+};
+
+// The nearest camera in this direction that has all points in its picture, with a margin. `aspect` is width / height.
+// Without points: two metres around the origin.
+Camera frame_points(std::span<const Vec3> points, const View& view, double aspect);
+
+// One camera for all frames of a strip: it stands still, or it moves along with the figure where a camera that stands
+// still would draw the figure in some frame less than three quarters as large. `points` are what has to be in the
+// picture of each frame, `anchors` the places on the ground that the figure is at.
+struct StripCamera {
+  Camera camera;
+  bool follows = false;  // true: add a frame's anchor to eye_m and center_m.
+};
+StripCamera frame_strip(std::span<const std::vector<Vec3>> points, std::span<const Vec3> anchors, const View& view,
+                        double aspect);
+
+Camera moved(Camera camera, const Vec3& by_m);
+
+// 12 azimuths, 30 degrees apart, in order of preference: from the front left corner outward.
+std::vector<View> probe_views();
+
+}  // namespace contort

@@ -1,0 +1,115 @@
+#include "renders/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contort {
+namespace {
+
+constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
+constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
+constexpr Vec3 kGhostColor{0.22, 0.27, 0.36};
+constexpr double kMarkerRadius_m = 0.038;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Vec3 muted(const Vec3& color) {
+  const double grey = glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
+  return glm::mix(Vec3(0.26 + 0.6 * grey), color, 0.3);
+}
+
+int add_mesh(Figure& figure, const MeshShape& shape) {
+  figure.meshes.push_back(tessellate(shape));
+  return static_cast<int>(figure.meshes.size()) - 1;
+}
+
+MeshShape as_mesh(const ColliderShape& shape) {
+  return std::visit([](const auto& s) { return MeshShape(s); }, shape);
+}
+
+void add_mesh_pieces(Figure& figure, const Character& character, const Highlight& highlight) {
+  const std::vector<int> groups = highlight_groups(character, highlight);
+  for (std::size_t i = 0; i < character.mesh().size(); ++i) {
+    const MeshPiece& piece = character.mesh()[i];
+    const Vec3 color = groups[i] > 0 ? kHighlightColor : highlight.empty() ? piece.color : muted(piece.color);
+    figure.pieces.push_back({add_mesh(figure, piece.shape), piece.joint, color, groups[i]});
+  }
+}
+
+bool drawn_as_it_is(const Character& character, const Collider& collider) {
+  return std::any_of(character.mesh().begin(), character.mesh().end(),
+                     [&](const MeshPiece& piece) { return looks_like(piece, collider); });
+}
+
+// What was judged is the collider. Where the mesh differs from it, two parts that look apart may overlap.
+void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight) {
+  int group = 0;
+  for (const int index : highlight.colliders) {
+    ++group;
+    const Collider& collider = character.colliders()[at(index)];
+    if (drawn_as_it_is(character, collider)) continue;
+    const bool has_mesh = std::any_of(figure.pieces.begin(), figure.pieces.end(),
+                                      [&](const FigurePiece& piece) { return piece.highlight == group; });
+    figure.pieces.push_back(
+        {add_mesh(figure, as_mesh(collider.shape)), collider.joint, kHighlightColor, group, has_mesh});
+  }
+}
+
+void add_joint_markers(Figure& figure, const Highlight& highlight) {
+  if (highlight.joints.empty()) return;
+  const int marker = add_mesh(figure, Sphere{Vec3(0.0), kMarkerRadius_m});
+  const int group = static_cast<int>(highlight.colliders.size()) + 1;
+  for (const int joint : highlight.joints) figure.pieces.push_back({marker, joint, kMarkerColor, group});
+}
+
+bool within_reach(const Rigid& place) {
+  const double values[] = {place.p_m.x, place.p_m.y, place.p_m.z, place.q.w, place.q.x, place.q.y, place.q.z};
+  return std::all_of(std::begin(values), std::end(values),
+                     [](double value) { return std::fabs(value) <= kWorldReach_m; });  // false for NaN
+}
+
+void grow_box(const Triangles& triangles, Vec3& low, Vec3& high) {
+  for (const Vec3& p : triangles.positions_m) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+}
+
+}  // namespace
+
+Figure make_figure(const Character& character, const Highlight& highlight) {
+  Figure figure;
+  add_mesh_pieces(figure, character, highlight);
+  add_judged_shapes(figure, character, highlight);
+  add_joint_markers(figure, highlight);
+  return figure;
+}
+
+void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look) {
+  for (const FigurePiece& piece : figure.pieces) {
+    const Rigid& place = world[at(piece.joint)];
+    if (!within_reach(place)) {
+      list.complete = false;
+    } else if (look == Look::solid) {
+      list.instances.push_back({piece.mesh, place, piece.color, piece.highlight, piece.ghost});
+    } else if (!piece.ghost) {
+      list.instances.push_back({piece.mesh, place, kGhostColor, 0, true});
+    }
+  }
+}
+
+std::vector<Vec3> outline(const DrawList& list, std::span<const Triangles> meshes) {
+  std::vector<Vec3> corners;
+  for (const DrawInstance& instance : list.instances) {
+    const Triangles& mesh = meshes[at(instance.mesh)];
+    if (mesh.positions_m.empty()) continue;
+    Vec3 low = mesh.positions_m.front(), high = low;
+    grow_box(mesh, low, high);
+    for (int corner = 0; corner < 8; ++corner)
+      corners.push_back(instance.world_from_mesh * Vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                                        corner & 4 ? high.z : low.z));
+  }
+  return corners;
+}
+
+}  // namespace contort

@@ -1,0 +1,62 @@
+// What a picture shows, as plain values. Nothing here knows of OpenGL.
+//
+//   Figure figure = make_figure(character, highlighted(character, finding));   // once: triangles, colours
+//   DrawList list;
+//   add_figure(list, figure, world);                                           // per frame: where everything is
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/character/character.h"
+#include "generator/core/math.h"
+#include "renders/highlight.h"
+
+namespace contort {
+
+struct DrawInstance {
+  int mesh = 0;           // Index into the triangles of the figure.
+  Rigid world_from_mesh;  // Finite, within kWorldReach_m.
+  Vec3 color{0.7};        // Linear RGB, each in [0, 1].
+  int highlight =
+      0;  // 0: none. n > 0: a thing that a finding is about (see highlight_groups); it shines through what hides it.
+  bool ghost = false;  // Translucent.
+};
+
+// Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
+inline constexpr double kWorldReach_m = 1e4;
+
+struct DrawList {
+  std::vector<DrawInstance> instances;
+  double ground_height_m = 0.0;
+  bool complete = true;  // false: something had a place that is not finite and was left out.
+};
+
+// A character as it is drawn, in the coordinates of its joints.
+struct FigurePiece {
+  int mesh = 0;
+  int joint = 0;
+  Vec3 color{0.7};
+  int highlight = 0;
+  bool ghost = false;
+};
+
+struct Figure {
+  std::vector<Triangles> meshes;
+  std::vector<FigurePiece> pieces;
+};
+
+// Mesh pieces with their colours; what is highlighted is red and all else pale, because a character may be red itself.
+// Added to them: the highlighted colliders, where the mesh has another shape than what was judged, and a small sphere
+// at each highlighted joint.
+Figure make_figure(const Character& character, const Highlight& highlight);
+
+enum class Look { solid, ghost };
+
+// Appends the figure in the pose `world` (world_from_joint, one per joint).
+void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look = Look::solid);
+
+// Corners of the boxes around all instances, for framing; highlighted joints' markers and translucent pieces too.
+std::vector<Vec3> outline(const DrawList& list, std::span<const Triangles> meshes);
+
+}  // namespace contort

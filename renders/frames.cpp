@@ -1,0 +1,68 @@
+#include "renders/frames.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace contort {
+namespace {
+
+void insert_sorted(std::vector<int>& frames, int frame) {
+  const auto at = std::lower_bound(frames.begin(), frames.end(), frame);
+  if (at == frames.end() || *at != frame) frames.insert(at, frame);
+}
+
+// Halves the widest gap between chosen frames. A gap inside the finding counts double: the fault is what one came to
+// see. Equal gaps: the earlier one. Answers false when all frames from the first to the last chosen one are chosen.
+bool halve_widest_gap(std::vector<int>& frames, int first, int last) {
+  std::size_t widest = 0;
+  std::int64_t widest_score = 0;
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
+    const std::int64_t gap = std::int64_t{frames[i + 1]} - frames[i];
+    const bool inside = frames[i] >= first && frames[i + 1] <= last;
+    const std::int64_t score = gap < 2 ? 0 : (inside ? 2 * gap : gap);
+    if (score > widest_score) {
+      widest = i;
+      widest_score = score;
+    }
+  }
+  if (widest_score == 0) return false;
+  insert_sorted(frames, frames[widest] + (frames[widest + 1] - frames[widest]) / 2);
+  return true;
+}
+
+}  // namespace
+
+std::vector<int> choose_frames(int first, int worst, int last, int frame_count, int tiles) {
+  if (frame_count <= 0 || tiles <= 0) return {};
+  const int end = frame_count - 1;
+  worst = std::clamp(worst, 0, end);
+  first = std::clamp(first, 0, worst);
+  last = std::clamp(last, worst, end);
+
+  const auto wanted = static_cast<std::size_t>(std::min(tiles, frame_count));
+  std::vector<int> frames{worst};
+  if (frames.size() < wanted) insert_sorted(frames, first);
+  if (frames.size() < wanted) insert_sorted(frames, last);
+  // Half the finding's length of context on either side; at least so much that there are enough frames to choose from.
+  const int context = std::max(tiles, (last - first) / 2);
+  if (frames.size() + 2 <= wanted) {
+    insert_sorted(frames, std::max(0, first - std::min(first, context)));
+    insert_sorted(frames, end - last < context ? end : last + context);
+  }
+  while (frames.size() < wanted && halve_widest_gap(frames, first, last)) {}
+  // Only where there was no room for both ends of the context (a finding of one frame at the motion's edge).
+  for (int frame = 0; frames.size() < wanted; ++frame) insert_sorted(frames, frame);
+  return frames;
+}
+
+std::vector<int> spread_frames(int frame_count, int tiles) {
+  const int count = std::min(frame_count, tiles);
+  if (count <= 0) return {};
+  if (count == 1) return {0};
+  std::vector<int> frames;
+  for (int i = 0; i < count; ++i)
+    frames.push_back(static_cast<int>(std::int64_t{i} * (frame_count - 1) / (count - 1)));
+  return frames;
+}
+
+}  // namespace contort

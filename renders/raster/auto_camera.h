@@ -1,0 +1,17 @@
+// A camera that sees the fault. A fixed one had the offending forearm behind the body in three frames of eight.
+#pragma once
+
+#include "renders/raster/renderer.h"
+
+namespace contort {
+
+struct ProbedView {
+  View view;
+  int visible_pixels = 0;  // of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
+};
+
+// Looks at the frame from 12 sides. Takes the first in the order of probe_views() from which the least visible
+// highlight group shows about as well as from anywhere. Without highlight: the first of all.
+Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes);
+
+}  // namespace contort

@@ -1,0 +1,77 @@
+#include <GL/osmesa.h>
+#include <dlfcn.h>
+
+#include <array>
+#include <cstdlib>
+#include <type_traits>
+
+#include "renders/raster/gl_backend.h"
+
+namespace contort {
+namespace {
+
+struct OsmesaApi {
+  std::add_pointer_t<decltype(OSMesaCreateContextAttribs)> create = nullptr;
+  std::add_pointer_t<decltype(OSMesaDestroyContext)> destroy = nullptr;
+  std::add_pointer_t<decltype(OSMesaMakeCurrent)> make_current = nullptr;
+  std::add_pointer_t<decltype(OSMesaGetProcAddress)> function = nullptr;
+};
+
+template <class Function>
+bool find(void* library, const char* name, Function*& into) {
+  into = reinterpret_cast<Function*>(::dlsym(library, name));
+  return into != nullptr;
+}
+
+// The library stays loaded for good: Mesa's threads and exit handlers may outlive a context.
+void* open_library() {
+  // One rasterizer thread per process would fight over one lock; processes scale instead (twice as fast on two cores).
+  ::setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
+  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
+    if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
+  return nullptr;
+}
+
+class OsmesaBackend final : public GlBackend {
+ public:
+  OsmesaBackend(const OsmesaApi& api, OSMesaContext context) : api_(api), context_(context) {}
+  ~OsmesaBackend() override {
+    OsmesaBackend::release();
+    api_.destroy(context_);
+  }
+  OsmesaBackend(const OsmesaBackend&) = delete;
+  OsmesaBackend& operator=(const OsmesaBackend&) = delete;
+
+  // All drawing goes to framebuffer objects; the buffer that OSMesa asks for only has to exist.
+  bool make_current() override {
+    return api_.make_current(context_, unused_.data(), GL_UNSIGNED_BYTE, kUnusedSide, kUnusedSide) == GL_TRUE;
+  }
+  void release() override { api_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  void* function(const char* gl_name) override { return reinterpret_cast<void*>(api_.function(gl_name)); }
+  std::string name() const override { return "libOSMesa"; }
+
+ private:
+  static constexpr int kUnusedSide = 16;
+  OsmesaApi api_;
+  OSMesaContext context_;
+  std::array<unsigned char, 4 * kUnusedSide * kUnusedSide> unused_{};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<GlBackend>> make_osmesa_backend() {
+  void* library = open_library();
+  OsmesaApi api;
+  if (!library || !find(library, "OSMesaCreateContextAttribs", api.create) ||
+      !find(library, "OSMesaDestroyContext", api.destroy) || !find(library, "OSMesaMakeCurrent", api.make_current) ||
+      !find(library, "OSMesaGetProcAddress", api.function))
+    return Issue{"render.no_opengl", "",
+                 "libOSMesa was not found, so no pictures can be drawn; install the package libosmesa6."};
+  const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0, 0};
+  OSMesaContext context = api.create(wanted, nullptr);
+  if (!context) return Issue{"render.no_opengl", "", "libOSMesa cannot make an OpenGL 3.3 context."};
+  return std::unique_ptr<GlBackend>(std::make_unique<OsmesaBackend>(api, context));
+}
+
+}  // namespace contort

@@ -1,0 +1,279 @@
+#include "renders/raster/renderer.h"
+
+#include <GL/glcorearb.h>
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "renders/raster/shaders.h"
+
+namespace contort {
+namespace {
+
+constexpr int kOversampling = 2;  // See halve_and_flip.
+constexpr float kGhostAlpha = 0.42f;
+constexpr float kShineThroughAlpha = 0.4f;  // More looks as if nothing were in front.
+constexpr float kShadowAlpha = 0.20f;
+
+glm::mat4 float_matrix(const Rigid& place, const Vec3& origin_m) {
+  glm::dmat4 matrix = glm::mat4_cast(place.q);
+  matrix[3] = glm::dvec4(place.p_m - origin_m, 1.0);
+  return glm::mat4(matrix);
+}
+
+glm::mat4 clip_matrix(const Camera& camera, double aspect) {
+  const Vec3 eye = camera.eye_m - camera.center_m;
+  const double distance = std::max(glm::length(eye), 0.1), near = 0.05 * distance, far = 4.0 * distance + 30.0;
+  glm::dmat4 view(1.0);
+  const Vec3 axes[] = {camera.right, camera.up, camera.back};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) view[column][row] = axes[row][column];
+    view[3][row] = -glm::dot(axes[row], eye);
+  }
+  glm::dmat4 projection(0.0);
+  projection[0][0] = 1.0 / (camera.tan_half_height * aspect);
+  projection[1][1] = 1.0 / camera.tan_half_height;
+  projection[2][2] = -(far + near) / (far - near);
+  projection[2][3] = -1.0;
+  projection[3][2] = -2.0 * far * near / (far - near);
+  return glm::mat4(projection * view);
+}
+
+// Flattens along the light onto the plane y = height.
+glm::mat4 shadow_matrix(const Vec3& to_light, double height) {
+  glm::dmat4 matrix(1.0);
+  matrix[1] = glm::dvec4(-to_light.x / to_light.y, 0.0, -to_light.z / to_light.y, 0.0);
+  matrix[3] = glm::dvec4(to_light.x / to_light.y * height, height, to_light.z / to_light.y * height, 1.0);
+  return glm::mat4(matrix);
+}
+
+}  // namespace
+
+// The camera as the shaders want it.
+struct Renderer::Eye {
+  Eye(const Camera& camera, int width, int height)
+      : clip_from_world(clip_matrix(camera, static_cast<double>(width) / height)),
+        center_m(camera.center_m),
+        at(camera.eye_m - camera.center_m),
+        // From above the camera's left shoulder: all strips are lit alike, and shadows fall away from the viewer.
+        to_light(unit_or(1.1 * Vec3(0, 1, 0) + 0.65 * camera.back - 0.55 * camera.right, Vec3(0, 1, 0))) {}
+  glm::mat4 clip_from_world;
+  Vec3 center_m, at, to_light;
+};
+
+struct Renderer::Paint {
+  float alpha = 1.0f;
+  bool lit = true;
+  float rim = 1.0f;
+  const glm::mat4* flatten = nullptr;  // For shadows.
+  const Vec3* color = nullptr;         // Instead of the instance's own.
+};
+
+Result<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<GlBackend> backend) {
+  if (!backend->make_current())
+    return Issue{"render.no_opengl", "", backend->name() + " cannot make its OpenGL context current."};
+  std::unique_ptr<Renderer> renderer(new Renderer(std::move(backend)));
+  Result<Gl> gl = load_gl(*renderer->backend_);
+  if (!gl) return gl.issue();
+  renderer->gl_ = *gl;
+  if (Result<Done> done = renderer->set_up(); !done) return done.issue();
+  if (Result<Done> done = renderer->draw_test_pixel(); !done) return done.issue();
+  return renderer;
+}
+
+Renderer::~Renderer() {
+  if (!gl_.DeleteProgram || !backend_->make_current()) return;
+  for (const unsigned program : {solid_, background_, ground_})
+    if (program) gl_.DeleteProgram(program);
+  if (vertex_array_) gl_.DeleteVertexArrays(1, &vertex_array_);
+  if (no_vertices_) gl_.DeleteVertexArrays(1, &no_vertices_);
+  if (buffer_) gl_.DeleteBuffers(1, &buffer_);
+}
+
+Result<Done> Renderer::set_up() {
+  const struct {
+    unsigned& program;
+    const char *vertex, *fragment;
+  } programs[] = {{solid_, shaders::kSolidVertex, shaders::kSolidFragment},
+                  {background_, shaders::kBackgroundVertex, shaders::kBackgroundFragment},
+                  {ground_, shaders::kGroundVertex, shaders::kGroundFragment}};
+  for (const auto& p : programs) {
+    const Result<unsigned> made = make_program(gl_, p.vertex, p.fragment);
+    if (!made) return made.issue();
+    p.program = *made;
+  }
+  gl_.GenVertexArrays(1, &vertex_array_);
+  gl_.GenVertexArrays(1, &no_vertices_);  // Core profile draws nothing without a vertex array, even an empty one.
+  gl_.GenBuffers(1, &buffer_);
+  return gl_errors();
+}
+
+Result<Done> Renderer::draw_test_pixel() {
+  if (Result<Done> ready = target_.use(8, 8); !ready) return ready;
+  gl_.ClearColor(1.0f, 0.0f, 1.0f, 1.0f);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  draw_background();
+  const std::uint8_t* middle = target_.read().data() + 4 * (4 * 8 + 4);
+  const bool cleared_only = middle[0] == 255 && middle[1] == 0;
+  if (middle[3] != 255 || cleared_only)
+    return Issue{"render.no_opengl", "", "OpenGL answers but draws nothing (" + description() + ")."};
+  return gl_errors();
+}
+
+Result<Done> Renderer::gl_errors() const {
+  const GLenum error = gl_.GetError();
+  if (error == GL_NO_ERROR) return Done{};
+  return Issue{"render.gl_error", "", "OpenGL reports error " + std::to_string(error) + " (" + description() + ")."};
+}
+
+void Renderer::set_meshes(std::span<const Triangles> meshes) {
+  std::vector<float> vertices;
+  ranges_.clear();
+  for (const Triangles& mesh : meshes) {
+    ranges_.push_back({static_cast<int>(vertices.size() / 6), static_cast<int>(mesh.positions_m.size())});
+    for (std::size_t i = 0; i < mesh.positions_m.size(); ++i)
+      for (const Vec3& v : {mesh.positions_m[i], mesh.normals[i]})
+        for (int axis = 0; axis < 3; ++axis) vertices.push_back(static_cast<float>(v[axis]));
+  }
+  backend_->make_current();
+  gl_.BindVertexArray(vertex_array_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(vertices.size() * sizeof(float)), vertices.data(),
+                 GL_STATIC_DRAW);
+  for (unsigned attribute = 0; attribute < 2; ++attribute) {
+    const auto* offset = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(attribute * 3 * sizeof(float)));
+    gl_.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float), offset);
+    gl_.EnableVertexAttribArray(attribute);
+  }
+}
+
+Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int width, int height) {
+  backend_->make_current();
+  const int wide = width * kOversampling, high = height * kOversampling;
+  if (Result<Done> ready = target_.use(wide, high); !ready) return ready.issue();
+  const Eye eye(camera, width, height);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  draw_background();
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  begin_solid(eye);
+  for (const DrawInstance& instance : list.instances)
+    if (!instance.ghost) draw_instance(instance, eye, {});
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.DepthMask(GL_FALSE);
+  draw_ground(list, eye);
+  draw_shadows(list, eye);
+  draw_translucent(list, eye);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+  gl_.Disable(GL_DEPTH_TEST);
+  Image image = halve_and_flip(target_.read(), wide, high);
+  if (Result<Done> fine = gl_errors(); !fine) return fine.issue();
+  return image;
+}
+
+Result<std::vector<int>> Renderer::count_visible(const DrawList& list, const Camera& camera, int width, int height) {
+  backend_->make_current();
+  if (Result<Done> ready = target_.use(width, height); !ready) return ready.issue();
+  const Eye eye(camera, width, height);
+  gl_.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  begin_solid(eye);
+  std::vector<int> counts(1, 0);
+  for (const DrawInstance& instance : list.instances) {
+    if (instance.ghost) continue;
+    const Vec3 group(instance.highlight / 255.0, 0.0, 0.0);
+    counts.resize(std::max(counts.size(), static_cast<std::size_t>(instance.highlight) + 1), 0);
+    draw_instance(instance, eye, {.lit = false, .color = &group});
+  }
+  gl_.Disable(GL_DEPTH_TEST);
+  const std::vector<std::uint8_t>& pixels = target_.read();
+  for (std::size_t i = 0; i < pixels.size(); i += 4) ++counts[pixels[i]];
+  counts[0] = 0;
+  if (Result<Done> fine = gl_errors(); !fine) return fine.issue();
+  return counts;
+}
+
+void Renderer::draw_background() {
+  gl_.UseProgram(background_);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(no_vertices_);
+  gl_.Uniform4f(gl_.GetUniformLocation(background_, "bottom"), 0.800f, 0.822f, 0.850f, 1.0f);
+  gl_.Uniform4f(gl_.GetUniformLocation(background_, "top"), 0.938f, 0.949f, 0.962f, 1.0f);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::draw_ground(const DrawList& list, const Eye& eye) {
+  const auto set3 = [&](const char* name, const Vec3& v) {
+    gl_.Uniform3f(gl_.GetUniformLocation(ground_, name), static_cast<float>(v.x), static_cast<float>(v.y),
+                  static_cast<float>(v.z));
+  };
+  gl_.UseProgram(ground_);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(no_vertices_);
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(ground_, "clip_from_world"), 1, GL_FALSE,
+                       glm::value_ptr(eye.clip_from_world));
+  set3("middle", Vec3(0.0, list.ground_height_m - eye.center_m.y, 0.0));
+  set3("world_origin", -eye.center_m);
+  gl_.Uniform1f(gl_.GetUniformLocation(ground_, "reach"), static_cast<float>(0.75 * glm::length(eye.at)));
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
+  static constexpr Vec3 kBlack(0.05, 0.07, 0.10);
+  const double lifted = list.ground_height_m - eye.center_m.y + 0.001;
+  const glm::mat4 flatten = shadow_matrix(eye.to_light, lifted);
+  gl_.Enable(GL_STENCIL_TEST);  // Each pixel once, or shadows of several parts would add up.
+  gl_.StencilFunc(GL_EQUAL, 0, 0xff);
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  begin_solid(eye);
+  for (const DrawInstance& instance : list.instances)
+    if (!instance.ghost)
+      draw_instance(instance, eye, {.alpha = kShadowAlpha, .lit = false, .flatten = &flatten, .color = &kBlack});
+  gl_.Disable(GL_STENCIL_TEST);
+}
+
+void Renderer::draw_translucent(const DrawList& list, const Eye& eye) {
+  begin_solid(eye);
+  for (const DrawInstance& instance : list.instances)
+    if (instance.ghost) draw_instance(instance, eye, {.alpha = kGhostAlpha, .rim = 0.45f});
+  gl_.DepthFunc(GL_GREATER);  // Only where something is in front.
+  for (const DrawInstance& instance : list.instances)
+    if (instance.highlight > 0) draw_instance(instance, eye, {.alpha = kShineThroughAlpha});
+  gl_.DepthFunc(GL_LESS);
+}
+
+void Renderer::begin_solid(const Eye& eye) {
+  const auto set3 = [&](const char* name, const Vec3& v) {
+    gl_.Uniform3f(gl_.GetUniformLocation(solid_, name), static_cast<float>(v.x), static_cast<float>(v.y),
+                  static_cast<float>(v.z));
+  };
+  gl_.UseProgram(solid_);
+  gl_.BindVertexArray(vertex_array_);
+  gl_.Enable(GL_CULL_FACE);  // Counter-clockwise seen from outside; halves the work.
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "clip_from_world"), 1, GL_FALSE,
+                       glm::value_ptr(eye.clip_from_world));
+  set3("eye", eye.at);
+  set3("to_light", eye.to_light);
+}
+
+void Renderer::draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint) {
+  CONTORT_ASSERT(static_cast<std::size_t>(instance.mesh) < ranges_.size());
+  const Range& range = ranges_[static_cast<std::size_t>(instance.mesh)];
+  const Vec3& color = paint.color ? *paint.color : instance.color;
+  glm::mat4 world_from_mesh = float_matrix(instance.world_from_mesh, eye.center_m);
+  if (paint.flatten) world_from_mesh = *paint.flatten * world_from_mesh;
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "world_from_mesh"), 1, GL_FALSE,
+                       glm::value_ptr(world_from_mesh));
+  gl_.Uniform4f(gl_.GetUniformLocation(solid_, "color"), static_cast<float>(color.x), static_cast<float>(color.y),
+                static_cast<float>(color.z), paint.alpha);
+  gl_.Uniform1f(gl_.GetUniformLocation(solid_, "lit"), paint.lit ? 1.0f : 0.0f);
+  gl_.Uniform1f(gl_.GetUniformLocation(solid_, "rim"), paint.rim);
+  gl_.DrawArrays(GL_TRIANGLES, range.first, range.count);
+}
+
+}  // namespace contort

@@ -1,0 +1,109 @@
+// GLSL 3.30. "World" here has its origin at Camera::center_m, so that floats stay precise far from the origin.
+#pragma once
+
+namespace contort::shaders {
+
+// Everything with triangles. `lit` 0 writes the colour as it is, 1 shades it; `rim` is how much of a translucent
+// surface stays where one looks at it squarely (1: all). A software rasterizer feels each pow(): the highlight is a
+// 16th power by squaring, and gamma is 2.
+inline constexpr char kSolidVertex[] = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 clip_from_world;
+uniform mat4 world_from_mesh;
+out vec3 at;
+out vec3 facing;
+void main() {
+  vec4 world = world_from_mesh * vec4(position, 1.0);
+  at = world.xyz;
+  facing = mat3(world_from_mesh) * normal;
+  gl_Position = clip_from_world * world;
+}
+)";
+
+inline constexpr char kSolidFragment[] = R"(#version 330 core
+in vec3 at;
+in vec3 facing;
+uniform vec4 color;
+uniform vec3 eye;
+uniform vec3 to_light;
+uniform float lit;
+uniform float rim;
+out vec4 pixel;
+void main() {
+  if (lit < 0.5) {
+    pixel = color;
+    return;
+  }
+  vec3 n = normalize(facing);
+  vec3 view = normalize(eye - at);
+  float toward = dot(n, view);
+  vec3 hemisphere = mix(vec3(0.30, 0.28, 0.27), vec3(0.62, 0.66, 0.72), 0.5 + 0.5 * n.y);
+  float key = max(dot(n, to_light), 0.0);
+  float shine = max(dot(n, normalize(view + to_light)), 0.0);
+  shine *= shine, shine *= shine, shine *= shine, shine *= shine;
+  float edge = 1.0 - abs(toward);
+  vec3 light = hemisphere * (1.0 - 0.25 * edge * edge) + vec3(0.62, 0.60, 0.56) * key;
+  vec3 linear = color.rgb * light + vec3(0.10 * shine * key);
+  pixel = vec4(sqrt(min(linear, vec3(1.0))), color.a * mix(edge, 1.0, rim));
+}
+)";
+
+// One triangle that covers the picture, shaded from `bottom` to `top`.
+inline constexpr char kBackgroundVertex[] = R"(#version 330 core
+out float height;
+void main() {
+  vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+  height = corner.y;
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+inline constexpr char kBackgroundFragment[] = R"(#version 330 core
+in float height;
+uniform vec4 bottom;
+uniform vec4 top;
+out vec4 pixel;
+void main() { pixel = mix(bottom, top, clamp(height, 0.0, 1.0)); }
+)";
+
+// The ground: a square around `middle` with a line each metre, fainter ones each 25 cm, all fading toward `reach`.
+inline constexpr char kGroundVertex[] = R"(#version 330 core
+uniform mat4 clip_from_world;
+uniform vec3 middle;
+uniform float reach;
+out vec3 at;
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
+  at = middle + vec3(corner.x, 0.0, corner.y) * reach;
+  gl_Position = clip_from_world * vec4(at, 1.0);
+}
+)";
+
+inline constexpr char kGroundFragment[] = R"(#version 330 core
+in vec3 at;
+uniform vec3 middle;
+uniform vec3 world_origin;
+uniform float reach;
+out vec4 pixel;
+
+// Coverage of lines that are `width` pixels wide. Where several lines share a pixel they fade instead of flickering.
+float lines(vec2 place, float step, float width) {
+  vec2 coordinate = place / step;
+  vec2 per_pixel = max(fwidth(coordinate), vec2(1e-6));
+  vec2 away = abs(fract(coordinate - 0.5) - 0.5) / per_pixel;
+  vec2 cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0) * (1.0 - smoothstep(0.15, 0.5, per_pixel));
+  return max(cover.x, cover.y);
+}
+
+void main() {
+  vec2 place = (at - world_origin).xz;
+  float fade = 1.0 - smoothstep(0.35, 1.0, length((at - middle).xz) / reach);
+  float line = max(0.42 * lines(place, 1.0, 2.6), 0.16 * lines(place, 0.25, 1.6));
+  float alpha = fade * (0.20 + 0.80 * line);
+  vec3 color = mix(vec3(0.70, 0.73, 0.77), vec3(0.24, 0.29, 0.36), clamp(line * 2.0, 0.0, 1.0));
+  pixel = vec4(color, alpha);
+}
+)";
+
+}  // namespace contort::shaders

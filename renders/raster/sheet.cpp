@@ -1,0 +1,107 @@
+#include "renders/raster/sheet.h"
+
+#include <algorithm>
+#include <string>
+
+#include "renders/wording.h"
+
+namespace contort {
+namespace {
+
+constexpr int kHeader = 58;
+constexpr int kCaption = 24;
+constexpr int kGap = 2;
+constexpr int kPadding = 12;
+constexpr int kTitleSize = 18;
+constexpr int kTextSize = 14;
+constexpr int kCaptionSize = 13;
+
+constexpr Rgb8 kFrame{24, 29, 36};
+constexpr Rgb8 kBright{240, 243, 246};
+constexpr Rgb8 kDim{168, 177, 187};
+constexpr Rgb8 kAlarm{255, 138, 128};
+constexpr Rgb8 kCaptionCalm{57, 66, 78};
+constexpr Rgb8 kCaptionInside{112, 34, 34};
+constexpr Rgb8 kCaptionWorst{190, 30, 30};
+
+std::string range_text(int first, int last) {
+  return first == last ? "frame " + std::to_string(first)
+                       : "frames " + std::to_string(first) + "\xE2\x80\x93" + std::to_string(last);
+}
+
+std::string title_of(const StripInput& input) {
+  if (!input.title.empty() || !input.finding) return input.title.empty() ? input.character.name() : input.title;
+  return input.finding->check + "  " + input.finding->subject;
+}
+
+std::string summary_of(const StripInput& input) {
+  const Motion& motion = input.motion;
+  const Finding* f = input.finding;
+  if (!f) return range_text(0, motion.frame_count - 1) + ", " + time_text(motion.frame_count, motion.rate_hz);
+  return "worst " + margin_text(f->worst_margin, f->unit) + " at frame " + std::to_string(f->worst_frame) + ", " +
+         time_text(f->worst_frame, motion.rate_hz) + "; violated in " + range_text(f->first_frame, f->last_frame) +
+         " of " + std::to_string(motion.frame_count);
+}
+
+struct Caption {
+  std::string_view mark;
+  Rgb8 color;
+};
+
+Caption caption_of(const Finding* finding, int frame) {
+  if (!finding || frame < finding->first_frame || frame > finding->last_frame) return {"", kCaptionCalm};
+  if (frame == finding->worst_frame) return {"worst", kCaptionWorst};
+  if (frame == finding->first_frame) return {"first", kCaptionInside};
+  return {frame == finding->last_frame ? "last" : "", kCaptionInside};
+}
+
+}  // namespace
+
+int Sheet::picture_height(const StripInput& input) { return input.tile_height - kCaption; }
+
+double Sheet::picture_aspect(const StripInput& input) {
+  return static_cast<double>(input.tile_width) / picture_height(input);
+}
+
+Sheet::Sheet(const StripInput& input, int tiles) : input_(input), face_{input.font} {
+  const int columns = std::min(input.columns, tiles);
+  const int rows = (tiles + columns - 1) / columns;
+  image_ = Image(columns * (input.tile_width + kGap) + kGap, kHeader + rows * (input.tile_height + kGap));
+  fill(image_, 0, 0, image_.width, image_.height, kFrame);
+  write_header();
+}
+
+void Sheet::add_tile(const Image& picture, int frame, bool complete) {
+  const int column = added_ % input_.columns, row = added_ / input_.columns;
+  const int x = kGap + column * (input_.tile_width + kGap), y = kHeader + row * (input_.tile_height + kGap);
+  paste(image_, picture, x, y);
+  write_caption(x, y + picture.height, frame, complete);
+  ++added_;
+}
+
+void Sheet::write_header() {
+  const int width = image_.width - 2 * kPadding;
+  write(kPadding, 25, width, title_of(input_), kTitleSize, kBright);
+  write(kPadding, 47, width, summary_of(input_), kTextSize, input_.finding ? kAlarm : kDim);
+}
+
+void Sheet::write_caption(int x, int y, int frame, bool complete) {
+  const Caption caption = caption_of(input_.finding, frame);
+  fill(image_, x, y, input_.tile_width, kCaption, caption.color);
+  const int baseline = y + 17;
+  std::string text = "frame " + std::to_string(frame) + "  " + time_text(frame, input_.motion.rate_hz);
+  if (!complete) text += "  NOT FINITE";
+  const int mark_width = 8 * static_cast<int>(caption.mark.size());
+  const int room = input_.tile_width - 2 * kPadding;
+  write(x + kPadding, baseline, room - mark_width, text, kCaptionSize, kBright);
+  write(x + input_.tile_width - kPadding - mark_width, baseline, mark_width, caption.mark, kCaptionSize, kBright);
+}
+
+void Sheet::write(int x, int y, int width, std::string_view text, int size, Rgb8 color) {
+  if (text_issue_) return;  // One warning is enough.
+  const Result<Done> written =
+      write_text(image_, x, y, drawable_text(text, face_.fits(width, size)), size, color, face_);
+  if (!written) text_issue_ = written.issue();
+}
+
+}  // namespace contort

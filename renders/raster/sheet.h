@@ -1,0 +1,41 @@
+// The layout of a film strip: header, tiles, captions.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "renders/image.h"
+#include "renders/raster/picture.h"
+#include "renders/raster/strip.h"
+
+namespace contort {
+
+class Sheet {
+ public:
+  Sheet(const StripInput& input, int tiles);
+
+  int picture_width() const { return input_.tile_width; }
+  int picture_height() const { return picture_height(input_); }
+  static double picture_aspect(const StripInput& input);
+
+  // The next tile; `complete` false says so in its caption.
+  void add_tile(const Image& picture, int frame, bool complete);
+
+  // Why there is no text, if there is none.
+  const std::optional<Issue>& text_issue() const { return text_issue_; }
+  Image image() && { return std::move(image_); }
+
+ private:
+  static int picture_height(const StripInput& input);
+  void write_header();
+  void write_caption(int x, int y, int frame, bool complete);
+  void write(int x, int y, int width, std::string_view text, int size, Rgb8 color);
+
+  const StripInput& input_;
+  int added_ = 0;
+  Face face_;
+  std::optional<Issue> text_issue_;
+  Image image_;
+};
+
+}  // namespace contort

@@ -1,0 +1,41 @@
+// An off-screen picture with depth and stencil, and its way into memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "generator/core/result.h"
+#include "renders/image.h"
+#include "renders/raster/gl.h"
+
+namespace contort {
+
+class Target {
+ public:
+  explicit Target(const Gl& gl) : gl_(gl) {}
+  ~Target() { clear(); }
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  // Makes it the place that is drawn to, in this size. Codes: render.bad_size, render.framebuffer.
+  Result<Done> use(int width, int height);
+
+  // RGBA, 4 bytes per pixel, rows from the bottom (as OpenGL has them).
+  const std::vector<std::uint8_t>& read();
+
+ private:
+  void clear();
+
+  const Gl& gl_;
+  int width_ = 0;
+  int height_ = 0;
+  unsigned framebuffer_ = 0;
+  unsigned renderbuffers_[2] = {0, 0};  // colour, depth and stencil
+  std::vector<std::uint8_t> pixels_;
+};
+
+// Averages squares of 2 x 2 pixels and turns the rows over. This is the anti-aliasing: cheaper than multisampling with
+// a software rasterizer, and the same with every driver.
+Image halve_and_flip(const std::vector<std::uint8_t>& rgba, int width, int height);
+
+}  // namespace contort

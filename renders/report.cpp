@@ -1,0 +1,57 @@
+#include "renders/report.h"
+
+#include <cmath>
+
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
+
+namespace contort {
+namespace {
+
+using json_fields::Json;
+
+Json spec_of(const std::string& text) {
+  const Result<Json> spec = json_fields::parse_document(text);
+  return spec ? *spec : Json(text);  // What cannot be read is still shown.
+}
+
+Json row_json(const ReportRow& row) {
+  return {{"family", row.family},
+          {"check", row.check},
+          {"subject", row.subject},
+          {"unit", row.unit},
+          {"worst_margin", std::isfinite(row.worst_margin) ? Json(row.worst_margin) : Json()},  // null: not a number
+          {"cases_seen", row.cases_seen},
+          {"bucket", row.bucket},
+          {"state", row.state},
+          {"gating", row.gating},
+          {"spec", spec_of(row.spec_json)},
+          {"replay_command", row.replay_command},
+          {"strip", row.strip},
+          {"strip_worst", row.strip_worst},
+          {"first_frame", row.first_frame},
+          {"worst_frame", row.worst_frame},
+          {"last_frame", row.last_frame},
+          {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
+          {"features", row.features}};
+}
+
+}  // namespace
+
+std::string report_json(const ReportModel& model) {
+  Json json = {{"format", "contort.report/1"},  {"title", model.title},       {"cases", model.cases},
+               {"frames", model.frames},        {"findings", model.findings}, {"families", model.families},
+               {"buckets", model.buckets},      {"elapsed", model.elapsed},   {"rows", Json::array()},
+               {"tested", Json::array()}};
+  for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
+  for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Done> write_report(const ReportModel& model, const std::string& folder) {
+  if (Result<Done> made = make_folder(folder); !made) return made;
+  if (Result<Done> written = write_file(folder + "/report.json", report_json(model)); !written) return written;
+  return write_file(folder + "/index.html", report_html(model));
+}
+
+}  // namespace contort

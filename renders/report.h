@@ -1,0 +1,55 @@
+// The report: one static page that opens from a file, without server, network or, if need be, scripts; and the same
+// numbers as JSON next to it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/core/result.h"
+
+namespace contort {
+
+// A bucket of failures. Texts are hostile: names come from other people's files.
+struct ReportRow {
+  std::string family;   // rows of one family share a card
+  std::string check;    // "self_collision"
+  std::string subject;  // "arm_left/forearm ~ torso/chest"
+  std::string unit;     // of worst_margin
+  double worst_margin = 0.0;
+  std::int64_t cases_seen = 0;
+  std::string bucket;  // id
+  std::string state;   // "new", "open", "regressed", …
+  bool gating = false;
+  std::string spec_json;       // the minimal spec, laid out for reading
+  std::string replay_command;  // exactly what to type
+  std::string strip;           // film strip of the minimal case: a path relative to the page, "" where there is none
+  std::string strip_worst;     // of the worst case seen; may be ""
+  int first_frame = 0;
+  int worst_frame = 0;
+  int last_frame = 0;
+  double rate_hz = 60.0;
+  std::string features;  // what survived shrinking: "walk + aim_at, interrupt"
+};
+
+struct ReportModel {
+  std::string title;
+  std::int64_t cases = 0;
+  std::int64_t frames = 0;
+  std::int64_t findings = 0;
+  std::int64_t families = 0;
+  std::int64_t buckets = 0;
+  std::string elapsed;  // "12 min"; "" where the page has to be the same every time
+  std::vector<ReportRow> rows;
+  std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often
+};
+
+// Equal models give equal pages. Families that gate come first; else the order of the rows is kept.
+std::string report_html(const ReportModel& model);
+std::string report_json(const ReportModel& model);
+
+// index.html and report.json in `folder`, which is made if need be. Code: file.unwritable.
+Result<Done> write_report(const ReportModel& model, const std::string& folder);
+
+}  // namespace contort

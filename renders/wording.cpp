@@ -1,0 +1,88 @@
+#include "renders/wording.h"
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "generator/core/math.h"
+
+namespace contort {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
+constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char buffer[96];
+  std::snprintf(buffer, sizeof buffer, pattern, values...);
+  return buffer;
+}
+
+struct FamiliarUnit {
+  std::string_view stored, familiar;
+  double factor;
+};
+constexpr FamiliarUnit kFamiliarUnits[] = {
+    {"rad", "\xC2\xB0", kDegPerRad}, {"rad/s", "\xC2\xB0/s", kDegPerRad}, {"m", " mm", 1000.0}};
+
+// Length of the UTF-8 sequence at the front of `text`; 0 if it is broken, overlong, a surrogate or a control character.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  std::uint32_t code = lead & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool control = code < 0xa0 || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  return overlong || control || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff) ? 0 : length;
+}
+
+}  // namespace
+
+std::string margin_text(double margin, std::string_view unit) {
+  if (std::isnan(margin)) return "not a number";
+  std::string text = format("%.3g ", margin) + std::string(unit);
+  for (const FamiliarUnit& u : kFamiliarUnits)
+    if (u.stored == unit) text += format(" (%.1f", margin * u.factor) + std::string(u.familiar) + ")";
+  return text;
+}
+
+std::string time_text(int frame, double rate_hz) {
+  if (!(rate_hz > 0.0) || !std::isfinite(rate_hz)) return "";
+  return format("%.3f s", frame / rate_hz);
+}
+
+std::string count_text(std::int64_t count) {
+  std::string digits = std::to_string(count);
+  const std::size_t sign = count < 0 ? 1 : 0;
+  for (std::size_t i = digits.size(); i > sign + 3; i -= 3) digits.insert(i - 3, "\xE2\x80\xAF");
+  return digits;
+}
+
+std::string counted(std::int64_t count, std::string_view one, std::string_view many) {
+  return count_text(count) + " " + std::string(count == 1 ? one : many);
+}
+
+std::string one_line(std::string_view text, std::size_t max_chars) {
+  std::vector<std::string_view> characters;
+  while (!text.empty() && characters.size() <= max_chars) {
+    const std::size_t length = sequence_length(text);
+    characters.push_back(length == 0 ? kReplacement : text.substr(0, length));
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  if (characters.size() > max_chars) {
+    characters.resize(max_chars);
+    if (!characters.empty()) characters.back() = kEllipsis;
+  }
+  std::string line;
+  for (const std::string_view c : characters) line += c;
+  return line;
+}
+
+}  // namespace contort

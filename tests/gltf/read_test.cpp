@@ -1,0 +1,398 @@
+#include "generator/gltf/read.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "generator/gltf/from_model.h"
+#include "tests/gltf/glb_builder.h"
+
+namespace contort {
+namespace {
+
+using testing::ByteList;
+using testing::GlbBuilder;
+using testing::Json;
+using testing::pack_glb;
+using testing::small_arm;
+
+GltfAsset read(const GlbBuilder& builder) {
+  const auto result = parse_glb(builder.glb());
+  EXPECT_TRUE(result.ok()) << to_line(result.issue());
+  return result.ok() ? *result : GltfAsset{};
+}
+
+// ---- nodes
+
+TEST(ReadGltf, GivesNodesAsTheFileHasThem) {
+  const GltfAsset asset = read(small_arm());
+  ASSERT_EQ(asset.nodes.size(), 4U);
+  EXPECT_EQ(asset.nodes[1].name, "lower");
+  EXPECT_EQ(asset.nodes[1].label, "lower");
+  EXPECT_EQ(asset.nodes[1].parent, 0);
+  EXPECT_EQ(asset.nodes[1].rest.translation, Vec3(0, -0.5, 0));
+  EXPECT_EQ(asset.nodes[2].rest.scale, Vec3(1, 2, 1));
+  EXPECT_EQ(asset.nodes[3].parent, -1);
+  EXPECT_EQ(asset.nodes[3].rest, Trs{});
+}
+
+TEST(ReadGltf, OrdersParentsBeforeChildrenWhateverTheFileDoes) {
+  GlbBuilder b;
+  b.root["nodes"] = {Json::object(), {{"children", {0, 3}}}, {{"children", {1}}}, Json::object()};
+  const GltfAsset asset = read(b);
+  EXPECT_EQ(asset.order, (std::vector<int>{2, 1, 0, 3}));
+}
+
+TEST(ReadGltf, MakesLabelsForUnnamedAndDuplicateNodes) {
+  GlbBuilder b;
+  b.root["nodes"] = {{{"name", "hand"}}, Json::object(), {{"name", "hand"}}, {{"name", "hand#0"}}, {{"name", ""}}};
+  const GltfAsset asset = read(b);
+  std::vector<std::string> labels;
+  for (const GltfNode& node : asset.nodes) labels.push_back(node.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"hand#0#0", "#1", "hand#2", "hand#0", "#4"}));
+  EXPECT_EQ(asset.nodes[0].name, "hand");
+}
+
+RC_GTEST_PROP(ReadGltfProperty, LabelsAreUniqueAndKeepUniqueNames, ()) {
+  const auto names = *rc::gen::container<std::vector<std::string>>(
+      rc::gen::element<std::string>("", "a", "b", "a#0", "a#1", "#0", "#1", "#1#1", "c"));
+  const std::vector<std::string> labels = unique_labels(names);
+  RC_ASSERT(labels.size() == names.size());
+  RC_ASSERT(std::set<std::string>(labels.begin(), labels.end()).size() == labels.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    RC_ASSERT(!labels[i].empty() && labels[i].starts_with(names[i]));
+    if (!names[i].empty() && std::count(names.begin(), names.end(), names[i]) == 1) RC_ASSERT(labels[i] == names[i]);
+  }
+}
+
+// ---- matrices
+
+std::vector<double> compose(const Trs& trs) {
+  std::vector<double> m(16, 0.0);
+  for (int i = 0; i < 3; ++i) {
+    Vec3 axis(0.0);
+    axis[i] = trs.scale[i];
+    const Vec3 column = trs.rotation * axis;
+    for (int j = 0; j < 3; ++j) m[static_cast<std::size_t>(4 * i + j)] = column[j];
+    m[static_cast<std::size_t>(12 + i)] = trs.translation[i];
+  }
+  m[15] = 1.0;
+  return m;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::fabs(a[i] - b[i]));
+  return out;
+}
+
+double coordinate() { return *rc::gen::inRange(-1000, 1000) / 250.0; }
+
+// Signs of two scales and half a turn are one and the same matrix, so matrices are compared. Measured worst: 7e-15.
+RC_GTEST_PROP(ReadGltfProperty, AMatrixIsTheProductOfItsParts, ()) {
+  Trs trs;
+  trs.translation = {coordinate(), coordinate(), coordinate()};
+  trs.rotation = from_rotation_vector(Vec3(coordinate(), coordinate(), coordinate()));
+  trs.scale = {coordinate(), coordinate(), coordinate()};
+  Trs out;
+  RC_ASSERT(decompose(compose(trs), out));
+  RC_ASSERT(largest_difference(compose(out), compose(trs)) < 1e-13);
+  RC_ASSERT(std::fabs(glm::length(out.rotation) - 1.0) < 1e-14);
+}
+
+TEST(ReadGltf, DecomposesMirroringMatrices) {
+  GlbBuilder b;
+  b.root["nodes"] = {{{"matrix", {1, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}};
+  const Trs rest = read(b).nodes[0].rest;
+  EXPECT_EQ(rest.translation, Vec3(5, 6, 7));
+  EXPECT_DOUBLE_EQ(rest.scale.x * rest.scale.y * rest.scale.z, -2.0);
+  EXPECT_LT(largest_difference(compose(rest), {1, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}), 1e-15);
+}
+
+TEST(ReadGltf, KeepsMatricesOfScaleZeroFinite) {
+  for (const char* matrix : {"[0,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", "[0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,1]",
+                             "[0,0,0,0,0,0,0,0,0,0,0,0,1,2,3,1]"}) {
+    GlbBuilder b;
+    b.root["nodes"] = {{{"matrix", Json::parse(matrix)}}};
+    const Trs rest = read(b).nodes[0].rest;
+    EXPECT_DOUBLE_EQ(glm::length(rest.rotation), 1.0) << matrix;
+    EXPECT_EQ(rest.scale.x, 0.0) << matrix;
+  }
+}
+
+// ---- skins
+
+TEST(ReadGltf, GivesSkinsAndMarksTheirJoints) {
+  const GltfAsset asset = read(small_arm());
+  ASSERT_EQ(asset.skins.size(), 1U);
+  EXPECT_EQ(asset.skins[0].joints, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(asset.skins[0].skeleton, 0);
+  EXPECT_EQ(asset.skins[0].joint_from_mesh[2][3][1], 2.0);  // column 3, row 1
+  EXPECT_TRUE(asset.nodes[2].is_joint);
+  EXPECT_FALSE(asset.nodes[3].is_joint);
+}
+
+TEST(ReadGltf, TakesIdentityWhereASkinHasNoBindMatrices) {
+  GlbBuilder b = small_arm();
+  b.root["skins"][0].erase("inverseBindMatrices");
+  b.root["skins"][0].erase("skeleton");
+  const GltfAsset asset = read(b);
+  EXPECT_EQ(asset.skins[0].joint_from_mesh, std::vector<Mat4>(3, Mat4(1.0)));
+  EXPECT_EQ(asset.skins[0].skeleton, -1);
+}
+
+// ---- clips
+
+TEST(ReadGltf, GivesClipsWithTheirKeys) {
+  const GltfAsset asset = read(small_arm());
+  ASSERT_EQ(asset.clips.size(), 2U);
+  EXPECT_EQ(asset.clips[0].label, "wave");
+  const GltfChannel& turn = asset.clips[0].channels[0];
+  EXPECT_EQ(turn.node, 0);
+  EXPECT_EQ(turn.path, GltfPath::rotation);
+  EXPECT_EQ(turn.interpolation, GltfInterpolation::linear);
+  EXPECT_EQ(turn.times_s, (std::vector<double>{0.0, 1.0}));
+  EXPECT_NEAR(turn.values[4], 0.70710678, 1e-8);
+  const GltfChannel& move = asset.clips[1].channels[0];
+  EXPECT_EQ(move.interpolation, GltfInterpolation::step);
+  EXPECT_EQ(move.values, (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 2, 3}));
+  EXPECT_EQ(asset.clips[1].first_s, 0.25);
+  EXPECT_EQ(asset.clips[1].last_s, 2.0);
+}
+
+TEST(ReadGltf, TakesLinearWhereASamplerDoesNotSay) {
+  GlbBuilder b = small_arm();
+  b.root["animations"][1]["samplers"][0].erase("interpolation");
+  EXPECT_EQ(read(b).clips[1].channels[0].interpolation, GltfInterpolation::linear);
+}
+
+TEST(ReadGltf, LeavesOutWhatMovesNoNode) {
+  GlbBuilder b = small_arm();
+  b.root["animations"][0]["channels"][0]["target"]["path"] = "weights";
+  b.root["animations"][1]["channels"][0]["target"].erase("node");
+  const GltfAsset asset = read(b);
+  ASSERT_EQ(asset.clips.size(), 2U);
+  EXPECT_TRUE(asset.clips[0].channels.empty());
+  EXPECT_TRUE(asset.clips[1].channels.empty());
+  EXPECT_EQ(asset.clips[0].last_s, 0.0);
+}
+
+TEST(ReadGltf, CountsChannelsAsTheFileDoesAfterOneIsLeftOut) {
+  GlbBuilder b = small_arm();
+  Json& channels = b.root["animations"][0]["channels"];
+  channels.insert(channels.begin(), Json{{"sampler", 0}, {"target", {{"path", "rotation"}}}});
+  channels[1]["sampler"] = 9;
+  const auto result = parse_glb(b.glb());
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.issue().pointer, "/animations/0/channels/1/sampler");
+}
+
+TEST(ReadGltf, LeavesOutChannelsWithoutKeys) {
+  GlbBuilder b = small_arm();
+  b.root["accessors"][1]["count"] = 0;
+  b.root["accessors"][2]["count"] = 0;
+  const GltfAsset asset = read(b);
+  EXPECT_TRUE(asset.clips[0].channels.empty());
+  EXPECT_EQ(asset.clips[1].channels.size(), 1U);
+}
+
+TEST(ReadGltf, NormalisesRotationsThatAreNearlyUnit) {
+  GlbBuilder b = small_arm();
+  const float long_w = 1.005F;
+  std::memcpy(b.bin.data() + b.root["bufferViews"][2]["byteOffset"].get<std::size_t>() + 12, &long_w, 4);
+  EXPECT_EQ(read(b).clips[0].channels[0].values[3], 1.0);
+}
+
+// 45 degrees about z in all formats that the standard has for rotations.
+TEST(ReadGltf, ReadsRotationsAsNormalisedIntegers) {
+  const double z = 0.38268343;
+  const double w = 0.92387953;
+  const auto scaled = [](double v, double most) { return static_cast<int>(std::lround(v * most)); };
+  GlbBuilder b = small_arm();
+  const auto row = [&]<class T>(T, double most) {
+    return std::vector<T>{0, 0, static_cast<T>(scaled(z, most)), static_cast<T>(scaled(w, most))};
+  };
+  b.root["animations"] = Json::array();
+  const int time = b.add_scalars({0.5F});
+  const int outputs[] = {b.add(row(std::int8_t{}, 127), 5120, "VEC4", 4, true),
+                         b.add(row(std::uint8_t{}, 255), 5121, "VEC4", 4, true),
+                         b.add(row(std::int16_t{}, 32767), 5122, "VEC4", 4, true),
+                         b.add(row(std::uint16_t{}, 65535), 5123, "VEC4", 4, true)};
+  for (std::size_t i = 0; i < 4; ++i) b.add_channel(i, 0, "rotation", time, outputs[i]);
+  const GltfAsset asset = read(b);
+  const double tolerance[] = {4e-3, 2e-3, 2e-5, 1e-5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(asset.clips[i].channels[0].values[2], z, tolerance[i]);
+    EXPECT_NEAR(asset.clips[i].channels[0].values[3], w, tolerance[i]);
+  }
+}
+
+TEST(ReadGltf, RefusesIntegersThatAreNotNormalised) {
+  GlbBuilder b = small_arm();
+  const int output = b.add(std::vector<std::int16_t>{0, 0, 0, 1, 0, 0, 0, 1}, 5122, "VEC4", 4);
+  b.root["animations"][0]["samplers"][0]["output"] = output;
+  const auto result = parse_glb(b.glb());
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.issue().code, "gltf.bad_accessor");
+}
+
+TEST(ReadGltf, ReadsSparseAccessors) {
+  GlbBuilder b = small_arm();
+  const int indices = b.add(std::vector<std::uint16_t>{1}, 5123, "SCALAR", 1);
+  const int values = b.add_vec3({7, 8, 9});
+  b.root["accessors"][4]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", b.root["accessors"][static_cast<std::size_t>(indices)]["bufferView"]},
+                   {"componentType", 5123}}},
+      {"values", {{"bufferView", b.root["accessors"][static_cast<std::size_t>(values)]["bufferView"]}}}};
+  EXPECT_EQ(read(b).clips[1].channels[0].values, (std::vector<double>{0, 0, 0, 7, 8, 9, 1, 2, 3}));
+  b.root["accessors"][4].erase("bufferView");  // all others are zero then
+  EXPECT_EQ(read(b).clips[1].channels[0].values, (std::vector<double>{0, 0, 0, 7, 8, 9, 0, 0, 0}));
+  const std::uint16_t beyond = 3;
+  const std::size_t view = b.root["accessors"][static_cast<std::size_t>(indices)]["bufferView"];
+  std::memcpy(b.bin.data() + b.root["bufferViews"][view]["byteOffset"].get<std::size_t>(), &beyond, 2);
+  EXPECT_EQ(parse_glb(b.glb()).issue().code, "gltf.bad_index");
+}
+
+TEST(ReadGltf, ReadsElementsThatLieApart) {
+  GlbBuilder b = small_arm();
+  b.root["accessors"][4]["count"] = 2;
+  b.root["accessors"][3]["count"] = 2;
+  b.root["bufferViews"][4]["byteStride"] = 24;
+  EXPECT_EQ(read(b).clips[1].channels[0].values, (std::vector<double>{0, 0, 0, 1, 2, 3}));
+}
+
+// Written values come back bit by bit: nothing between the file and the asset rounds.
+RC_GTEST_PROP(ReadGltfProperty, KeysComeBackAsTheyAre, ()) {
+  const auto numbers = *rc::gen::suchThat(
+      rc::gen::container<std::vector<int>>(rc::gen::inRange(-100000, 100000)), [](const auto& v) { return v.size() >= 3; });
+  GlbBuilder b;
+  b.root["nodes"] = {Json::object()};
+  std::vector<float> times;
+  std::vector<float> values;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    times.push_back(static_cast<float>(i) / 7.0F);
+    for (std::size_t c = 0; c < 3; ++c) values.push_back(static_cast<float>(numbers[i + c]) / 3.0F);
+  }
+  b.root["animations"] = {Json::object()};
+  b.add_channel(0, 0, "translation", b.add_scalars(times), b.add_vec3(values));
+  const auto result = parse_glb(b.glb());
+  RC_ASSERT(result.ok());
+  const GltfChannel& channel = result->clips[0].channels[0];
+  RC_ASSERT(channel.times_s == std::vector<double>(times.begin(), times.end()));
+  RC_ASSERT(channel.values == std::vector<double>(values.begin(), values.end()));
+}
+
+TEST(ReadGltf, ReadsTheSmallestFile) {
+  const auto result = parse_glb(pack_glb("{\"asset\":{\"version\":\"2.0\"}}", {}));
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(*result, GltfAsset{});
+}
+
+// ---- files
+
+class GltfFiles : public ::testing::Test {
+ protected:
+  GltfFiles() : folder_(std::filesystem::temp_directory_path() / ("contort_gltf_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_ / "asset" / "buffers");
+  }
+  ~GltfFiles() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  // small_arm as text beside its buffer.
+  Result<GltfAsset> read_with_uri(const std::string& uri) const {
+    Json root = small_arm().document();
+    root["buffers"][0]["uri"] = uri;
+    write("asset/arm.gltf", root.dump());
+    return read_gltf((folder_ / "asset" / "arm.gltf").string());
+  }
+  static std::string bin() {
+    const ByteList bytes = small_arm().bin;
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(GltfFiles, BuffersMayBeFilesInTheAssetsFolder) {
+  write("asset/arm.bin", bin());
+  write("asset/buffers/an arm+.bin", bin() + "more bytes than are needed");
+  const auto same = parse_glb(small_arm().glb());
+  for (const char* uri : {"arm.bin", "./arm.bin", "buffers/an%20arm+.bin", "buffers/an arm%2b.bin"}) {
+    const auto result = read_with_uri(uri);
+    ASSERT_TRUE(result.ok()) << uri << " " << to_line(result.issue());
+    EXPECT_EQ(*result, *same) << uri;
+  }
+}
+
+TEST_F(GltfFiles, BuffersMayBeDataUris) {
+  GlbBuilder b;
+  b.root["nodes"] = {Json::object()};
+  b.root["animations"] = {Json::object()};
+  b.root["buffers"] = {{{"byteLength", 16}, {"uri", "data:application/octet-stream;base64,AAAAPwAAgD8AAABAAABAQA=="}}};
+  b.root["bufferViews"] = {{{"buffer", 0}, {"byteLength", 4}},
+                           {{"buffer", 0}, {"byteOffset", 4}, {"byteLength", 12}}};
+  b.root["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}},
+                         {{"bufferView", 1}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}}};
+  b.add_channel(0, 0, "translation", 0, 1);
+  const auto result = parse_glb(pack_glb(b.root.dump(), {}));
+  ASSERT_TRUE(result.ok()) << to_line(result.issue());
+  EXPECT_EQ(result->clips[0].channels[0].times_s, std::vector<double>{0.5});
+  EXPECT_EQ(result->clips[0].channels[0].values, (std::vector<double>{1, 2, 3}));
+}
+
+TEST_F(GltfFiles, BuffersMayNotLieElsewhere) {
+  write("outside.bin", bin());
+  std::filesystem::create_directories(folder_ / "asset2");
+  write("asset2/near.bin", bin());  // "asset" is a prefix of "asset2", but not its folder
+  const std::string absolute = (folder_ / "outside.bin").string();
+  for (const std::string& uri : {std::string("../outside.bin"), std::string("buffers/../../outside.bin"),
+                                 std::string("%2e%2e/outside.bin"), std::string("..%2Foutside.bin"), absolute,
+                                 "file://" + absolute, std::string("http://example.com/x.bin"),
+                                 std::string("..\\outside.bin"), std::string("C:/x.bin"), std::string("../asset2/near.bin"),
+                                 std::string(""), std::string("arm%zz.bin"), std::string("arm.bin%00.png")}) {
+    const auto result = read_with_uri(uri);
+    ASSERT_FALSE(result.ok()) << uri;
+    EXPECT_EQ(result.issue().code, "gltf.bad_uri") << uri;
+    EXPECT_EQ(result.issue().pointer, "/buffers/0/uri") << uri;
+  }
+}
+
+TEST_F(GltfFiles, SymbolicLinksMayNotLeadOut) {
+  write("outside.bin", bin());
+  write("asset/arm.bin", bin());
+  std::filesystem::create_symlink(folder_ / "outside.bin", folder_ / "asset" / "out.bin");
+  std::filesystem::create_directory_symlink(folder_, folder_ / "asset" / "up");
+  std::filesystem::create_symlink("arm.bin", folder_ / "asset" / "in.bin");
+  EXPECT_EQ(read_with_uri("out.bin").issue().code, "gltf.bad_uri");
+  EXPECT_EQ(read_with_uri("up/outside.bin").issue().code, "gltf.bad_uri");
+  EXPECT_TRUE(read_with_uri("in.bin").ok());
+}
+
+TEST_F(GltfFiles, MissingShortAndEmptyFilesAreRefused) {
+  EXPECT_EQ(read_with_uri("nothing.bin").issue().code, "gltf.missing_file");
+  EXPECT_EQ(read_with_uri("buffers").issue().code, "gltf.missing_file");
+  write("asset/short.bin", bin().substr(1));
+  EXPECT_EQ(read_with_uri("short.bin").issue().code, "gltf.truncated");
+  write("asset/empty.bin", "");
+  EXPECT_EQ(read_with_uri("empty.bin").issue().code, "gltf.truncated");
+}
+
+TEST_F(GltfFiles, OnlyRegularFilesAreOpened) {
+  EXPECT_EQ(read_gltf(folder_.string()).issue().code, "gltf.unreadable");
+  EXPECT_EQ(read_gltf((folder_ / "nothing.glb").string()).issue().code, "gltf.unreadable");
+  EXPECT_EQ(read_gltf("/dev/zero").issue().code, "gltf.unreadable");
+}
+
+TEST_F(GltfFiles, AFileNamedGlbMustBeOne) {
+  write("asset/arm.glb", "{}");
+  EXPECT_EQ(read_gltf((folder_ / "asset" / "arm.glb").string()).issue().code, "gltf.truncated");
+}
+
+}  // namespace
+}  // namespace contort

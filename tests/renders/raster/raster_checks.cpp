@@ -1,0 +1,180 @@
+// The renderer with hand-made scenes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "renders/raster/auto_camera.h"
+#include "renders/raster/renderer.h"
+
+namespace contort {
+namespace {
+
+constexpr Vec3 kRed{0.8, 0.03, 0.03};
+constexpr int kWidth = 160, kHeight = 120;
+
+// A wall at z = 0 and balls in front of it and behind it.
+struct Scene {
+  std::vector<Triangles> meshes{tessellate(Box{Vec3(0.0, 1.0, 0.0), Vec3(0.8, 0.8, 0.05), Vec3(0.0)}),
+                                tessellate(Sphere{Vec3(0.0), 0.3})};
+  DrawInstance wall{.mesh = 0, .world_from_mesh = {}, .color = Vec3(0.6)};
+  static DrawInstance ball(double z_m, int highlight) {
+    return {.mesh = 1, .world_from_mesh = {kNoRotation, Vec3(0.0, 1.0, z_m)}, .color = kRed, .highlight = highlight};
+  }
+};
+
+std::unique_ptr<Renderer> make_renderer() {
+  Result<std::unique_ptr<GlBackend>> backend = make_osmesa_backend();
+  if (!backend) throw std::runtime_error(to_line(backend.issue()));
+  Result<std::unique_ptr<Renderer>> renderer = Renderer::create(std::move(backend).value());
+  if (!renderer) throw std::runtime_error(to_line(renderer.issue()));
+  return std::move(renderer).value();
+}
+
+Camera front() {
+  const Vec3 corners[] = {{-0.8, 0.2, -0.8}, {0.8, 1.8, 0.8}};
+  return frame_points(corners, {0.0, 0.0}, static_cast<double>(kWidth) / kHeight);
+}
+
+Image draw(const DrawList& list) {
+  const Scene scene;
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  return renderer->draw(list, front(), kWidth, kHeight).value();
+}
+
+DrawList list_of(std::vector<DrawInstance> instances) {
+  DrawList list;
+  list.instances = std::move(instances);
+  return list;
+}
+
+// How much redder than green the picture is, summed up.
+long redness(const Image& image) {
+  long sum = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) sum += std::max(0, image.rgb[i] - image.rgb[i + 1] - 20);
+  return sum;
+}
+
+int differing_pixels(const Image& a, const Image& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
+    count += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
+  return count;
+}
+
+TEST(Renderer, SaysWhatItDrawsWith) {
+  const std::string description = make_renderer()->description();
+  EXPECT_NE(description.find("Mesa"), std::string::npos) << description;
+}
+
+TEST(Renderer, DrawsSomething) {
+  const Image empty = draw({}), wall = draw(list_of({Scene().wall}));
+  ASSERT_EQ(wall.width, kWidth);
+  ASSERT_EQ(wall.height, kHeight);
+  EXPECT_GT(differing_pixels(empty, wall), kWidth * kHeight / 10);
+  EXPECT_FALSE(std::equal(empty.pixel(kWidth / 2, kHeight / 2), empty.pixel(kWidth / 2, kHeight / 2) + 3,
+                          wall.pixel(kWidth / 2, kHeight / 2)));
+}
+
+TEST(Renderer, HasTheSkyAbove) {
+  const Image empty = draw({});
+  EXPECT_GT(empty.pixel(5, 0)[0], empty.pixel(5, kHeight - 1)[0] + 10);
+}
+
+TEST(Renderer, DrawsTheSameBytesAgain) {
+  const DrawList list = list_of({Scene().wall, Scene::ball(-0.5, 1), Scene::ball(0.5, 0)});
+  EXPECT_EQ(draw(list), draw(list));
+}
+
+TEST(Renderer, DrawsTheSameAfterAnotherSize) {
+  const Scene scene;
+  const DrawList list = list_of({scene.wall, Scene::ball(0.5, 1)});
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  ASSERT_TRUE(renderer->count_visible(list, front(), 96, 72).ok());
+  ASSERT_TRUE(renderer->draw(list, front(), 33, 77).ok());
+  EXPECT_EQ(renderer->draw(list, front(), kWidth, kHeight).value(), draw(list));
+}
+
+TEST(Renderer, KeepsTwoContextsApart) {
+  const Scene scene;
+  const DrawList list = list_of({scene.wall, Scene::ball(0.5, 1)});
+  const std::unique_ptr<Renderer> a = make_renderer(), b = make_renderer();
+  a->set_meshes(scene.meshes);
+  b->set_meshes(std::span(scene.meshes).subspan(0, 1));
+  EXPECT_EQ(a->draw(list, front(), kWidth, kHeight).value(), draw(list));
+}
+
+TEST(Renderer, LetsAHiddenHighlightShineThrough) {
+  const long hidden = redness(draw(list_of({Scene().wall, Scene::ball(-0.5, 0)})));
+  const long highlighted = redness(draw(list_of({Scene().wall, Scene::ball(-0.5, 1)})));
+  const long visible = redness(draw(list_of({Scene().wall, Scene::ball(0.5, 1)})));
+  EXPECT_EQ(hidden, 0);
+  EXPECT_GT(highlighted, 1000);
+  EXPECT_GT(visible, 2 * highlighted);  // it must not look as if nothing were in front
+}
+
+TEST(Renderer, DrawsGhostsThinly) {
+  DrawInstance ghost = Scene::ball(0.5, 0);
+  ghost.ghost = true;
+  const long solid = redness(draw(list_of({Scene().wall, Scene::ball(0.5, 0)})));
+  const long thin = redness(draw(list_of({Scene().wall, ghost})));
+  EXPECT_GT(thin, solid / 10);
+  EXPECT_LT(thin, solid * 3 / 4);
+}
+
+TEST(Renderer, CountsWhatIsVisible) {
+  const Scene scene;
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  const auto count = [&](const DrawList& list) { return renderer->count_visible(list, front(), 96, 72).value(); };
+  const std::vector<int> visible = count(list_of({scene.wall, Scene::ball(0.5, 1), Scene::ball(-0.5, 2)}));
+  ASSERT_EQ(visible.size(), 3u);
+  EXPECT_EQ(visible[0], 0);
+  EXPECT_GT(visible[1], 100);
+  EXPECT_EQ(visible[2], 0);
+}
+
+TEST(Renderer, RefusesSizesThatCannotBe) {
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  for (const int side : {0, -1, 100000}) {
+    const Result<Image> image = renderer->draw({}, front(), side, 64);
+    ASSERT_FALSE(image.ok());
+    EXPECT_EQ(image.issue().code, "render.bad_size");
+  }
+  EXPECT_TRUE(renderer->draw({}, front(), 64, 64).ok());  // and goes on
+}
+
+TEST(BestView, LooksFromTheSideThatShowsTheHighlight) {
+  const Scene scene;
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  for (const double side : {-1.0, 1.0}) {
+    const DrawList list = list_of({scene.wall, Scene::ball(0.5 * side, 1)});
+    const ProbedView found = best_view(*renderer, list, scene.meshes).value();
+    EXPECT_GT(found.visible_pixels, 50);
+    EXPECT_LT(std::abs(found.view.azimuth_rad) * kDegPerRad * side, 91.0 * side);
+  }
+}
+
+TEST(BestView, ShowsTheSmallerOfAPair) {
+  Scene scene;
+  scene.wall.highlight = 1;
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  const DrawList list = list_of({scene.wall, Scene::ball(-0.4, 2)});
+  const ProbedView found = best_view(*renderer, list, scene.meshes).value();
+  EXPECT_GT(std::abs(found.view.azimuth_rad), 89.0 * kRadPerDeg);
+}
+
+TEST(BestView, HasADefault) {
+  const Scene scene;
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  const ProbedView found = best_view(*renderer, list_of({scene.wall}), scene.meshes).value();
+  EXPECT_EQ(found.view.azimuth_rad, probe_views().front().azimuth_rad);
+  EXPECT_EQ(found.visible_pixels, 0);
+}
+
+}  // namespace
+}  // namespace contort

@@ -1,0 +1,215 @@
+// Film strips of stock characters, from the finding to the file.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "generator/character/library.h"
+#include "generator/core/files.h"
+#include "renders/image.h"
+#include "renders/raster/picture.h"
+#include "renders/raster/strip.h"
+
+namespace contort {
+namespace {
+
+const Character& human() {
+  static const Character character = build_character(CharacterChoice{}, stock_library()).value();
+  return character;
+}
+
+// The left elbow bends more and more, at rest otherwise.
+Motion bending(int frames) {
+  Motion motion;
+  motion.frame_count = frames;
+  motion.coord_count = human().coord_count();
+  const Joint& elbow = human().joints()[static_cast<std::size_t>(human().find_joint("arm_left/elbow"))];
+  for (int f = 0; f < frames; ++f) {
+    motion.root.push_back(human().rest_root());
+    motion.coords.insert(motion.coords.end(), human().rest_coords().begin(), human().rest_coords().end());
+    const double share = frames > 1 ? static_cast<double>(f) / (frames - 1) : 0.0;
+    motion.row(f)[static_cast<std::size_t>(elbow.coord)] = elbow.low + share * (elbow.high - elbow.low);
+  }
+  return motion;
+}
+
+Finding collision() {
+  return {"self_collision", "arm_left/forearm ~ torso/chest", "m", 40, 55, 80, -0.0234, 1.2};
+}
+
+class Strip : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / "contort_strips" /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string bytes(const std::string& name) const { return read_file(path(name)).value(); }
+  StripInput input() const { return StripInput{human(), motion_, &finding_}; }
+
+  std::filesystem::path folder_;
+  Motion motion_ = bending(120);
+  Finding finding_ = collision();
+};
+
+struct Png {
+  Image image;
+  std::string comment;
+};
+
+Png read_png(const std::string& path) {
+  const auto file = OIIO::ImageInput::open(path);
+  if (!file) throw std::runtime_error(OIIO::geterror());
+  Png png{Image(file->spec().width, file->spec().height), file->spec().get_string_attribute("Comment")};
+  EXPECT_EQ(file->spec().nchannels, 3);
+  file->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, png.image.rgb.data());
+  return png;
+}
+
+// Saturated red between the header and the captions, which are red themselves.
+int red_pixels(const Image& image, const StripInput& input) {
+  int count = 0;
+  for (int y = 60; y < 60 + input.tile_height - 30; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.pixel(x, y);
+      count += p[0] > 120 && p[1] < 80 && p[2] < 80 ? 1 : 0;
+    }
+  return count;
+}
+
+TEST_F(Strip, IsAPngOfTheSizeOfItsTiles) {
+  const Result<StripDone> done = render_strip(input(), path("a.png"));
+  ASSERT_TRUE(done.ok()) << to_line(done.issue());
+  EXPECT_EQ(done->frames.size(), 8u);
+  EXPECT_TRUE(done->warnings.empty());
+  EXPECT_GT(done->visible_pixels, 0);
+  const Image image = read_png(path("a.png")).image;
+  EXPECT_GE(image.width, 4 * 320);
+  EXPECT_GE(image.height, 2 * 240);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);  // no temporary file stays
+}
+
+TEST_F(Strip, HasTheSameBytesAgain) {
+  StripRenderer renderer = StripRenderer::create().value();
+  ASSERT_TRUE(render_strip(input(), path("a.png")).ok());
+  ASSERT_TRUE(renderer.render(input(), path("b.png")).ok());
+  StripInput other = input();
+  other.finding = nullptr;
+  ASSERT_TRUE(renderer.render(other, path("c.png")).ok());
+  ASSERT_TRUE(renderer.render(input(), path("d.png")).ok());
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  EXPECT_EQ(bytes("a.png"), bytes("d.png"));
+  EXPECT_NE(bytes("a.png"), bytes("c.png"));
+}
+
+TEST_F(Strip, IsRedWhereTheFindingIs) {
+  ASSERT_TRUE(render_strip(input(), path("with.png")).ok());
+  EXPECT_GT(red_pixels(read_png(path("with.png")).image, input()), 500);
+  StripInput without = input();
+  without.finding = nullptr;
+  const Result<StripDone> done = render_strip(without, path("without.png"));
+  ASSERT_TRUE(done.ok());
+  EXPECT_EQ(done->frames.back(), 119);
+  EXPECT_EQ(red_pixels(read_png(path("without.png")).image, without), 0);
+}
+
+TEST_F(Strip, HighlightsJoints) {
+  finding_.check = "joint_range";
+  finding_.subject = "arm_left/elbow max";
+  ASSERT_TRUE(render_strip(input(), path("a.png")).ok());
+  EXPECT_GT(red_pixels(read_png(path("a.png")).image, input()), 200);
+}
+
+TEST_F(Strip, CarriesTheReplayCommand) {
+  StripInput with = input();
+  with.replay_command = "contort replay corpus/x/min.json --note 'a \"b\" <c>'";
+  ASSERT_TRUE(render_strip(with, path("a.png")).ok());
+  EXPECT_EQ(read_png(path("a.png")).comment, with.replay_command);
+}
+
+TEST_F(Strip, ShowsUnknownSubjectsAndHostileNamesToo) {
+  finding_.subject = std::string("\"><script>\xff\0\n\x1b[31m", 16) + std::string(10000, 'x');
+  finding_.worst_margin = std::nan("");
+  finding_.first_frame = -5;
+  finding_.worst_frame = 1 << 30;
+  const Result<StripDone> done = render_strip(input(), path("a.png"));
+  ASSERT_TRUE(done.ok());
+  EXPECT_EQ(done->visible_pixels, 0);
+}
+
+TEST_F(Strip, ShowsMotionsThatAreNotFinite) {
+  for (std::size_t f = 50; f < 60; ++f) motion_.root[f].p_m.x = std::numeric_limits<double>::quiet_NaN();
+  motion_.coords[motion_.coords.size() / 2] = std::numeric_limits<double>::infinity();
+  motion_.root[80].p_m.z = 1e300;
+  EXPECT_TRUE(render_strip(input(), path("some.png")).ok());
+  for (Rigid& root : motion_.root) root.p_m.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(render_strip(input(), path("all.png")).ok());
+}
+
+TEST_F(Strip, DrawsAGhostBehindTheMotion) {
+  const Motion target = bending(60);
+  StripInput with = input();
+  with.ghost = &target;
+  ASSERT_TRUE(render_strip(with, path("with.png")).ok());
+  ASSERT_TRUE(render_strip(input(), path("without.png")).ok());
+  EXPECT_NE(bytes("with.png"), bytes("without.png"));
+}
+
+TEST_F(Strip, IsWrittenWithoutTextWhereThereIsNoFont) {
+  StripInput no_font = input();
+  no_font.font = path("none.ttf");
+  const Result<StripDone> done = render_strip(no_font, path("a.png"));
+  ASSERT_TRUE(done.ok());
+  ASSERT_EQ(done->warnings.size(), 1u);
+  EXPECT_EQ(done->warnings[0].code, "render.no_font");
+  EXPECT_NE(done->warnings[0].text.find("fonts-dejavu-core"), std::string::npos);
+  EXPECT_GT(red_pixels(read_png(path("a.png")).image, no_font), 500);
+}
+
+TEST_F(Strip, HasFewerTilesForAShortMotion) {
+  motion_ = bending(1);
+  finding_.first_frame = finding_.worst_frame = finding_.last_frame = 0;
+  const Result<StripDone> done = render_strip(input(), path("a.png"));
+  ASSERT_TRUE(done.ok());
+  EXPECT_EQ(done->frames, std::vector<int>{0});
+  EXPECT_LT(read_png(path("a.png")).image.width, 2 * 320);
+}
+
+TEST_F(Strip, SaysWhyThereIsNone) {
+  const auto code = [&](const StripInput& bad, const std::string& to) {
+    const Result<StripDone> done = render_strip(bad, to);
+    return done ? std::string("none") : done.issue().code;
+  };
+  std::ofstream(path("file")) << "x";
+  EXPECT_EQ(code(input(), path("file/below.png")), "file.unwritable");
+  EXPECT_EQ(code(input(), path("no/such/folder/a.png")), "file.unwritable");
+  StripInput narrow = input();
+  narrow.tile_width = 10;
+  EXPECT_EQ(code(narrow, path("a.png")), "render.bad_size");
+  StripInput none = input();
+  none.tiles = 0;
+  EXPECT_EQ(code(none, path("a.png")), "render.bad_size");
+  const Motion empty = bending(0);
+  EXPECT_EQ(code(StripInput{human(), empty, &finding_}, path("a.png")), "render.no_frames");
+  Motion other = motion_;
+  other.coord_count += 1;
+  EXPECT_EQ(code(StripInput{human(), other, &finding_}, path("a.png")), "render.wrong_motion");
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+}
+
+TEST(DrawableText, IsAsciiThatFits) {
+  EXPECT_EQ(drawable_text("-12.0\u00B0 40\u201380 caf\u00E9 a\nb", 60), "-12.0 deg 40-80 caf? a?b");
+  EXPECT_EQ(drawable_text("abcdefghij", 8), "abcde...");
+  EXPECT_EQ(drawable_text("abcdefghij", 2), "ab");
+  EXPECT_EQ(drawable_text("abc", -1), "");
+}
+
+}  // namespace
+}  // namespace contort

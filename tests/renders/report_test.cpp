@@ -1,0 +1,225 @@
+#include "renders/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "generator/core/files.h"
+#include "renders/html.h"
+
+namespace contort {
+namespace {
+
+constexpr char kHostile[] = "\"><script>alert(1)</script>' onerror=alert(2) x='<!--";
+
+ReportRow row_of(const std::string& check, const std::string& subject, const std::string& state, bool gating) {
+  ReportRow row;
+  row.family = check + "|" + subject;
+  row.check = check;
+  row.subject = subject;
+  row.unit = "m";
+  row.worst_margin = -0.0234;
+  row.cases_seen = 1280;
+  row.bucket = check + "-5f0c9a17";
+  row.state = state;
+  row.gating = gating;
+  row.spec_json = "{\n  \"character\": \"human\"\n}";
+  row.replay_command = "contort replay corpus/" + row.bucket + "/min.json";
+  row.strip = "strips/" + row.bucket + ".png";
+  row.first_frame = 40, row.worst_frame = 55, row.last_frame = 80;
+  row.features = "reach";
+  return row;
+}
+
+ReportModel model_of(std::vector<ReportRow> rows) {
+  ReportModel model;
+  model.title = "nightly";
+  model.cases = 2048;
+  model.rows = std::move(rows);
+  return model;
+}
+
+std::size_t count(std::string_view text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + what.size())) ++n;
+  return n;
+}
+
+bool contains(std::string_view text, std::string_view what) { return count(text, what) > 0; }
+
+// What a browser would take for markup: the page without its two fixed blocks.
+std::string body_of(const std::string& html) { return html.substr(html.find("<body>")); }
+
+TEST(Html, EscapesText) {
+  EXPECT_EQ(html_text("<a href=\"x\" id='y'>&amp;"), "&lt;a href=&quot;x&quot; id=&#39;y&#39;&gt;&amp;amp;");
+  EXPECT_EQ(html_text("a\nb"), "a\uFFFDb");
+  EXPECT_EQ(html_lines("a<\n\nb\n"), "a&lt;\n\nb\n");
+  EXPECT_EQ(html_lines(""), "");
+}
+
+TEST(Html, KeepsUrlsBelowThePage) {
+  EXPECT_EQ(html_url("strips/a b#1?.png"), "strips/a%20b%231%3F.png");
+  EXPECT_EQ(html_url("a..b/c.png"), "a..b/c.png");
+  EXPECT_EQ(html_url("javascript:alert(1)"), "javascript%3Aalert%281%29");  // a file name, not a scheme
+  for (const char* bad : {"", "/etc/passwd", "//host/x", "../x", "a/../../x", "a/.."})
+    EXPECT_EQ(html_url(bad), "") << bad;
+}
+
+TEST(Html, MakesIds) { EXPECT_EQ(html_id("joint range|\"'<\xC3\xA9-_9"), "joint-range-------_9"); }
+
+TEST(Report, NamesNewFailuresFirst) {
+  const std::string html = report_html(model_of({row_of("joint_range", "a", "new", true)}));
+  EXPECT_TRUE(contains(html, "<h1>1 new failure</h1>"));
+  EXPECT_TRUE(contains(html, "class='verdict bad'"));
+  EXPECT_TRUE(contains(html, "In 1 family"));
+}
+
+TEST(Report, CountsWhatGatesByState) {
+  const std::string html = report_html(model_of({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true),
+                                                 row_of("c", "d", "open", false)}));
+  EXPECT_TRUE(contains(html, "<h1>2 gating failures</h1>"));
+  EXPECT_TRUE(contains(html, "In 2 families: 1 new, 1 regressed. Known, not gating: 1 open."));
+}
+
+TEST(Report, SaysWhenNothingGates) {
+  const std::string html = report_html(model_of({row_of("c", "d", "open", false)}));
+  EXPECT_TRUE(contains(html, "<h1>Nothing gating</h1>"));
+  EXPECT_TRUE(contains(html, "class='verdict good'"));
+}
+
+TEST(Report, IsNotGreenWithoutWork) {
+  const std::string html = report_html(ReportModel{});
+  EXPECT_TRUE(contains(html, "<h1>Nothing was tested</h1>"));
+  EXPECT_FALSE(contains(html, "verdict good"));
+}
+
+TEST(Report, ShowsEverythingOfARow) {
+  ReportRow row = row_of("self_collision", "arm_left/forearm ~ torso/chest", "new", true);
+  row.strip_worst = "strips/worst.png";
+  const std::string html = report_html(model_of({row}));
+  for (const char* wanted :
+       {"self_collision</span>", "arm_left/forearm ~ torso/chest</span>", "-0.0234 m (-23.4 mm)", "frame 55, 0.917 s",
+        "frames 40\u201380", "1\u202F280 cases", "reach", "self_collision-5f0c9a17", "<details>", "Minimal spec",
+        "&quot;character&quot;: &quot;human&quot;", "contort replay corpus/self_collision-5f0c9a17/min.json</code>",
+        "src='strips/self_collision-5f0c9a17.png'", "src='strips/worst.png'", "loading='lazy'", "alt='Film strip",
+        "data-missing='picture missing: contort replay", "class='copy'"})
+    EXPECT_TRUE(contains(html, wanted)) << wanted;
+}
+
+TEST(Report, SaysWhereAPictureIsMissing) {
+  ReportRow row = row_of("c", "a", "new", true);
+  for (const char* none : {"", "../outside.png"}) {
+    row.strip = none;
+    const std::string html = report_html(model_of({row}));
+    EXPECT_FALSE(contains(html, "<img"));
+    EXPECT_TRUE(contains(html, "picture missing: contort replay"));
+  }
+}
+
+TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
+  std::vector<ReportRow> rows = {row_of("c", "known", "open", false), row_of("c", "both", "open", false),
+                                 row_of("c", "known", "open", false), row_of("c", "both", "new", true)};
+  const std::string html = report_html(model_of(rows));
+  EXPECT_EQ(count(html, "<article"), 2u);
+  EXPECT_EQ(count(html, "<section class='bucket'"), 4u);
+  EXPECT_EQ(count(html, "1 more bucket</summary>"), 2u);
+  EXPECT_LT(html.find("both</span>"), html.find("known</span>"));
+}
+
+TEST(Report, ListsWhatWasTested) {
+  ReportModel model = model_of({});
+  model.tested = {{"action walk", 100}, {"action recoil", 0}};
+  const std::string html = report_html(model);
+  EXPECT_TRUE(contains(html, "action walk</th><td>100</td>"));
+  EXPECT_TRUE(contains(html, "<tr class='never'><th scope='row'>action recoil"));
+  EXPECT_TRUE(contains(html, "width='100.00'"));
+}
+
+ReportModel hostile_model() {
+  ReportRow row;
+  for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,
+                            &row.replay_command, &row.strip, &row.strip_worst, &row.features})
+    *text = kHostile;
+  row.worst_margin = std::nan("");
+  row.rate_hz = std::nan("");
+  ReportModel model = model_of({row, row});
+  model.title = model.elapsed = kHostile;
+  model.tested = {{kHostile, 1}, {"\xff\xfe\x01", -5}};
+  return model;
+}
+
+TEST(Report, EscapesEveryText) {
+  const std::string html = report_html(hostile_model()), body = body_of(html);
+  EXPECT_FALSE(contains(body, "<script"));
+  EXPECT_FALSE(contains(body, "<!--"));
+  EXPECT_FALSE(contains(body, "\""));  // our own attributes have single quotes: any double one is not ours
+  EXPECT_FALSE(contains(body, "' onerror"));
+  EXPECT_EQ(count(html, "<script"), 1u);
+  EXPECT_EQ(count(html, "</script"), 1u);
+  EXPECT_EQ(count(html, "<title>"), 1u);
+}
+
+TEST(Report, KeepsAScriptEndInASpecAsText) {
+  ReportRow row = row_of("c", "a", "new", true);
+  row.spec_json = "{\"name\": \"</script><script>alert(3)</script>\"}";
+  const std::string html = report_html(model_of({row}));
+  EXPECT_TRUE(contains(html, "&lt;/script&gt;&lt;script&gt;alert(3)"));
+  EXPECT_EQ(count(html, "</script"), 1u);
+}
+
+TEST(Report, AllowsNoScriptButItsOwnAndNoNetwork) {
+  const std::string html = report_html(hostile_model());
+  EXPECT_TRUE(contains(html, "default-src 'none'"));
+  EXPECT_TRUE(contains(html, "script-src 'nonce-"));
+  EXPECT_FALSE(contains(html, "unsafe-inline"));
+  EXPECT_FALSE(contains(html, "http:"));
+  EXPECT_FALSE(contains(html, "https:"));
+  EXPECT_FALSE(contains(body_of(html), " style="));
+}
+
+TEST(Report, IsTheSameForTheSameModel) { EXPECT_EQ(report_html(hostile_model()), report_html(hostile_model())); }
+
+TEST(ReportJson, HoldsTheModel) {
+  ReportModel model = model_of({row_of("c", "a", "new", true)});
+  model.tested = {{"action walk", 7}};
+  const auto json = nlohmann::json::parse(report_json(model));
+  EXPECT_EQ(json["format"], "contort.report/1");
+  EXPECT_EQ(json["cases"], 2048);
+  EXPECT_EQ(json["rows"][0]["worst_margin"], -0.0234);
+  EXPECT_EQ(json["rows"][0]["gating"], true);
+  EXPECT_EQ(json["rows"][0]["spec"]["character"], "human");  // a tree, not a text
+  EXPECT_EQ(json["tested"][0]["name"], "action walk");
+  EXPECT_EQ(json["tested"][0]["count"], 7);
+}
+
+TEST(ReportJson, IsJsonForAnyText) {
+  const auto json = nlohmann::json::parse(report_json(hostile_model()));
+  EXPECT_TRUE(json["rows"][0]["worst_margin"].is_null());
+  EXPECT_EQ(json["rows"][0]["spec"], kHostile);
+}
+
+TEST(WriteReport, WritesBothFilesAndNothingElse) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "contort_report" / "deep";
+  std::filesystem::remove_all(folder);
+  const ReportModel model = model_of({row_of("c", "a", "new", true)});
+  for (int again = 0; again < 2; ++again) ASSERT_TRUE(write_report(model, folder.string()).ok());
+  EXPECT_EQ(read_file((folder / "index.html").string()).value(), report_html(model));
+  EXPECT_EQ(read_file((folder / "report.json").string()).value(), report_json(model));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2);
+  std::filesystem::remove_all(folder.parent_path());
+}
+
+TEST(WriteReport, RefusesAFolderThatCannotBe) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "contort_report_file";
+  std::ofstream(file) << "x";
+  const Result<Done> written = write_report(ReportModel{}, (file / "below").string());
+  ASSERT_FALSE(written.ok());
+  EXPECT_EQ(written.issue().code, "file.unwritable");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace contort

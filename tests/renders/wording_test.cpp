@@ -1,0 +1,56 @@
+#include "renders/wording.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace contort {
+namespace {
+
+TEST(Wording, AddsTheFamiliarUnit) {
+  EXPECT_EQ(margin_text(-0.0234, "m"), "-0.0234 m (-23.4 mm)");
+  EXPECT_EQ(margin_text(-0.21, "rad"), "-0.21 rad (-12.0\u00B0)");
+  EXPECT_EQ(margin_text(-3.3, "rad/s"), "-3.3 rad/s (-189.1\u00B0/s)");
+  EXPECT_EQ(margin_text(-12.0, "N m"), "-12 N m");
+  EXPECT_EQ(margin_text(std::nan(""), "m"), "not a number");
+}
+
+TEST(Wording, HasNoTimeWithoutARate) {
+  EXPECT_EQ(time_text(73, 60.0), "1.217 s");
+  EXPECT_EQ(time_text(73, 0.0), "");
+  EXPECT_EQ(time_text(73, std::nan("")), "");
+}
+
+TEST(Wording, GroupsDigits) {
+  EXPECT_EQ(count_text(0), "0");
+  EXPECT_EQ(count_text(999), "999");
+  EXPECT_EQ(count_text(1234567), "1\u202F234\u202F567");
+  EXPECT_EQ(count_text(-1000), "-1\u202F000");
+  EXPECT_EQ(count_text(-100), "-100");
+  EXPECT_EQ(counted(1, "case", "cases"), "1 case");
+  EXPECT_EQ(counted(2, "case", "cases"), "2 cases");
+}
+
+TEST(OneLine, KeepsGoodTextAndCutsLongText) {
+  EXPECT_EQ(one_line("arm_left/ellenb\u00F6gen \u4E2D"), "arm_left/ellenb\u00F6gen \u4E2D");
+  EXPECT_EQ(one_line("abcdef", 6), "abcdef");
+  EXPECT_EQ(one_line("abcdefg", 6), "abcde\u2026");
+  EXPECT_EQ(one_line("abc", 0), "");
+}
+
+TEST(OneLine, ReplacesWhatIsNotText) {
+  EXPECT_EQ(one_line("a\nb\tc\x7f"), "a\uFFFDb\uFFFDc\uFFFD");
+  EXPECT_EQ(one_line("\xff\xc0\xaf"), "\uFFFD\uFFFD\uFFFD");          // never a lead byte; overlong
+  EXPECT_EQ(one_line("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");          // a surrogate
+  EXPECT_EQ(one_line("\xe2\x82"), "\uFFFD\uFFFD");                    // cut off
+  EXPECT_EQ(one_line("a\u202Eb"), "a\uFFFD\uFFFD\uFFFDb");            // writes backwards
+  EXPECT_EQ(one_line(std::string_view("a\0b", 3)), "a\uFFFDb");
+}
+
+RC_GTEST_PROP(OneLine, ChangesItsOwnResultNoMore, (const std::string& bytes)) {
+  RC_ASSERT(one_line(one_line(bytes)) == one_line(bytes));
+}
+
+}  // namespace
+}  // namespace contort

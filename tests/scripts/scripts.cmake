@@ -1,0 +1,9 @@
+# Tests of what a user types: the scripts of the root, and the commands of the README.
+add_test(NAME Scripts.Packages COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/packages_test.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME Scripts.Run COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/run_test.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME Scripts.Test COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/test_test.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME Scripts.ReadmeExtraction COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands_test.sh)
+add_test(NAME Scripts.ReadmeCommands
+  COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
+set_tests_properties(Scripts.Packages Scripts.Run Scripts.Test Scripts.ReadmeExtraction PROPERTIES TIMEOUT 60)
+set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600)
