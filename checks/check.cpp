@@ -2,7 +2,7 @@
 
 namespace contort {
 
-#define X(name, scale, help)                     \
+#define X(name, scale, needs_world, help)        \
   int name##_subject_count(const Character&);    \
   Subject name##_subject(const Character&, int); \
   void name##_measure(const CheckInput&, MarginFold&);
@@ -11,7 +11,8 @@ namespace contort {
 
 std::span<const CheckDef> all_checks() {
   static const CheckDef checks[] = {
-#define X(name, scale, help) {#name, scale, help, name##_subject_count, name##_subject, name##_measure},
+#define X(name, scale, needs_world, help) \
+  {#name, scale, needs_world, help, name##_subject_count, name##_subject, name##_measure},
 #include "checks/check_list.inc"
 #undef X
   };

@@ -23,7 +23,8 @@ struct CheckSettings {
 struct CheckInput {
   const Character& character;
   const Motion& motion;
-  std::span<const Rigid> world;  // world_from_joint, frame-major: frame * joint_count + joint
+  std::span<const Rigid>
+      world;  // world_from_joint, frame-major: frame * joint_count + joint; may be empty, see CheckDef
   const CheckSettings& settings;
 
   std::span<const Rigid> world_at(int frame) const {
@@ -40,6 +41,7 @@ struct Subject {
 struct CheckDef {
   std::string_view name;  // "joint_range"
   double scale;           // margin / scale compares checks: 0.1 rad out of range is "as bad as" 2 cm deep
+  bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it
   std::string_view help;
   // What is judged, numbered from 0.
   int (*subject_count)(const Character&);

@@ -16,8 +16,8 @@ struct Segment {
   Vec3 half;
 };
 
-// Closest points of two segments: minimise over one parameter in closed form, clamp, then the other for it; the
-// distance is convex, so clamping one and solving the other again ends at the minimum.
+// Closest points of two segments: the minimum of a convex quadratic over a square. Solve for s, clamp it, solve for t;
+// if that had to be clamped, s again for the t that is left (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
 double segment_distance(const Segment& a, const Segment& b) {
   const Vec3 between = a.center - b.center;
   const double aa = glm::dot(a.half, a.half);
@@ -26,11 +26,11 @@ double segment_distance(const Segment& a, const Segment& b) {
   const double ar = glm::dot(a.half, between);
   const double br = glm::dot(b.half, between);
   const double determinant = aa * bb - ab * ab;
-  double s = 0.0;  // parallel segments and points: any s will do, t below settles the rest
+  double s = 0.0;  // parallel segments and points: any s will do, t settles the rest
   if (determinant > 1e-14 * aa * bb) s = std::clamp((ab * br - ar * bb) / determinant, -1.0, 1.0);
-  double t = bb > 0.0 ? std::clamp((ab * s + br) / bb, -1.0, 1.0) : 0.0;
-  s = aa > 0.0 ? std::clamp((ab * t - ar) / aa, -1.0, 1.0) : 0.0;
-  t = bb > 0.0 ? std::clamp((ab * s + br) / bb, -1.0, 1.0) : 0.0;
+  const double free_t = bb > 0.0 ? (ab * s + br) / bb : 0.0;
+  const double t = std::clamp(free_t, -1.0, 1.0);
+  if ((t != free_t || bb == 0.0) && aa > 0.0) s = std::clamp((ab * t - ar) / aa, -1.0, 1.0);
   return length(between + s * a.half - t * b.half);
 }
 

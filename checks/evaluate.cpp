@@ -28,27 +28,35 @@ void append_findings(const CheckDef& check, const Character& character, const Ma
 
 }  // namespace
 
-Evaluation Evaluator::run(const Stage& stage) {
+Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
   generate(stage, scratch_, motion_);
   Evaluation evaluation;
   evaluation.motion_hash = motion_hash(motion_);
   evaluation.frame_count = motion_.frame_count;
-  evaluation.findings = judge(*stage.character, motion_);
+  evaluation.findings = judge(*stage.character, motion_, only_check);
   return evaluation;
 }
 
-std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion) {
+void Evaluator::place(const Character& character, const Motion& motion) {
   const std::size_t joints = character.joints().size();
   world_.resize(joints * static_cast<std::size_t>(motion.frame_count));
   for (int frame = 0; frame < motion.frame_count; ++frame) {
     const auto f = static_cast<std::size_t>(frame);
     forward_kinematics(character, motion.root[f], motion.row(frame), std::span(world_).subspan(f * joints, joints));
   }
-  const CheckInput input{character, motion, world_, settings_};
+}
+
+std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check) {
+  bool placed = false;
   std::vector<Finding> findings;
   for (const CheckDef& check : all_checks()) {
+    if (!only_check.empty() && check.name != only_check) continue;
+    if (check.needs_world && !placed) {
+      place(character, motion);
+      placed = true;
+    }
     MarginFold fold(check.subject_count(character), settings_.merge_gap_frames);
-    check.measure(input, fold);
+    check.measure({character, motion, world_, settings_}, fold);
     append_findings(check, character, fold, findings);
   }
   std::stable_sort(findings.begin(), findings.end(),

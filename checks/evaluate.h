@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "checks/check.h"
@@ -22,15 +23,17 @@ class Evaluator {
  public:
   explicit Evaluator(CheckSettings settings = {}) : settings_(settings) {}
 
-  // Generates, measures, folds.
-  Evaluation run(const Stage& stage);
+  // Generates, measures, folds. With `only_check`, that check alone: the shrinker asks for nothing else.
+  Evaluation run(const Stage& stage, std::string_view only_check = {});
 
   // The same checks on a motion from elsewhere.
-  std::vector<Finding> judge(const Character& character, const Motion& motion);
+  std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {});
 
   const Motion& motion() const { return motion_; }  // of the last run
 
  private:
+  void place(const Character& character, const Motion& motion);
+
   CheckSettings settings_;
   GenerateScratch scratch_;
   Motion motion_;

@@ -139,11 +139,7 @@ void run(const Options& options, Context& context) {
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.discarded));
   if (options.report.empty()) return;
-  ReportRequest request{options.corpus, options.report};
-  request.cases = result.totals.cases;
-  request.frames = result.totals.frames;
-  request.tested = result.tested;
-  make_report(request, *library, context);
+  make_report({options.corpus, options.report}, *library, context);
 }
 
 }  // namespace

@@ -85,6 +85,18 @@ void count_totals(ReportModel& model) {
       }
 }
 
+void add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
+  std::vector<Issue> damaged;
+  std::map<std::string, std::int64_t> tested;
+  for (const RunRecord& run : corpus.runs(damaged)) {
+    model.cases += run.cases;
+    model.frames += run.frames;
+    for (const auto& [what, count] : run.tested) tested[what] += count;
+  }
+  model.tested.assign(tested.begin(), tested.end());
+  for (const Issue& issue : damaged) context.fail(issue);
+}
+
 // Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -125,11 +137,10 @@ void make_report(const ReportRequest& request, const Library&, Context& context)
     return context.fail(made.issue(), kInternal);
   ReportModel model;
   model.title = "Contort report";
-  model.cases = request.cases, model.frames = request.frames;
-  model.tested.assign(request.tested.begin(), request.tested.end());
   std::vector<Picture> pictures;
   fill_rows(*corpus, model, pictures, request.folder, context);
   count_totals(model);
+  add_runs(*corpus, model, context);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);
   if (const int code = draw(pictures, context); code != 0) {

@@ -1,8 +1,6 @@
 // The HTML report of a corpus.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <string>
 
 #include "cli/commands.h"

@@ -25,13 +25,13 @@ rc::Gen<int> lattice() {
   };
 }
 
-// 0 to `most` elements; the length is drawn apart from the elements.
+// 1 to `most` elements; the length is drawn apart from the elements.
 template <class T>
 rc::Gen<std::vector<T>> list_up_to(int most, const rc::Gen<T>& element) {
   return [=](const rc::Random& random, int size) {
     rc::Random own(random);
     rc::Random for_length = own.split();
-    const auto length = static_cast<std::size_t>(for_length.next() % static_cast<std::uint64_t>(most + 1));
+    const auto length = static_cast<std::size_t>(1 + for_length.next() % static_cast<std::uint64_t>(most));
     std::vector<T> list;
     for (std::size_t i = 0; i < length; ++i) list.push_back(element(own.split(), size).value());
     return rc::shrinkable::just(std::move(list));

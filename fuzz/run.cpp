@@ -74,6 +74,7 @@ class Run {
       run_batch(first, static_cast<int>(count));
     }
     count_late_families();
+    record_run();
     report();
     return std::move(result_);
   }
@@ -201,6 +202,13 @@ class Run {
         if (ok())
           if (const auto added = corpus_.add({minimal, original, run_name_, result_.families[family]}); !added)
             fail(added.issue());
+  }
+
+  void record_run() {
+    const RunProgress& totals = result_.totals;
+    const RunRecord record{run_name_, config_.tool, totals.cases, totals.frames, totals.failing, result_.tested};
+    if (!ok()) return;
+    if (const Result<Done> kept = corpus_.add_run(record); !kept) fail(kept.issue());
   }
 
   void fail(const Issue& issue) {

@@ -48,7 +48,7 @@ class Shrinker {
     const Result<Stage> stage = build_stage(candidate, library_);
     if (!stage) return false;
     ++evaluations_;
-    const Evaluation evaluation = evaluator_.run(*stage);
+    const Evaluation evaluation = evaluator_.run(*stage, best_.expect.check);
     const Finding* finding = deepest(evaluation.findings, best_.expect.check, best_.expect.subject);
     if (finding == nullptr || finding->depth < least_depth_) return false;
     best_.spec = candidate;

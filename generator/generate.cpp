@@ -12,8 +12,10 @@ bool moves_at(const PlannedAction& action, int frame) {
   return frame >= action.first_frame && frame <= action.last_frame;
 }
 
-// Whether `next` takes the part from `held`: the higher layer, then the later start, then the later in the spec.
-bool outranks(const PlannedAction& next, const PlannedAction& held) {
+// Whether `next` takes the part from `held`: the higher layer, then the later start, then the later in the spec. In the
+// frame of its start an action has not moved anything yet, and leaves the part to one that is just arriving.
+bool outranks(const PlannedAction& next, const PlannedAction& held, int frame) {
+  if ((next.start < frame) != (held.start < frame)) return next.start < frame;
   if (next.def->layer != held.def->layer) return next.def->layer > held.def->layer;
   return next.start >= held.start;
 }
@@ -23,7 +25,7 @@ int winner(const Timeline& timeline, std::size_t part, int frame) {
   for (const int index : timeline.of_part[part]) {
     const PlannedAction& action = timeline.actions[static_cast<std::size_t>(index)];
     if (!moves_at(action, frame)) continue;
-    if (best < 0 || outranks(action, timeline.actions[static_cast<std::size_t>(best)])) best = index;
+    if (best < 0 || outranks(action, timeline.actions[static_cast<std::size_t>(best)], frame)) best = index;
   }
   return best;
 }
@@ -105,6 +107,10 @@ class Generation {
   void move_part(const Part& part, const GenerateScratch::Control& control, int frame, std::span<double> row) {
     const PlannedAction& action = stage_.timeline.actions[static_cast<std::size_t>(control.action)];
     std::copy_n(scratch_.from.begin() + part.first_coord, part.coord_count, scratch_.target.begin() + part.first_coord);
+    // A chain may hang on a joint of its own part.
+    if (action.def->layer == Layer::ik)
+      forward_kinematics(character_, scratch_.target, part.first_joint, part.first_joint + part.joint_count,
+                         scratch_.world);
     action.def->rule({character_, part, action.params, scratch_.world}, scratch_.target);
     const double eased = ease(progress(action, frame));
     const double left = 1.0 - control.eased_at_gain;

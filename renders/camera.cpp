@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTanHalfHeight = 0.25;  // 28 degrees: long enough a lens that limbs near the camera do not swell.
 constexpr double kMargin = 1.07;         // Picture edge over figure edge.
-constexpr double kMinDistance_m = 0.6;
+constexpr double kClearance_m = 0.6;     // Between the eye and the nearest point.
 constexpr double kElevation_rad = 14.0 * kRadPerDeg;
 constexpr double kFollowGain = 0.75;
 
@@ -30,13 +30,19 @@ Fit fit_axis(std::span<const Vec3> points, const Vec3& side, const Vec3& back, d
   return {0.5 * (plus - minus), (plus + minus) / (2.0 * tangent)};
 }
 
-double middle_depth(std::span<const Vec3> points, const Vec3& back) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double middle() const { return 0.5 * (low + high); }
+};
+
+Extent extent_along(std::span<const Vec3> points, const Vec3& axis) {
+  Extent extent;
   for (const Vec3& p : points) {
-    low = std::min(low, glm::dot(back, p));
-    high = std::max(high, glm::dot(back, p));
+    extent.low = std::min(extent.low, glm::dot(axis, p));
+    extent.high = std::max(extent.high, glm::dot(axis, p));
   }
-  return 0.5 * (low + high);
+  return extent;
 }
 
 // From the eye to the middle of the frame that is farthest away: where a figure is drawn smallest.
@@ -44,7 +50,7 @@ double farthest(const Camera& camera, std::span<const std::vector<Vec3>> frames)
   double distance = 0.0;
   for (const std::vector<Vec3>& points : frames)
     if (!points.empty())
-      distance = std::max(distance, glm::dot(camera.back, camera.eye_m) - middle_depth(points, camera.back));
+      distance = std::max(distance, glm::dot(camera.back, camera.eye_m) - extent_along(points, camera.back).middle());
   return distance;
 }
 
@@ -63,11 +69,11 @@ Camera frame_points(std::span<const Vec3> points, const View& view, double aspec
   const double tan_y = kTanHalfHeight / kMargin, tan_x = tan_y * aspect;
   const Fit x = fit_axis(points, camera.right, camera.back, tan_x);
   const Fit y = fit_axis(points, camera.up, camera.back, tan_y);
-  const double middle = middle_depth(points, camera.back);
-  const double distance = std::max({x.distance, y.distance, middle + kMinDistance_m});
+  const Extent depth = extent_along(points, camera.back);
+  const double distance = std::max({x.distance, y.distance, depth.high + kClearance_m});
   const Vec3 on_axis = x.center * camera.right + y.center * camera.up;
   camera.eye_m = on_axis + distance * camera.back;
-  camera.center_m = on_axis + middle * camera.back;
+  camera.center_m = on_axis + depth.middle() * camera.back;
   return camera;
 }
 

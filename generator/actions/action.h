@@ -39,7 +39,8 @@ struct ParamDef {
   bool operator==(const ParamDef&) const = default;
 };
 
-// What a rule may look at. Joints of carriers are final for this frame; the part's own entries of `world` are scratch.
+// What a rule may look at. Joints of carriers are final for this frame. On the layer ik the part's own entries of
+// `world` stand where the posture in the row puts them, and are scratch; on other layers they mean nothing.
 struct RuleInput {
   const Character& character;
   const Part& part;

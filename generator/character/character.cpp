@@ -97,6 +97,16 @@ void add_joint(Hash64& hash, const Joint& joint) {
     hash.add(value);
 }
 
+void add_chains(Hash64& hash, const Part& part) {
+  hash.add(part.slot);
+  for (const ReachChain& chain : part.reach)
+    for (const int index : {chain.upper, chain.middle, chain.tip}) hash.add(static_cast<std::uint64_t>(index));
+  for (const FacingChain& chain : part.facing) {
+    for (const int joint : chain.joints) hash.add(static_cast<std::uint64_t>(joint));
+    hash.add(static_cast<std::uint64_t>(chain.socket));
+  }
+}
+
 }  // namespace
 
 class CharacterBuilder {
@@ -183,6 +193,8 @@ class CharacterBuilder {
       if (contains(seen, attachment.object))
         return Issue{"character.duplicate_object", pointer + "/object",
                      "\"" + attachment.object + "\" is attached already"};
+      if (const Result<Done> rules = check_object(object->second); !rules)
+        return in_file(attachment.object, rules.issue());
       const int socket = find_socket(assembly_, attachment.slot + "/" + attachment.socket);
       if (socket < 0)
         return unknown("unknown_socket", pointer + "/socket", attachment.slot + "/" + attachment.socket,
@@ -264,6 +276,7 @@ class CharacterBuilder {
       add_quat(hash, socket.joint_from_socket.q);
       add_vec(hash, socket.joint_from_socket.p_m);
     }
+    for (const Part& part : out_.parts_) add_chains(hash, part);
     out_.hash_ = hash.value();
   }
 

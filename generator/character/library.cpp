@@ -29,6 +29,12 @@ Result<PartDesc> checked(Result<PartDesc> part) {
   return part;
 }
 
+Result<ObjectDesc> checked(Result<ObjectDesc> object) {
+  if (!object) return object;
+  if (const Result<Done> rules = check_object(*object); !rules) return rules.issue();
+  return object;
+}
+
 // "contort.part/1" of {"format": "contort.part/1", …}; "" where there is none.
 std::string format_of(const json_fields::Json& tree) {
   if (!tree.is_object()) return "";
@@ -41,7 +47,7 @@ Result<Done> add_description(std::string_view text, Library& into) {
   if (!tree) return tree.issue();
   const std::string format = format_of(*tree);
   if (format == "contort.part/1") return insert_new(into.parts, checked(parse_part(text)), "part");
-  if (format == "contort.object/1") return insert_new(into.objects, parse_object(text), "object");
+  if (format == "contort.object/1") return insert_new(into.objects, checked(parse_object(text)), "object");
   if (format == "contort.character/1") return insert_new(into.characters, parse_character(text), "character");
   return Issue{"library.wrong_format", "/format",
                "found \"" + format + "\", allowed are contort.part/1, contort.object/1 and contort.character/1"};

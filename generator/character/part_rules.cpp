@@ -23,6 +23,19 @@ bool has_socket(const PartDesc& part, std::string_view socket) {
   return false;
 }
 
+// Whether a body that hangs on `joint` moves when joint `carrier` does.
+bool moves_with(const PartDesc& part, std::string_view joint, std::string_view carrier) {
+  for (int i = index_of(part, joint); i >= 0; i = index_of(part, part.joints[static_cast<std::size_t>(i)].parent))
+    if (part.joints[static_cast<std::size_t>(i)].name == carrier) return true;
+  return false;
+}
+
+std::string_view joint_of_socket(const PartDesc& part, std::string_view socket) {
+  for (const SocketDesc& candidate : part.sockets)
+    if (candidate.name == socket) return candidate.joint;
+  return "";
+}
+
 Issue at(std::string code, const std::string& list, std::size_t index, const std::string& field, std::string text) {
   return {"part." + std::move(code), "/" + list + "/" + std::to_string(index) + "/" + field, std::move(text)};
 }
@@ -113,6 +126,8 @@ Result<Done> check_reach(const PartDesc& part) {
       return at("bad_reach", "reach", 0, "middle", "it must be a hinge on \"" + carrier + "\"");
     if (!has_socket(part, reach.tip))
       return at("unknown_socket", "reach", 0, "tip", "\"" + reach.tip + "\" is no socket of this part");
+    if (!moves_with(part, joint_of_socket(part, reach.tip), m.name))
+      return at("bad_reach", "reach", 0, "tip", "\"" + m.name + "\" does not move it");
   }
   return Done{};
 }
@@ -125,16 +140,21 @@ Result<Done> check_facing(const PartDesc& part) {
       if (part.joints[static_cast<std::size_t>(index)].type == JointType::prismatic)
         return at("bad_facing", "facing", 0, "joints", "\"" + joint + "\" does not turn");
     }
+    for (std::size_t i = 0; i + 1 < facing.joints.size(); ++i)
+      if (facing.joints[i] == facing.joints[i + 1] || !moves_with(part, facing.joints[i + 1], facing.joints[i]))
+        return at("bad_facing", "facing", 0, "joints", "each must move the next, from the body outward");
     if (facing.joints.empty()) return at("bad_facing", "facing", 0, "joints", "at least one joint is needed");
     if (!has_socket(part, facing.socket))
       return at("unknown_socket", "facing", 0, "socket", "\"" + facing.socket + "\" is no socket of this part");
+    if (!moves_with(part, joint_of_socket(part, facing.socket), facing.joints.back()))
+      return at("bad_facing", "facing", 0, "socket", "\"" + facing.joints.back() + "\" does not move it");
   }
   return Done{};
 }
 
-Result<Done> check_mesh(const PartDesc& part) {
-  for (std::size_t i = 0; i < part.mesh.size(); ++i) {
-    const auto* triangles = std::get_if<TriangleMesh>(&part.mesh[i].shape);
+Result<Done> check_mesh(const std::vector<MeshDesc>& mesh) {
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const auto* triangles = std::get_if<TriangleMesh>(&mesh[i].shape);
     if (triangles == nullptr) continue;
     if (triangles->indices.size() % 3 != 0)
       return at("bad_shape", "mesh", i, "shape/indices", "their number must be a multiple of 3");
@@ -153,9 +173,23 @@ Result<Done> check_part(const PartDesc& part) {
   for (const Result<Done>& rule :
        {unique_names(part.joints, "joints"), unique_names(part.colliders, "colliders"),
         unique_names(part.sockets, "sockets"), known_joints(part, part.colliders, "colliders"),
-        known_joints(part, part.mesh, "mesh"), known_joints(part, part.sockets, "sockets"), check_mesh(part),
+        known_joints(part, part.mesh, "mesh"), known_joints(part, part.sockets, "sockets"), check_mesh(part.mesh),
         check_reach(part), check_facing(part)})
     if (!rule) return rule;
+  return Done{};
+}
+
+Result<Done> check_object(const ObjectDesc& object) {
+  const PartDesc no_joints;
+  for (Result<Done> rule :
+       {unique_names(object.colliders, "colliders"), unique_names(object.points, "points"),
+        known_joints(no_joints, object.colliders, "colliders"), known_joints(no_joints, object.mesh, "mesh"),
+        known_joints(no_joints, object.points, "points"), check_mesh(object.mesh)})
+    if (!rule) {
+      Issue issue = rule.issue();
+      issue.code.replace(0, std::string("part").size(), "object");
+      return issue;
+    }
   return Done{};
 }
 

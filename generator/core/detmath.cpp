@@ -39,32 +39,38 @@ constexpr std::array<double, 9> kAtanEighths = {0.0,
                                                 0x1.700a7c5784634p-1,
                                                 0x1.921fb54442d18p-1};
 
-double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
+constexpr double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
 
-// sum of x2^i * c[i], c[i] = first term of the list
+// c[0] + c[1] x + c[2] x^2 + …, by Estrin's scheme: neighbours are joined in pairs, then the pairs in x^2. Half of
+// Horner's chain of dependent operations at every step, which is what costs time here.
 template <std::size_t N>
-double horner(double x, const std::array<double, N>& c) {
-  double sum = c[N - 1];
-  for (std::size_t i = N - 1; i-- > 0;) sum = sum * x + c[i];
-  return sum;
+double polynomial(double x, const std::array<double, N>& c) {
+  if constexpr (N == 1) {
+    return c[0];
+  } else {
+    std::array<double, (N + 1) / 2> pairs;
+    for (std::size_t i = 0; i < N / 2; ++i) pairs[i] = c[2 * i] + c[2 * i + 1] * x;
+    if constexpr (N % 2 == 1) pairs[N / 2] = c[N - 1];
+    return polynomial(x * x, pairs);
+  }
 }
 
-const std::array<double, 8> kSin = [] {  // sin r = r + r^3 * poly(r^2), |r| <= pi/4
+constexpr std::array<double, 8> kSin = [] {  // sin r = r + r^3 * poly(r^2), |r| <= pi/4
   std::array<double, 8> c{};
   for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = (i % 2 == 0 ? -1.0 : 1.0) / factorial(2 * i + 3);
   return c;
 }();
-const std::array<double, 8> kCos = [] {  // cos r = 1 - r^2/2 + r^4 * poly(r^2)
+constexpr std::array<double, 8> kCos = [] {  // cos r = 1 - r^2/2 + r^4 * poly(r^2)
   std::array<double, 8> c{};
   for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = (i % 2 == 0 ? 1.0 : -1.0) / factorial(2 * i + 4);
   return c;
 }();
-const std::array<double, 7> kAtan = [] {  // atan r = r + r^3 * poly(r^2), |r| <= 1/16
+constexpr std::array<double, 7> kAtan = [] {  // atan r = r + r^3 * poly(r^2), |r| <= 1/16
   std::array<double, 7> c{};
   for (int i = 0; i < 7; ++i) c[static_cast<std::size_t>(i)] = (i % 2 == 0 ? -1.0 : 1.0) / (2 * i + 3);
   return c;
 }();
-const std::array<double, 12> kExp = [] {  // exp r = 1 + r + r^2 * poly(r), |r| <= ln2/2
+constexpr std::array<double, 12> kExp = [] {  // exp r = 1 + r + r^2 * poly(r), |r| <= ln2/2
   std::array<double, 12> c{};
   for (int i = 0; i < 12; ++i) c[static_cast<std::size_t>(i)] = 1.0 / factorial(i + 2);
   return c;
@@ -74,7 +80,7 @@ double atan_unit(double t) {  // t in [0, 1]
   const double nearest = std::floor(t * 8.0 + 0.5);
   const double c = nearest / 8.0;
   const double r = (t - c) / (1.0 + t * c);
-  return kAtanEighths[static_cast<std::size_t>(nearest)] + (r + r * r * r * horner(r * r, kAtan));
+  return kAtanEighths[static_cast<std::size_t>(nearest)] + (r + r * r * r * polynomial(r * r, kAtan));
 }
 
 double power_of_two(int k) { return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52); }
@@ -90,10 +96,10 @@ SinCos sincos(double x_rad) {
   const double r = high - low;
   const double tail = (high - r) - low;
   const double r2 = r * r;
-  const double s = r + (r * r2 * horner(r2, kSin) + tail * (1.0 - 0.5 * r2));
+  const double s = r + (r * r2 * polynomial(r2, kSin) + tail * (1.0 - 0.5 * r2));
   const double half_r2 = 0.5 * r2;
   const double w = 1.0 - half_r2;
-  const double c = w + (((1.0 - w) - half_r2) + (r2 * r2 * horner(r2, kCos) - r * tail));
+  const double c = w + (((1.0 - w) - half_r2) + (r2 * r2 * polynomial(r2, kCos) - r * tail));
   switch (static_cast<std::int64_t>(k) & 3) {
     case 0: return {s, c};
     case 1: return {c, -s};
@@ -140,7 +146,7 @@ double exp(double x) {
   if (x < -745.2) return 0.0;
   const double k = std::floor(x * kOneOverLn2 + 0.5);
   const double r = (x - k * kLn2High) - k * kLn2Low;
-  const double value = 1.0 + (r + r * r * horner(r, kExp));
+  const double value = 1.0 + (r + r * r * polynomial(r, kExp));
   // Two steps, so that neither factor over- or underflows on the way to a result that does not.
   const int half = static_cast<int>(k) / 2;
   return value * power_of_two(half) * power_of_two(static_cast<int>(k) - half);

@@ -44,8 +44,9 @@ double rotation_angle(const Quat& q) {
 Quat shortest_arc(const Vec3& from, const Vec3& to) {
   const double w = 1.0 + glm::dot(from, to);
   if (w < 1e-9) {
+    // Nearly opposite: 1 + dot has lost its digits. Half a turn to -from, which is near enough to `to` for the rest.
     const Vec3 axis = perpendicular(from);
-    return Quat(0.0, axis.x, axis.y, axis.z);
+    return shortest_arc(-from, to) * Quat(0.0, axis.x, axis.y, axis.z);
   }
   const Vec3 v = glm::cross(from, to);
   return glm::normalize(Quat(w, v.x, v.y, v.z));

@@ -78,9 +78,9 @@ Result<std::pair<const unsigned char*, std::size_t>> view_bytes(const tinygltf::
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-    return Issue{"gltf.truncated", pointer, std::to_string(view.byteLength) + " bytes from byte " +
-                                                std::to_string(view.byteOffset) + " do not fit into buffer " +
-                                                std::to_string(view.buffer) + " with " + std::to_string(data.size())};
+    return Issue{"gltf.truncated", pointer,
+                 std::to_string(view.byteLength) + " bytes from byte " + std::to_string(view.byteOffset) +
+                     " do not fit into buffer " + std::to_string(view.buffer) + " with " + std::to_string(data.size())};
   return std::pair(data.data() + view.byteOffset, view.byteLength);
 }
 
@@ -105,9 +105,9 @@ Result<Elements> place_elements(const tinygltf::Model& model, const Layout& layo
   const bool fits = layout.count == 0 || (layout.offset <= length && length - layout.offset >= layout.element_bytes &&
                                           layout.count - 1 <= (length - layout.offset - layout.element_bytes) / stride);
   if (!fits)
-    return Issue{"gltf.truncated", pointer + "/count", "found " + std::to_string(layout.count) +
-                                                           "; buffer view " + std::to_string(layout.view) +
-                                                           " is too short for so many elements"};
+    return Issue{"gltf.truncated", pointer + "/count",
+                 "found " + std::to_string(layout.count) + "; buffer view " + std::to_string(layout.view) +
+                     " is too short for so many elements"};
   return Elements{first + layout.offset, stride};
 }
 
@@ -121,8 +121,9 @@ Result<Done> check_finite(const std::vector<double>& values, std::size_t compone
   const auto bad = std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
   if (bad == values.end()) return Done{};
   const auto position = static_cast<std::size_t>(bad - values.begin());
-  return Issue{"gltf.not_finite", pointer, "component " + std::to_string(position % components) + " of element " +
-                                               std::to_string(position / components) + " is NaN or infinite"};
+  return Issue{"gltf.not_finite", pointer,
+               "component " + std::to_string(position % components) + " of element " +
+                   std::to_string(position / components) + " is NaN or infinite"};
 }
 
 // Where each replacing element goes: ascending, within the accessor.
@@ -140,9 +141,9 @@ Result<std::vector<std::size_t>> sparse_targets(const tinygltf::Model& model, co
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t target = little_endian(elements->at(i), size);
     if (target >= accessor.count || (i > 0 && target <= out.back()))
-      return Issue{"gltf.bad_index", pointer, "sparse index " + std::to_string(i) + " is " + std::to_string(target) +
-                                                  "; allowed is an ascending list below " +
-                                                  std::to_string(accessor.count)};
+      return Issue{"gltf.bad_index", pointer,
+                   "sparse index " + std::to_string(i) + " is " + std::to_string(target) +
+                       "; allowed is an ascending list below " + std::to_string(accessor.count)};
     out.push_back(target);
   }
   return out;
@@ -178,11 +179,12 @@ Result<Done> AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, co
   const auto targets = sparse_targets(model_, accessor, pointer + "/indices");
   if (!targets) return targets.issue();
   const std::size_t size = component_bytes(accessor.componentType);
-  const auto components = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
-      static_cast<std::uint32_t>(accessor.type)));
+  const auto components =
+      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
   const auto& source = accessor.sparse.values;
   const auto elements = place_elements(
-      model_, {source.bufferView, static_cast<std::size_t>(source.byteOffset), size * components, size, targets->size()},
+      model_,
+      {source.bufferView, static_cast<std::size_t>(source.byteOffset), size * components, size, targets->size()},
       pointer + "/values");
   if (!elements) return elements.issue();
   std::vector<double> replacing;
@@ -194,6 +196,19 @@ Result<Done> AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, co
   return Done{};
 }
 
+Result<std::vector<double>> AccessorReader::read_dense(const tinygltf::Accessor& accessor, const std::string& pointer,
+                                                       std::size_t components, std::size_t count) const {
+  if (accessor.bufferView < 0) return std::vector<double>(count * components);  // zeros, by the standard
+  const std::size_t size = component_bytes(accessor.componentType);
+  const auto elements = place_elements(
+      model_, {accessor.bufferView, accessor.byteOffset, size * components, size, accessor.count}, pointer);
+  if (!elements) return elements.issue();
+  std::vector<double> out;
+  out.reserve(count * components);
+  decode(*elements, count, components, accessor.componentType, out);
+  return out;
+}
+
 Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, std::size_t count,
                                                  bool normalized_integers) {
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
@@ -202,19 +217,12 @@ Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, st
   const std::size_t components = row(kind).components;
   count = std::min(count, accessor.count);
   if (count > numbers_left_ / components)
-    return Issue{"gltf.too_large", pointer + "/count", "keys and matrices have more than the allowed " +
-                                                           std::to_string(kMaxGltfNumbers) + " numbers in all"};
+    return Issue{"gltf.too_large", pointer + "/count",
+                 "keys and matrices have more than the allowed " + std::to_string(kMaxGltfNumbers) + " numbers in all"};
   numbers_left_ -= count * components;
-  std::vector<double> out;
-  if (accessor.bufferView < 0) out.resize(count * components);  // zeros, by the standard
-  if (accessor.bufferView >= 0) {
-    const std::size_t size = component_bytes(accessor.componentType);
-    const auto elements =
-        place_elements(model_, {accessor.bufferView, accessor.byteOffset, size * components, size, accessor.count}, pointer);
-    if (!elements) return elements.issue();
-    out.reserve(count * components);
-    decode(*elements, count, components, accessor.componentType, out);
-  }
+  Result<std::vector<double>> dense = read_dense(accessor, pointer, components, count);
+  if (!dense) return dense.issue();
+  std::vector<double> out = std::move(dense).value();
   if (accessor.sparse.isSparse)
     if (const auto applied = apply_sparse(accessor, pointer + "/sparse", out); !applied) return applied.issue();
   if (const auto finite = check_finite(out, components, pointer); !finite) return finite.issue();

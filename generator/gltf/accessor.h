@@ -33,6 +33,8 @@ class AccessorReader {
 
  private:
   Result<Done> check_format(int accessor, ElementKind kind, bool normalized_integers) const;
+  Result<std::vector<double>> read_dense(const tinygltf::Accessor& accessor, const std::string& pointer,
+                                         std::size_t components, std::size_t count) const;
   Result<Done> apply_sparse(const tinygltf::Accessor& accessor, const std::string& pointer,
                             std::vector<double>& values) const;
   const tinygltf::Model& model_;

@@ -76,8 +76,9 @@ Result<Bytes> load_data_uri(const BufferRef& buffer, const std::string& pointer)
   Bytes out;
   std::string mime_type;
   if (!tinygltf::DecodeDataURI(&out, mime_type, buffer.uri, 0, false))
-    return bad_uri(pointer, "found a data: URI without bytes or of an unknown kind; allowed is "
-                            "data:application/octet-stream;base64,...");
+    return bad_uri(pointer,
+                   "found a data: URI without bytes or of an unknown kind; allowed is "
+                   "data:application/octet-stream;base64,...");
   return out;
 }
 
@@ -101,14 +102,14 @@ Result<std::vector<Bytes>> load_buffers(std::span<const BufferRef> buffers, cons
     if (!loaded) return loaded.issue();
     const bool has_data = buffer.has_uri || !loaded->empty();
     if (has_data && loaded->size() < buffer.byte_length)
-      return Issue{"gltf.truncated", pointer + "/byteLength", "found " + std::to_string(buffer.byte_length) +
-                                                                  "; the data has " + std::to_string(loaded->size())};
+      return Issue{"gltf.truncated", pointer + "/byteLength",
+                   "found " + std::to_string(buffer.byte_length) + "; the data has " + std::to_string(loaded->size())};
     out.push_back(std::move(loaded).value());
     if (has_data) out.back().resize(buffer.byte_length);
     total += out.back().size();
     if (total > kMaxGltfBytes)
-      return Issue{"gltf.too_large", pointer, "the buffers have more than the allowed " +
-                                                  std::to_string(kMaxGltfBytes) + " bytes in all"};
+      return Issue{"gltf.too_large", pointer,
+                   "the buffers have more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes in all"};
   }
   return out;
 }

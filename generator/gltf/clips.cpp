@@ -58,8 +58,10 @@ bool read_interpolation(const std::string& text, GltfInterpolation& out) {
 Result<Done> check_times(const std::vector<double>& times, const std::string& pointer) {
   for (std::size_t i = 0; i < times.size(); ++i)
     if (times[i] < 0.0 || (i > 0 && times[i] <= times[i - 1]))
-      return Issue{"gltf.bad_times", pointer, "key " + std::to_string(i) + " is before 0 s, or not later than the key "
-                                              "before it; allowed are ascending times"};
+      return Issue{"gltf.bad_times", pointer,
+                   "key " + std::to_string(i) +
+                       " is before 0 s, or not later than the key "
+                       "before it; allowed are ascending times"};
   return Done{};
 }
 
@@ -145,9 +147,10 @@ class ClipReader {
     out.values = std::move(values).value();
     std::size_t bad_key = 0;
     if (is_rotation && !normalize_rotations(out, bad_key))
-      return Issue{"gltf.not_unit", accessor_pointer(accessor), "the rotation at key " + std::to_string(bad_key) +
-                                                                    " is a quaternion of another length than 1, "
-                                                                    "give or take 1 %"};
+      return Issue{"gltf.not_unit", accessor_pointer(accessor),
+                   "the rotation at key " + std::to_string(bad_key) +
+                       " is a quaternion of another length than 1, "
+                       "give or take 1 %"};
     return Done{};
   }
 

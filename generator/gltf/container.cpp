@@ -34,8 +34,9 @@ Result<Done> check_header(std::span<const std::byte> bytes) {
   const std::size_t length = u32_at(bytes, 8);
   if (length > bytes.size()) return truncated("the GLB, by its header,", length, bytes.size());
   if (length < bytes.size())
-    return Issue{"gltf.bad_header", "", "the GLB header says " + std::to_string(length) + " bytes, the file has " +
-                                            std::to_string(bytes.size())};
+    return Issue{
+        "gltf.bad_header", "",
+        "the GLB header says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size())};
   return Done{};
 }
 
@@ -127,8 +128,8 @@ Result<Done> scan_json(std::string_view json) {
     if (scan.deepest() > kMaxGltfDepth)
       return Issue{"gltf.too_deep", "", "the JSON is nested deeper than the allowed " + std::to_string(kMaxGltfDepth)};
     if (scan.values() > kMaxGltfValues)
-      return Issue{"gltf.too_large", "", "the JSON has more than the allowed " + std::to_string(kMaxGltfValues) +
-                                             " values"};
+      return Issue{"gltf.too_large", "",
+                   "the JSON has more than the allowed " + std::to_string(kMaxGltfValues) + " values"};
   }
   return Done{};
 }

@@ -23,8 +23,8 @@ struct Field {
   std::string_view key;
   Kind kind = Kind::text;
   bool required = false;
-  std::int64_t low = 0;   // Of an integer; fewest entries of a list.
-  std::int64_t high = 0;  // Of an integer; most bytes of a text; most entries of a list.
+  std::int64_t low = 0;       // Of an integer; fewest entries of a list.
+  std::int64_t high = 0;      // Of an integer; most bytes of a text; most entries of a list.
   std::string_view target{};  // Of an index: the list at the document's root that it points into.
   std::span<const Field> fields{};
 };
@@ -48,7 +48,9 @@ constexpr Field index(std::string_view key, std::string_view target, bool requir
 constexpr Field index_list(std::string_view key, std::string_view target, bool required = false) {
   return {key, Kind::index_list, required, required ? 1 : 0, kAnyCount, target};
 }
-constexpr Field numbers(std::string_view key, std::int64_t count) { return {key, Kind::number_list, false, count, count}; }
+constexpr Field numbers(std::string_view key, std::int64_t count) {
+  return {key, Kind::number_list, false, count, count};
+}
 constexpr Field object(std::string_view key, std::span<const Field> fields, bool required = false) {
   return {key, Kind::object, required, 0, 0, {}, fields};
 }
@@ -59,10 +61,15 @@ constexpr Field objects(std::string_view key, std::span<const Field> fields, boo
 
 constexpr Field kAsset[] = {text("version", kRequired), text("minVersion")};
 constexpr Field kScene[] = {index_list("nodes", "nodes")};
-constexpr Field kNode[] = {
-    text("name"),          index_list("children", "nodes"), index("mesh", "meshes"), index("skin", "skins"),
-    index("camera", "cameras"), numbers("translation", 3), numbers("rotation", 4),   numbers("scale", 3),
-    numbers("matrix", 16)};
+constexpr Field kNode[] = {text("name"),
+                           index_list("children", "nodes"),
+                           index("mesh", "meshes"),
+                           index("skin", "skins"),
+                           index("camera", "cameras"),
+                           numbers("translation", 3),
+                           numbers("rotation", 4),
+                           numbers("scale", 3),
+                           numbers("matrix", 16)};
 constexpr Field kSkin[] = {text("name"), index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
                            index_list("joints", "nodes", kRequired)};
 constexpr Field kTarget[] = {index("node", "nodes"), text("path", kRequired)};
@@ -77,7 +84,7 @@ constexpr Field kSparseIndices[] = {index("bufferView", "bufferViews", kRequired
 constexpr Field kSparseValues[] = {index("bufferView", "bufferViews", kRequired), integer("byteOffset", 0, kMaxInt)};
 constexpr Field kSparse[] = {integer("count", 1, kMaxInt, kRequired), object("indices", kSparseIndices, kRequired),
                              object("values", kSparseValues, kRequired)};
-// 0 elements break the standard, but have one harmless meaning: nothing. Real exporters write them for empty channels.
+// 0 elements break the standard, but have one harmless meaning: nothing. Files with empty channels have them.
 constexpr Field kAccessor[] = {index("bufferView", "bufferViews"),
                                integer("byteOffset", 0, kMaxOffset),
                                integer("componentType", 5120, 5126, kRequired),
@@ -161,7 +168,8 @@ class Checker {
   Result<Done> check(Json& value, const Field& field, const Place& place) const {
     switch (field.kind) {
       case Kind::text: return check_text(value, field.high, place);
-      case Kind::flag: return value.is_boolean() ? Result<Done>(Done{}) : issue("wrong_type", place, value, "true or false");
+      case Kind::flag:
+        return value.is_boolean() ? Result<Done>(Done{}) : issue("wrong_type", place, value, "true or false");
       case Kind::integer: return check_integer(value, field, place);
       case Kind::index: return check_index(value, field, place);
       case Kind::object: return check_object(value, field.fields, place);
@@ -209,8 +217,10 @@ class Checker {
 
   Result<Done> check_list(Json& value, const Field& field, const Place& place) const {
     const auto size = static_cast<std::int64_t>(value.size());
-    const std::string allowed = "a list with " + (field.high == kAnyCount ? "at least " + std::to_string(field.low)
-                                                                          : from_to(field.low, field.high)) + " entries";
+    const std::string allowed =
+        "a list with " +
+        (field.high == kAnyCount ? "at least " + std::to_string(field.low) : from_to(field.low, field.high)) +
+        " entries";
     if (!value.is_array()) return issue("wrong_type", place, value, allowed);
     if (size > field.high) return issue("too_large", place, value, allowed);
     if (size < field.low) return issue("out_of_range", place, value, allowed);
@@ -273,9 +283,10 @@ Result<Done> check_version(const Json& asset) {
 // Extensions that change how a thing looks, or how a mesh is stored: nothing that we read. All others are refused where
 // the file requires them, above all EXT_meshopt_compression, which may pack animations too.
 bool concerns_looks_only(std::string_view extension) {
-  constexpr std::string_view kNames[] = {"KHR_texture_transform", "KHR_texture_basisu",         "EXT_texture_webp",
-                                         "EXT_texture_avif",      "KHR_lights_punctual",        "EXT_lights_image_based",
-                                         "KHR_mesh_quantization", "KHR_draco_mesh_compression", "KHR_xmp_json_ld"};
+  constexpr std::string_view kNames[] = {
+      "KHR_texture_transform", "KHR_texture_basisu",         "EXT_texture_webp",
+      "EXT_texture_avif",      "KHR_lights_punctual",        "EXT_lights_image_based",
+      "KHR_mesh_quantization", "KHR_draco_mesh_compression", "KHR_xmp_json_ld"};
   return extension.starts_with("KHR_materials_") ||
          std::find(std::begin(kNames), std::end(kNames), extension) != std::end(kNames);
 }
@@ -295,7 +306,8 @@ Result<Done> check_nodes(const Json& root) {
   if (nodes == root.end()) return Done{};
   for (std::size_t i = 0; i < nodes->size(); ++i) {
     const Json& node = (*nodes)[i];
-    if (node.contains("matrix") && (node.contains("translation") || node.contains("rotation") || node.contains("scale")))
+    if (node.contains("matrix") &&
+        (node.contains("translation") || node.contains("rotation") || node.contains("scale")))
       return Issue{"gltf.bad_node", "/nodes/" + std::to_string(i),
                    "found a matrix together with translation, rotation or scale; allowed is one or the other"};
   }
@@ -341,8 +353,8 @@ Result<GltfDocument> check_document(std::string_view text) {
   Json root = std::move(parsed).value();
   const Place top;
   if (const auto checked = Checker(root).check_object(root, kRoot, top); !checked) return checked.issue();
-  for (const auto& checked : {check_version(root["asset"]), check_extensions(root), check_nodes(root),
-                              check_strides(root)})
+  for (const auto& checked :
+       {check_version(root["asset"]), check_extensions(root), check_nodes(root), check_strides(root)})
     if (!checked) return checked.issue();
   GltfDocument out;
   out.buffers = take_buffers(root);

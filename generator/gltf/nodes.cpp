@@ -43,8 +43,7 @@ bool last_row_is_affine(std::span<const double> m) {
 
 // False for a quaternion too far from unit length to be a rotation; the standard allows no others.
 bool read_unit(const std::vector<double>& xyzw, Quat& out) {
-  const double length =
-      std::sqrt(xyzw[0] * xyzw[0] + xyzw[1] * xyzw[1] + xyzw[2] * xyzw[2] + xyzw[3] * xyzw[3]);
+  const double length = std::sqrt(xyzw[0] * xyzw[0] + xyzw[1] * xyzw[1] + xyzw[2] * xyzw[2] + xyzw[3] * xyzw[3]);
   if (!(std::fabs(length - 1.0) <= kUnitTolerance)) return false;
   out = Quat(xyzw[3] / length, xyzw[0] / length, xyzw[1] / length, xyzw[2] / length);
   return true;

@@ -70,8 +70,7 @@ Result<GltfAsset> read_container(const GltfContainer& container, const std::stri
 // A named pipe would make us wait for ever, a device would never end.
 Result<std::string> read_regular_file(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    return Issue{"gltf.unreadable", "", "there is no file " + path};
+  if (!std::filesystem::is_regular_file(path, error)) return Issue{"gltf.unreadable", "", "there is no file " + path};
   if (std::filesystem::file_size(path, error) > kMaxGltfBytes)
     return Issue{"gltf.too_large", "", path + " has more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes"};
   const Result<std::string> bytes = read_file(path, kMaxGltfBytes);

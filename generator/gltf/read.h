@@ -1,9 +1,10 @@
 // Reads .glb and .gltf: nodes, skins and clips. Files are hostile until proven otherwise: whatever the bytes are, the
 // answer is a checked GltfAsset or one Issue, within the limits of limits.h. Images are never opened.
 //
-// Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. Two things that
-// it forbids are let through, because they mean no harm and real files have them: accessors of 0 elements (a channel of
-// 0 keys is left out), and animation data with a byte stride. Not looked at: meshes, materials, textures, cameras.
+// Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. What it forbids
+// and we let through, because it has one harmless meaning and exporters do it: accessors of 0 elements (a channel of 0
+// keys is left out), animation data with a byte stride, joints without a common root. Left out as well are channels
+// without a node, with morph weights, or whose times have no data. Not looked at: meshes, materials, textures, cameras.
 #pragma once
 
 #include <cstddef>

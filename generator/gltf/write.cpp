@@ -137,9 +137,9 @@ int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices) 
 
 Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras) {
   if (is_too_large(character, motion))
-    return Issue{"gltf.too_large", "/frame_count", "found " + std::to_string(motion.frame_count) +
-                                                       " frames; the file would be larger than the allowed " +
-                                                       std::to_string(kMaxOutputBytes) + " bytes"};
+    return Issue{"gltf.too_large", "/frame_count",
+                 "found " + std::to_string(motion.frame_count) + " frames; the file would be larger than the allowed " +
+                     std::to_string(kMaxOutputBytes) + " bytes"};
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Contort";

@@ -36,8 +36,8 @@ bool fits_float(const Rigid& r) {
 
 Issue bad_value(const char* code, const Joint& joint, const Motion& motion, int frame, const char* what) {
   const int row = frame * motion.coord_count + joint.coord;
-  const std::string pointer = joint.kind == JointKind::root ? "/root/" + std::to_string(frame)
-                                                            : "/coords/" + std::to_string(row);
+  const std::string pointer =
+      joint.kind == JointKind::root ? "/root/" + std::to_string(frame) : "/coords/" + std::to_string(row);
   return {code, pointer, "frame " + std::to_string(frame) + ", joint \"" + joint.name + "\": " + what};
 }
 
@@ -96,7 +96,8 @@ void add_channel(tinygltf::Model& model, tinygltf::Animation& animation, int nod
 
 Result<Done> check_shape(const Character& character, const Motion& motion) {
   if (!(motion.rate_hz > 0.0) || !std::isfinite(motion.rate_hz))
-    return Issue{"gltf.bad_rate", "/rate_hz", "found " + std::to_string(motion.rate_hz) + "; allowed are rates above 0"};
+    return Issue{"gltf.bad_rate", "/rate_hz",
+                 "found " + std::to_string(motion.rate_hz) + "; allowed are rates above 0"};
   const auto frames = static_cast<std::size_t>(motion.frame_count);
   const bool fits = motion.frame_count >= 0 && motion.coord_count == character.coord_count() &&
                     motion.root.size() == frames &&

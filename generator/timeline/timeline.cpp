@@ -25,10 +25,17 @@ double natural_length(const ClipDesc& clip) {
   return length;
 }
 
-double clip_length(const ClipDesc& clip) {
-  const double natural = natural_length(clip);
-  return natural * stretch_scale(natural, clip.duration_frames) / clip.speed;
+// What a natural length becomes. Not natural * scale: 7 * (29.0 / 7) is more than 29.
+double stretched(double natural, int wanted_frames) {
+  return wanted_frames > 0 && natural > 0.0 ? wanted_frames : natural;
 }
+
+double clip_length(const ClipDesc& clip) {
+  return stretched(natural_length(clip), clip.duration_frames) / clip.speed;
+}
+
+// The first frame at or after a time. Rounding in the stretches must not cost a frame.
+double frame_from(double time) { return std::ceil(time - 1e-6); }
 
 double natural_length(const SequenceDesc& sequence) {
   double length = 0.0;
@@ -66,7 +73,7 @@ class Layout {
       const double scale = stretch_scale(natural, sequences[s].duration_frames);
       const Result<Done> done = add_sequence(sequences[s], static_cast<int>(s), {start, scale});
       if (!done) return done.issue();
-      start = std::ceil(start + natural * scale);  // sequences change on a frame
+      start = frame_from(start + stretched(natural, sequences[s].duration_frames));  // sequences change on a frame
       if (start > kMaxFrames)
         return Issue{"spec.too_long", "/sequences/" + std::to_string(s),
                      "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
@@ -112,8 +119,10 @@ class Layout {
     planned.start = content.at(use.start_frame);
     planned.end = content.at(static_cast<double>(use.start_frame) + use.duration_frames);
     planned.speed = use.speed;
-    planned.first_frame = static_cast<int>(std::min(std::ceil(planned.start), 1e9));
-    planned.last_frame = static_cast<int>(std::min(std::ceil(planned.end), 1e9));
+    planned.first_frame = static_cast<int>(std::min(frame_from(planned.start), 1e9));
+    // At least one frame after the start, or an action shorter than the rounding would never reach its target.
+    planned.last_frame =
+        static_cast<int>(std::min(std::max(frame_from(planned.end), std::floor(planned.start) + 1.0), 1e9));
     out_.of_part[static_cast<std::size_t>(planned.part)].push_back(static_cast<int>(out_.actions.size()));
     out_.actions.push_back(std::move(planned));
     return Done{};
@@ -131,6 +140,7 @@ Result<Timeline> lay_out(const std::vector<SequenceDesc>& sequences, const Chara
 
 double progress(const PlannedAction& action, int frame) {
   const double period = action.end - action.start;
+  if (!(period > 0.0)) return frame > action.start ? 1.0 : 0.0;  // stretched to less than the rounding of its start
   const double u = action.speed * (frame - action.start) / period;
   return std::clamp(u, 0.0, 1.0);
 }

@@ -20,9 +20,9 @@ struct PlannedAction {
   const ActionDef* def = nullptr;
   int part = 0;
   double start = 0.0;
-  double end = 0.0;  // > start
+  double end = 0.0;  // >= start
   double speed = 1.0;
-  int first_frame = 0;  // the frames that it moves: ceil(start) to ceil(end)
+  int first_frame = 0;  // the frames that it moves: ceil(start) to ceil(end), rounding forgiven, two at least
   int last_frame = 0;
   std::vector<double> params;
 };

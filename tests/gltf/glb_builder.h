@@ -76,8 +76,8 @@ struct GlbBuilder {
                    const std::string& interpolation = "LINEAR") {
     Json& animation = root["animations"][clip];
     animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
-    animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
-                                     {"target", {{"node", node}, {"path", path}}}});
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
   }
 
   // The document with its buffer: the binary chunk, unless another is named.

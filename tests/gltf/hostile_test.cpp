@@ -41,15 +41,22 @@ const Hostile kHostile[] = {
     {"long cycle", [](GlbBuilder& b) { b.root["nodes"][2]["children"] = {0}; }, "gltf.cycle", "/nodes/0"},
     {"two parents", [](GlbBuilder& b) { b.root["nodes"][3]["children"] = {2}; }, "gltf.two_parents",
      "/nodes/3/children/0"},
-    {"same child twice", [](GlbBuilder& b) { b.root["nodes"][0]["children"] = {1, 1}; }, "gltf.two_parents",
-     "/nodes/0/children/1"},
+    {"same child twice",
+     [](GlbBuilder& b) {
+       b.root["nodes"][0]["children"] = {1, 1};
+     },
+     "gltf.two_parents", "/nodes/0/children/1"},
     // Indices.
     {"child", [](GlbBuilder& b) { b.root["nodes"][0]["children"] = {99}; }, "gltf.bad_index", "/nodes/0/children/0"},
     {"negative child", [](GlbBuilder& b) { b.root["nodes"][0]["children"] = {-1}; }, "gltf.bad_index",
      "/nodes/0/children/0"},
     {"scene root", [](GlbBuilder& b) { b.root["scenes"][0]["nodes"] = {4}; }, "gltf.bad_index", "/scenes/0/nodes/0"},
     {"scene", [](GlbBuilder& b) { b.root["scene"] = 1; }, "gltf.bad_index", "/scene"},
-    {"joint", [](GlbBuilder& b) { b.root["skins"][0]["joints"] = {0, 1, 4}; }, "gltf.bad_index", "/skins/0/joints/2"},
+    {"joint",
+     [](GlbBuilder& b) {
+       b.root["skins"][0]["joints"] = {0, 1, 4};
+     },
+     "gltf.bad_index", "/skins/0/joints/2"},
     {"joint as text", [](GlbBuilder& b) { b.root["skins"][0]["joints"] = {"0"}; }, "gltf.wrong_type",
      "/skins/0/joints/0"},
     {"joint 1.5", [](GlbBuilder& b) { b.root["skins"][0]["joints"] = {1.5}; }, "gltf.bad_index", "/skins/0/joints/0"},
@@ -72,7 +79,10 @@ const Hostile kHostile[] = {
     {"node is a number", [](GlbBuilder& b) { b.root["nodes"][1] = 5; }, "gltf.wrong_type", "/nodes/1"},
     {"translation of one", [](GlbBuilder& b) { b.root["nodes"][1]["translation"] = {1}; }, "gltf.out_of_range",
      "/nodes/1/translation"},
-    {"translation of texts", [](GlbBuilder& b) { b.root["nodes"][1]["translation"] = {"1", "2", "3"}; },
+    {"translation of texts",
+     [](GlbBuilder& b) {
+       b.root["nodes"][1]["translation"] = {"1", "2", "3"};
+     },
      "gltf.wrong_type", "/nodes/1/translation/0"},
     {"matrix of nine", [](GlbBuilder& b) { b.root["nodes"][3]["matrix"] = Json(std::vector<double>(9, 1.0)); },
      "gltf.out_of_range", "/nodes/3/matrix"},
@@ -81,8 +91,11 @@ const Hostile kHostile[] = {
     {"no asset", [](GlbBuilder& b) { b.root.erase("asset"); }, "gltf.missing", ""},
     {"no joints", [](GlbBuilder& b) { b.root["skins"][0]["joints"] = Json::array(); }, "gltf.out_of_range",
      "/skins/0/joints"},
-    {"joint twice", [](GlbBuilder& b) { b.root["skins"][0]["joints"] = {0, 1, 1}; }, "gltf.bad_skin",
-     "/skins/0/joints/2"},
+    {"joint twice",
+     [](GlbBuilder& b) {
+       b.root["skins"][0]["joints"] = {0, 1, 1};
+     },
+     "gltf.bad_skin", "/skins/0/joints/2"},
     {"interpolation", [](GlbBuilder& b) { b.root["animations"][0]["samplers"][0]["interpolation"] = "FOO"; },
      "gltf.unsupported", "/animations/0/samplers/0/interpolation"},
     {"path", [](GlbBuilder& b) { b.root["animations"][0]["channels"][0]["target"]["path"] = "foo"; },
@@ -117,12 +130,12 @@ const Hostile kHostile[] = {
      "/bufferViews/1/byteStride"},
     {"stride negative", [](GlbBuilder& b) { b.root["bufferViews"][1]["byteStride"] = -4; }, "gltf.out_of_range",
      "/bufferViews/1/byteStride"},
-    {"stride below the element", [](GlbBuilder& b) { b.root["bufferViews"][2]["byteStride"] = 8; },
-     "gltf.bad_accessor", "/accessors/2"},
+    {"stride below the element", [](GlbBuilder& b) { b.root["bufferViews"][2]["byteStride"] = 8; }, "gltf.bad_accessor",
+     "/accessors/2"},
     {"not aligned", [](GlbBuilder& b) { b.root["bufferViews"][1]["byteOffset"] = 2; }, "gltf.bad_accessor",
      "/accessors/1"},
-    {"component type 5124", [](GlbBuilder& b) { b.root["accessors"][1]["componentType"] = 5124; },
-     "gltf.bad_accessor", "/accessors/1/componentType"},
+    {"component type 5124", [](GlbBuilder& b) { b.root["accessors"][1]["componentType"] = 5124; }, "gltf.bad_accessor",
+     "/accessors/1/componentType"},
     {"component type 1", [](GlbBuilder& b) { b.root["accessors"][1]["componentType"] = 1; }, "gltf.out_of_range",
      "/accessors/1/componentType"},
     {"rotations as VEC3", [](GlbBuilder& b) { b.root["accessors"][2]["type"] = "VEC3"; }, "gltf.bad_accessor",
@@ -160,8 +173,11 @@ const Hostile kHostile[] = {
     {"rotation of length 1.02", [](GlbBuilder& b) { set_float(b, 2, 3, 1.02F); }, "gltf.not_unit", "/accessors/2"},
     {"infinite place", [](GlbBuilder& b) { set_float(b, 4, 8, -kInfinity); }, "gltf.not_finite", "/accessors/4"},
     {"NaN bind matrix", [](GlbBuilder& b) { set_float(b, 0, 17, kNan); }, "gltf.not_finite", "/accessors/0"},
-    {"zero node rotation", [](GlbBuilder& b) { b.root["nodes"][0]["rotation"] = {0, 0, 0, 0}; }, "gltf.not_unit",
-     "/nodes/0/rotation"},
+    {"zero node rotation",
+     [](GlbBuilder& b) {
+       b.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
+     },
+     "gltf.not_unit", "/nodes/0/rotation"},
     {"matrix and translation",
      [](GlbBuilder& b) { b.root["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
      "gltf.bad_node", "/nodes/0"},
@@ -173,7 +189,9 @@ const Hostile kHostile[] = {
      "gltf.bad_node", "/nodes/3/matrix"},
     // What exhausts memory, stack or patience.
     {"too many nodes",
-     [](GlbBuilder& b) { b.root["nodes"] = Json::array_t(static_cast<std::size_t>(kMaxGltfNodes) + 1, Json::object()); },
+     [](GlbBuilder& b) {
+       b.root["nodes"] = Json::array_t(static_cast<std::size_t>(kMaxGltfNodes) + 1, Json::object());
+     },
      "gltf.too_large", "/nodes"},
     {"a name of 10 MB", [](GlbBuilder& b) { b.root["nodes"][0]["name"] = std::string(10'000'000, 'x'); },
      "gltf.too_large", "/nodes/0/name"},
@@ -181,9 +199,13 @@ const Hostile kHostile[] = {
      [](GlbBuilder& b) {
        b.root["accessors"].push_back({{"componentType", 5126}, {"count", 40'000'000}, {"type", "VEC3"}});
        b.root["animations"][1]["samplers"][0]["input"] = 3;
-       b.root["accessors"][3] = {{"componentType", 5126}, {"count", 40'000'000}, {"type", "SCALAR"},
-                                 {"sparse", {{"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5125}}},
-                                             {"values", {{"bufferView", 0}}}}}};
+       b.root["accessors"][3] = {{"componentType", 5126},
+                                 {"count", 40'000'000},
+                                 {"type", "SCALAR"},
+                                 {"sparse",
+                                  {{"count", 1},
+                                   {"indices", {{"bufferView", 0}, {"componentType", 5125}}},
+                                   {"values", {{"bufferView", 0}}}}}};
        b.root["animations"][1]["samplers"][0]["output"] = 5;
      },
      "gltf.too_large", "/accessors/3/count"},
@@ -193,7 +215,9 @@ const Hostile kHostile[] = {
     {"least version 2.1", [](GlbBuilder& b) { b.root["asset"]["minVersion"] = "2.1"; }, "gltf.unsupported",
      "/asset/minVersion"},
     {"an unknown extension",
-     [](GlbBuilder& b) { b.root["extensionsRequired"] = {"KHR_texture_transform", "EXT_made_up"}; },
+     [](GlbBuilder& b) {
+       b.root["extensionsRequired"] = {"KHR_texture_transform", "EXT_made_up"};
+     },
      "gltf.unsupported", "/extensionsRequired/1"},
     {"packed animations", [](GlbBuilder& b) { b.root["extensionsRequired"] = {"EXT_meshopt_compression"}; },
      "gltf.unsupported", "/extensionsRequired/0"},
@@ -259,7 +283,8 @@ TEST(HostileGltf, BuffersOfLengthZeroAndBuffersWithoutBytesAreRefused) {
 
 TEST(HostileGltf, ImagesAndMeshesAreNeverLookedAt) {
   GlbBuilder b = small_arm();
-  b.root["images"] = {{{"uri", "../../../etc/hostname"}}, {{"uri", "data:image/png;base64,AAAA"}}, {{"bufferView", 99}}};
+  b.root["images"] = {
+      {{"uri", "../../../etc/hostname"}}, {{"uri", "data:image/png;base64,AAAA"}}, {{"bufferView", 99}}};
   b.root["textures"] = "no list";
   b.root["meshes"][0]["primitives"] = {{{"attributes", {{"POSITION", 99}}}, {"indices", -5}}};
   EXPECT_EQ(parse_glb(b.glb())->nodes, parse_glb(small_arm().glb())->nodes);

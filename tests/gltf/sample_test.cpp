@@ -157,8 +157,8 @@ TEST(JointSpeeds, OfASplineAreTakenInsideOfTheKeysToo) {
 // ---- laws
 
 GltfChannel any_turns() {
-  const auto angles = *rc::gen::nonEmpty(
-      rc::gen::container<std::vector<std::vector<int>>>(rc::gen::container<std::vector<int>>(3, rc::gen::inRange(-300, 300))));
+  const auto angles = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::vector<int>>>(
+      rc::gen::container<std::vector<int>>(3, rc::gen::inRange(-300, 300))));
   GltfChannel out;
   out.path = GltfPath::rotation;
   for (const std::vector<int>& a : angles) {
@@ -205,8 +205,7 @@ RC_GTEST_PROP(SampleProperty, LinearRotationsKeepTheirSpeed, ()) {
   for (const SpeedInterval& part : speeds.between_keys) {
     const double t = part.t0_s + 0.3 * (part.t1_s - part.t0_s);
     const double dt = 0.1 * (part.t1_s - part.t0_s);
-    const double angle =
-        angle_between(sample_rotation(clip.channels[0], t), sample_rotation(clip.channels[0], t + dt));
+    const double angle = angle_between(sample_rotation(clip.channels[0], t), sample_rotation(clip.channels[0], t + dt));
     RC_ASSERT(std::fabs(angle / dt - part.speed_rad_s) < 1e-6);
   }
 }

@@ -260,7 +260,8 @@ TEST(WriteGlb, RefusesTextsThatAreNotUtf8) {
 }
 
 TEST(SaveGlb, WritesAFileThatReadsBack) {
-  const auto path = (std::filesystem::temp_directory_path() / ("contort_" + std::to_string(::getpid()) + ".glb")).string();
+  const auto path =
+      (std::filesystem::temp_directory_path() / ("contort_" + std::to_string(::getpid()) + ".glb")).string();
   const Motion motion = swinging(human(), 3);
   ASSERT_TRUE(save_glb(path, human(), motion, {}).ok());
   const auto asset = read_gltf(path);

@@ -120,7 +120,7 @@ TEST(Renderer, DrawsGhostsThinly) {
   const long solid = redness(draw(list_of({Scene().wall, Scene::ball(0.5, 0)})));
   const long thin = redness(draw(list_of({Scene().wall, ghost})));
   EXPECT_GT(thin, solid / 10);
-  EXPECT_LT(thin, solid * 3 / 4);
+  EXPECT_LT(thin, solid / 2);
 }
 
 TEST(Renderer, CountsWhatIsVisible) {

@@ -1,0 +1,207 @@
+// Evaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of each
+// limit.
+#include "checks/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "fuzz/draw.h"
+#include "tests/checks/small_character.h"
+#include "tests/scenes.h"
+
+namespace contort {
+
+namespace {
+
+// A motion of the small character that stays this far (in the check's unit) inside of one limit of one check; negative:
+// outside.
+using Exemplar = Motion (*)(const Character&, double margin);
+
+Motion lifted(const Character& character, double margin) {
+  Motion motion = small::at_rest(character);
+  small::set(motion, 0, small::joint_of(character, "arm_left/lift"), 50 * kRadPerDeg - margin);
+  return motion;
+}
+
+Motion hurried(const Character& character, double margin) {
+  Motion motion = small::at_rest(character, 2);
+  small::set(motion, 1, small::joint_of(character, "arm_left/lift"), (300 * kRadPerDeg - margin) / 60.0);
+  return motion;
+}
+
+Motion squeezed(const Character& character, double margin) {
+  Motion motion = small::at_rest(character);
+  for (const char* joint : {"arm_left/slide", "arm_right/slide"})
+    small::set(motion, 0, small::joint_of(character, joint), -0.5 * (0.4 - margin));
+  return motion;
+}
+
+const std::map<std::string, Exemplar>& exemplars() {
+  static const std::map<std::string, Exemplar> all = {
+      {"joint_range", lifted}, {"angular_velocity", hurried}, {"self_collision", squeezed}};
+  return all;
+}
+
+TEST(Manifest, EveryCheckHasAnExemplarInsideThatPassesAndOneOutsideThatFails) {
+  const Character character = small::build();
+  Evaluator evaluator;
+  for (const CheckDef& check : all_checks()) {
+    const auto exemplar = exemplars().find(std::string(check.name));
+    ASSERT_NE(exemplar, exemplars().end()) << check.name << " has no exemplar: add one to this file";
+    EXPECT_TRUE(evaluator.judge(character, exemplar->second(character, 1e-6)).empty()) << check.name;
+    const std::vector<Finding> outside = evaluator.judge(character, exemplar->second(character, -1e-6));
+    ASSERT_EQ(outside.size(), 1U) << check.name;
+    EXPECT_EQ(outside[0].check, check.name);
+    EXPECT_NEAR(outside[0].worst_margin, -1e-6, 1e-12) << check.name;
+    EXPECT_NEAR(outside[0].depth, 1e-6 / check.scale, 1e-12 / check.scale) << check.name;
+  }
+}
+
+TEST(Manifest, EveryExemplarBelongsToACheck) {
+  std::set<std::string> names;
+  for (const CheckDef& check : all_checks()) names.insert(std::string(check.name));
+  EXPECT_EQ(names.size(), all_checks().size());
+  for (const auto& exemplar : exemplars()) EXPECT_EQ(names.count(exemplar.first), 1U) << exemplar.first;
+}
+
+TEST(Manifest, SubjectsOfACheckHaveDifferentNamesAndUnits) {
+  for (const char* name : {"human", "mech"}) {
+    const Result<Character> character = build_character({name, {}, {}}, stock_library());
+    ASSERT_TRUE(character);
+    for (const CheckDef& check : all_checks()) {
+      const std::vector<std::string> subjects = small::subjects_of(std::string(check.name), *character);
+      EXPECT_GT(subjects.size(), 20U) << check.name;
+      EXPECT_EQ(std::set<std::string>(subjects.begin(), subjects.end()).size(), subjects.size()) << check.name;
+      EXPECT_FALSE(check.subject(*character, 0).unit.empty());
+      EXPECT_GT(check.scale, 0.0);
+      EXPECT_FALSE(check.help.empty());
+    }
+  }
+}
+
+Stage staged(const Spec& spec) {
+  Result<Stage> stage = build_stage(spec, stock_library());
+  if (!stage) ADD_FAILURE() << to_line(stage.issue());
+  return std::move(stage).value();
+}
+
+std::vector<Stage> stages() {
+  std::vector<Stage> all;
+  for (const NamedScene& named : all_scenes()) all.push_back(staged(scene(named.name)));
+  for (int i = 0; i < 12; ++i) all.push_back(staged(draw_spec({{"human", "mech"}}, stock_library(), 11, i)));
+  return all;
+}
+
+TEST(Evaluator, JudgingTheGeneratedMotionIsTheSameAsRunning) {
+  std::size_t findings = 0;
+  for (const Stage& stage : stages()) {
+    Evaluator runs, judges;
+    const Evaluation evaluation = runs.run(stage);
+    const Motion motion = generate(stage);
+    EXPECT_EQ(evaluation.findings, judges.judge(*stage.character, motion));
+    EXPECT_EQ(evaluation.motion_hash, motion_hash(motion));
+    EXPECT_EQ(evaluation.frame_count, motion.frame_count);
+    EXPECT_EQ(runs.motion(), motion);
+    findings += evaluation.findings.size();
+  }
+  EXPECT_GT(findings, 20U);
+}
+
+TEST(Evaluator, OneCheckAloneFindsWhatItFindsAmongAll) {
+  for (const Stage& stage : stages()) {
+    Evaluator all, alone;
+    const std::vector<Finding> findings = all.run(stage).findings;
+    for (const CheckDef& check : all_checks()) {
+      std::vector<Finding> expected;
+      for (const Finding& f : findings)
+        if (f.check == check.name) expected.push_back(f);
+      EXPECT_EQ(alone.run(stage, check.name).findings, expected) << check.name;
+    }
+  }
+}
+
+TEST(Evaluator, NothingOfOneRunReachesTheNext) {
+  const std::vector<Stage> all = stages();
+  Evaluator shared;
+  for (const Stage& stage : all) {
+    for (const Stage* other : {&all.front(), &all.back()}) {
+      const Evaluation alone = Evaluator().run(stage);
+      EXPECT_EQ(shared.run(stage), alone);
+      shared.run(*other, other == &all.front() ? "joint_range" : "");
+      EXPECT_EQ(shared.run(stage), alone);
+    }
+  }
+}
+
+int place_of(const std::string& check) {
+  for (std::size_t i = 0; i < all_checks().size(); ++i)
+    if (all_checks()[i].name == check) return static_cast<int>(i);
+  return -1;
+}
+
+TEST(Evaluator, FindingsStandByFirstFrameThenCheckThenSubject) {
+  bool tied = false;
+  for (const Stage& stage : stages()) {
+    const std::vector<Finding> findings = Evaluator().run(stage).findings;
+    std::map<std::string, std::vector<std::string>> subjects;
+    for (const CheckDef& check : all_checks())
+      subjects[std::string(check.name)] = small::subjects_of(std::string(check.name), *stage.character);
+    const auto key = [&](const Finding& f) {
+      const std::vector<std::string>& names = subjects[f.check];
+      return std::tuple(f.first_frame, place_of(f.check), std::find(names.begin(), names.end(), f.subject));
+    };
+    for (std::size_t i = 0; i + 1 < findings.size(); ++i) {
+      EXPECT_LT(key(findings[i]), key(findings[i + 1]));
+      tied = tied || findings[i].first_frame == findings[i + 1].first_frame;
+    }
+  }
+  EXPECT_TRUE(tied) << "no two findings began together: the order was not tried";
+}
+
+TEST(Evaluator, DeepestIsTheDeepestOfItsCheckAndSubject) {
+  const auto finding = [](const char* check, const char* subject, int first, double depth) {
+    return Finding{check, subject, "rad", first, first, first, -depth, depth};
+  };
+  const std::vector<Finding> findings = {finding("a", "x", 1, 1.0), finding("a", "x", 5, 3.0),
+                                         finding("a", "x", 9, 3.0), finding("b", "x", 2, 9.0)};
+  EXPECT_EQ(deepest(findings, "a", "x"), &findings[1]);
+  EXPECT_EQ(deepest(findings, "a", "y"), nullptr);
+  EXPECT_EQ(deepest({}, "a", "x"), nullptr);
+}
+
+TEST(Evaluator, ARootThatIsNowhereIsAFindingAndNoCrash) {
+  const Character character = small::build();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Motion motion = small::at_rest(character, 3);
+    motion.root[1].p_m.y = bad;
+    const std::vector<Finding> findings = Evaluator().judge(character, motion);
+    ASSERT_FALSE(findings.empty());
+    for (const Finding& f : findings) {
+      EXPECT_EQ(f.check, "self_collision");
+      EXPECT_TRUE(std::isnan(f.worst_margin) && std::isinf(f.depth));
+      EXPECT_EQ(f.first_frame, 1);
+      EXPECT_EQ(f.last_frame, 1);
+    }
+  }
+}
+
+TEST(Evaluator, HugeCoordinatesDoNotCrash) {
+  const Result<Character> human = build_character({}, stock_library());
+  ASSERT_TRUE(human);
+  for (const double huge : {1e30, -1e160, 1e308, std::numeric_limits<double>::infinity()}) {
+    Motion motion = small::at_rest(*human, 2);
+    for (double& value : motion.row(1)) value = huge;
+    EXPECT_FALSE(Evaluator().judge(*human, motion).empty()) << huge;
+  }
+}
+
+TEST(Evaluator, AMotionWithoutFramesHasNoFindings) {
+  const Character character = small::build();
+  EXPECT_TRUE(Evaluator().judge(character, small::at_rest(character, 0)).empty());
+}
+
+}  // namespace
+
+}  // namespace contort

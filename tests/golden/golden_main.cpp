@@ -1,0 +1,81 @@
+// Prints one line per golden scene: name, a shape that is easy to reason about (frames, findings), and hashes. `test`
+// builds this with several compilers and optimisation levels, runs it as on several CPUs, and compares with
+// expected.txt.
+#include <cmath>
+#include <cstdio>
+
+#include "checks/evaluate.h"
+#include "fuzz/draw.h"
+#include "fuzz/parallel.h"
+#include "generator/core/detmath.h"
+#include "generator/core/hash.h"
+#include "tests/scenes.h"
+
+namespace contort {
+
+namespace {
+
+void add_findings(Hash64& hash, const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    hash.add(finding.check);
+    hash.add(finding.subject);
+    hash.add(static_cast<std::uint64_t>(finding.worst_frame));
+    hash.add(finding.worst_margin);
+  }
+}
+
+void print_scene(const NamedScene& named) {
+  const Result<Stage> stage = build_stage(scene(named.name), stock_library());
+  Evaluator evaluator;
+  const Evaluation evaluation = evaluator.run(*stage);
+  Hash64 findings;
+  add_findings(findings, evaluation.findings);
+  std::printf("%s frames=%d findings=%zu motion=%s margins=%s\n", std::string(named.name).c_str(),
+              evaluation.frame_count, evaluation.findings.size(), to_hex(evaluation.motion_hash).c_str(),
+              to_hex(findings.value()).c_str());
+}
+
+void print_math() {
+  Hash64 hash;
+  for (int i = -20000; i <= 20000; ++i) {
+    const double x = i * 0.0137;
+    for (const double value :
+         {det::sin(x), det::cos(x), det::atan2(x, 1.7 - 0.001 * i), det::acos(x / 300.0), det::exp(0.01 * x)})
+      hash.add(value);
+  }
+  std::printf("detmath values=200005 hash=%s\n", to_hex(hash.value()).c_str());
+}
+
+// Cases drawn by the fuzzer, on so many threads: the threads must not show.
+void print_drawn(int jobs) {
+  constexpr int kCases = 200;
+  std::vector<std::uint64_t> hashes(kCases);
+  std::vector<Evaluator> evaluators(static_cast<std::size_t>(jobs));
+  parallel_for(
+      jobs, kCases,
+      [&](int worker, int i) {
+        const Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 7, i);
+        const Result<Stage> stage = build_stage(spec, stock_library());
+        if (!stage) return;
+        const Evaluation evaluation = evaluators[static_cast<std::size_t>(worker)].run(*stage);
+        Hash64 hash;
+        hash.add(print_spec(spec));
+        hash.add(evaluation.motion_hash);
+        add_findings(hash, evaluation.findings);
+        hashes[static_cast<std::size_t>(i)] = hash.value();
+      },
+      [] {});
+  Hash64 all;
+  for (const std::uint64_t hash : hashes) all.add(hash);
+  std::printf("drawn seed=7 cases=%d jobs=%d hash=%s\n", kCases, jobs, to_hex(all.value()).c_str());
+}
+
+}  // namespace
+
+}  // namespace contort
+
+int main() {
+  contort::print_math();
+  for (const contort::NamedScene& named : contort::all_scenes()) contort::print_scene(named);
+  for (const int jobs : {1, 4}) contort::print_drawn(jobs);
+}

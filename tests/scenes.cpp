@@ -1,0 +1,55 @@
+#include "tests/scenes.h"
+
+#include <stdexcept>
+
+namespace contort {
+
+namespace {
+
+constexpr NamedScene kScenes[] = {
+    {"human_reaches", R"({"format":"contort.spec/1","character":{"name":"human"},"sequences":[{"clips":[{"actions":[
+      {"action":"reach","slot":"arm_left","duration_frames":45,"params":{"target_m":[0.35,1.3,0.4],"swivel_deg":20}},
+      {"action":"reach","slot":"arm_right","start_frame":10,"duration_frames":40,"params":{"target_m":[0.1,1.0,0.3]}},
+      {"action":"direction","slot":"head","duration_frames":50,"params":{"azimuth_deg":60,"elevation_deg":-20}},
+      {"action":"reach","slot":"leg_left","duration_frames":50,"params":{"target_m":[0.15,0.4,0.3]}}]}]}]})"},
+    {"human_overlaps", R"({"format":"contort.spec/1","character":{"name":"human","attachments":[
+      {"object":"backpack","slot":"torso","socket":"back"}]},"hold_frames":5,"sequences":[{"clips":[{"speed":1.25,"actions":[
+      {"action":"pose","slot":"arm_left","duration_frames":60,"params":{"shoulder_deg":[-100,0,20],"elbow_deg":90}},
+      {"action":"pose","slot":"arm_left","start_frame":30,"duration_frames":20,"params":{"shoulder_deg":[0,0,60]}},
+      {"action":"reach","slot":"arm_left","start_frame":40,"duration_frames":30,"params":{"target_m":[0.0,1.2,0.35]}},
+      {"action":"pose","slot":"torso","duration_frames":80,"params":{"lumbar_flex_deg":40,"lumbar_rot_deg":-30}}]}]},
+      {"duration_frames":70,"clips":[{"duration_frames":35,"actions":[
+      {"action":"pose","slot":"leg_right","duration_frames":25,"params":{"hip_flex_deg":80,"knee_deg":100}}]}]}]})"},
+    {"mech_rifle", R"({"format":"contort.spec/1","character":{"name":"mech","attachments":[
+      {"object":"rifle","slot":"arm_right","socket":"grip"}]},"sequences":[{"clips":[{"actions":[
+      {"action":"pose","slot":"arm_left","duration_frames":40,"params":{"shoulder_deg":[-60,20,10],"elbow_deg":60}},
+      {"action":"reach","slot":"arm_right","start_frame":10,"duration_frames":60,"params":{"target_m":[0.4,1.2,0.5]}},
+      {"action":"direction","slot":"torso","duration_frames":70,"params":{"azimuth_deg":-50}},
+      {"action":"direction","slot":"head","duration_frames":80,"params":{"azimuth_deg":170}},
+      {"action":"reach","slot":"leg_left","duration_frames":80,"params":{"target_m":[0.3,0.6,0.5]}}]}]}]})"},
+    {"mech_swapped", R"({"format":"contort.spec/1","character":{"name":"mech","parts":{"torso":"mech_torso_heavy",
+      "arm_left":"mech_arm_shield","arm_right":"mech_arm_extend","leg_left":"mech_leg_reverse",
+      "leg_right":"mech_leg_reverse","head":"mech_head_turret","back":"mech_pack_large"}},"rate_hz":30,
+      "sequences":[{"clips":[{"actions":[
+      {"action":"reach","slot":"arm_left","duration_frames":30,"params":{"target_m":[0.2,1.0,0.6]}},
+      {"action":"pose","slot":"arm_right","duration_frames":30,"params":{"extend_m":0.3,"elbow_deg":80}},
+      {"action":"reach","slot":"leg_right","duration_frames":40,"params":{"target_m":[-0.3,0.5,0.4],"swivel_deg":-15}}]},
+      {"start_frame":40,"actions":[
+      {"action":"direction","slot":"head","duration_frames":40,"speed":2,"params":{"azimuth_deg":-120}}]}]}]})"},
+};
+
+}  // namespace
+
+std::span<const NamedScene> all_scenes() { return kScenes; }
+
+Spec scene(std::string_view name) {
+  for (const NamedScene& candidate : kScenes) {
+    if (candidate.name != name) continue;
+    const Result<Spec> spec = parse_spec(candidate.spec_json);
+    if (!spec) throw std::logic_error(std::string(name) + ": " + to_line(spec.issue()));
+    return *spec;
+  }
+  throw std::logic_error("no scene " + std::string(name));
+}
+
+}  // namespace contort
