@@ -19,9 +19,11 @@ double limit_of(const GltfNode& node, const SpeedLimits& limits) {
 // Speed of each key interval: that between its keys, or, for a spline, the greatest inside where that is more.
 std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
   std::vector<SpeedInterval> worst = speeds.between_keys;
-  const std::size_t parts = worst.empty() ? 0 : speeds.within_keys.size() / worst.size();
-  for (std::size_t i = 0; i < parts * worst.size(); ++i)
-    if (speeds.within_keys[i].speed_rad_s > worst[i / parts].speed_rad_s) worst[i / parts] = speeds.within_keys[i];
+  std::size_t key = 0;
+  for (const SpeedInterval& part : speeds.within_keys) {  // in rising time; keys at one time have no parts
+    while (key + 1 < worst.size() && part.t0_s >= speeds.between_keys[key].t1_s) ++key;
+    if (part.speed_rad_s > worst[key].speed_rad_s) worst[key] = part;
+  }
   return worst;
 }
 

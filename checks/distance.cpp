@@ -85,7 +85,7 @@ Separation separation(const Local& l, double enough) {
   };
   if (best.gap > enough) return best;
   if (l.reach_count == 3)
-    for (int i = 0; i < 3; ++i) try_axis(glm::cross(l.reach[i], l.reach[(i + 1) % 3]));
+    for (int i = 0; i < 3; ++i) try_axis(l.reach[i]);  // a box's faces stand across its axes
   if (best.gap > enough) return best;
   for (int b = 0; b < l.reach_count; ++b) {
     const Vec3 d = unit_or(l.reach[b], Vec3(0.0));

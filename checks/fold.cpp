@@ -15,7 +15,8 @@ MarginFold::MarginFold(int subject_count, int merge_gap_frames)
 
 void MarginFold::violated(int subject, int frame, double margin) {
   double& smallest = smallest_[static_cast<std::size_t>(subject)];
-  if (!(margin >= smallest)) smallest = margin;  // a NaN is worse than anything, and stays
+  const bool smallest_is_nan = smallest != smallest;  // worse than anything: it stays
+  if (!smallest_is_nan && !(margin >= smallest)) smallest = margin;
   int& open = open_[static_cast<std::size_t>(subject)];
   if (open < 0 || frame - episodes_[static_cast<std::size_t>(open)].last > merge_gap_frames_ + 1) {
     open = static_cast<int>(episodes_.size());

@@ -106,6 +106,11 @@ void print_totals(const RunResult& result, const Options& options) {
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), t.elapsed_s,
               static_cast<long long>(t.failing), result.families.size(), options.corpus.c_str());
+}
+
+// The last line, whatever else was printed.
+void print_result(const RunResult& result) {
+  const RunProgress& t = result.totals;
   std::printf("RESULT findings=%lld new=%zu known=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
               static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(),
               result.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
@@ -138,8 +143,8 @@ void run(const Options& options, Context& context) {
   if (result.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.discarded));
-  if (options.report.empty()) return;
-  make_report({options.corpus, options.report}, *library, context);
+  if (!options.report.empty()) make_report({options.corpus, options.report}, *library, context);
+  if (!options.json) print_result(result);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ void add_generate(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("generate", "Make one motion of a spec");
   command->add_option("SPEC", options->spec, "Spec or case file")->required();
   command->add_option("-o,--output", options->output, "OUT.glb (animated model) or OUT.json (numbers)")->required();
-  command->footer("Example: contort generate docs/examples/reach.json -o reach.glb");
+  command->footer("Example: contort generate docs/examples/reach_hand.json -o reach.glb");
   command->callback([options, &context] { run(*options, context); });
 }
 

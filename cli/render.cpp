@@ -51,7 +51,7 @@ void add_render(CLI::App& app, Context& context) {
   command->add_option("--tiles", options->tiles, "Frames on the strip")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->footer("Example: contort render docs/examples/reach.json -o strip.png");
+  command->footer("Example: contort render docs/examples/reach_hand.json -o strip.png");
   command->callback([options, &context] {
     std::vector<std::string> call = {renderer_path(), options->input, "-o",
                                      options->output, "--tiles",      std::to_string(options->tiles)};

@@ -34,8 +34,8 @@ std::int64_t total_seen(const Bucket& bucket) {
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
-  row.family = bucket.family, row.check = bucket.check, row.subject = stored.expect.subject,
-  row.unit = stored.expect.unit;
+  row.family = bucket.family, row.check = bucket.check,
+  row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
   row.cases_seen = total_seen(bucket);
   row.bucket = bucket.id, row.state = bucket.state;

@@ -1,6 +1,7 @@
 #include "corpus/case.h"
 
 #include <cmath>
+#include <limits>
 
 #include "generator/core/hash.h"
 #include "generator/spec_fields.h"
@@ -13,7 +14,7 @@ using json_fields::Rule;
 using json_fields::Text;
 
 const Rule kText{.text = Text::label, .may_be_empty = true};
-const Rule kNeeded{.text = Text::label, .required = true};
+const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
 const Rule kHash{.required = true};
 const Rule kFrame{.low = 0, .high = 36000};
 const Rule kCount{.low = -1, .high = 0x1p53};
@@ -23,7 +24,7 @@ const Rule kCount{.low = -1, .high = 0x1p53};
 template <class V>
 void fields(V& v, const Expectation*) {
   v.field("check", &Expectation::check, {.required = true}, "The check that fails.");
-  v.field("subject", &Expectation::subject, kNeeded, "What it judges.");
+  v.field("subject", &Expectation::subject, kSubject, "What it judges.");
   v.field("unit", &Expectation::unit, kText, "Of worst_margin.");
   v.field("first_frame", &Expectation::first_frame, kFrame, "First violated frame.");
   v.field("worst_frame", &Expectation::worst_frame, kFrame, "Frame of the worst margin.");
@@ -75,6 +76,8 @@ Expectation expectation_of(const Stage& stage, const Motion& motion, const Evalu
                      {},
                      {},
                      {}};
+  // JSON has neither infinity nor NaN; the one is stored as the other, which has its own spelling.
+  if (std::isinf(finding.worst_margin)) expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   if (std::isfinite(finding.depth)) expect.depth = finding.depth;
   expect.motion_hash = to_hex(evaluation.motion_hash);
   expect.character_hash = to_hex(stage.character->hash());

@@ -1,7 +1,9 @@
 #include "corpus/corpus.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -168,24 +170,67 @@ Result<Bucket> read_bucket(const std::string& folder) {
   return bucket;
 }
 
-// Writes `next` in place of the file that the bucket names for this role, if it is better than that one.
-template <class Better>
-Result<Done> keep_better(const std::string& folder, const std::string& role, const Case& next, std::string& current,
-                         Better better, bool& replaced) {
-  replaced = false;
-  const std::string name = file_name(role, next);
-  if (name == current) return Done{};
-  if (!current.empty()) {
-    const Result<Case> present = read_case(folder + "/" + current);
-    if (present && !better(next, *present)) return Done{};
-  }
-  if (const Result<Done> written = write_file(folder + "/" + name, print_case(next)); !written) return written;
-  std::error_code ignored;
-  if (!current.empty()) fs::remove(folder + "/" + current, ignored);
-  current = name;
-  replaced = true;
-  return Done{};
+// The cheaper spec comes first. Equal specs that were found in different places differ in their provenance: then the
+// text decides, so that no order of adding does.
+bool before(const Case& a, const Case& b) {
+  return a.spec != b.spec ? cheaper(a.spec, b.spec) : print_case(a) < print_case(b);
 }
+
+double depth_of(const Case& stored) {
+  return std::isnan(stored.expect.worst_margin) ? std::numeric_limits<double>::infinity() : stored.expect.depth;
+}
+
+bool deeper(const Case& a, const Case& b) {
+  return depth_of(a) != depth_of(b) ? depth_of(a) > depth_of(b) : before(a, b);
+}
+
+// A minimal case and the one that it was shrunk from stay together.
+struct Pair {
+  const Case& minimal;
+  const Case& original;
+};
+bool before(const Pair& a, const Pair& b) {
+  if (a.minimal.spec != b.minimal.spec) return cheaper(a.minimal.spec, b.minimal.spec);
+  if (print_case(a.original) != print_case(b.original)) return before(a.original, b.original);
+  return before(a.minimal, b.minimal);
+}
+
+// The case files of a bucket. What is replaced stays until bucket.json names the new ones.
+class BucketFiles {
+ public:
+  explicit BucketFiles(std::string folder) : folder_(std::move(folder)) {}
+
+  Result<Done> put_pair(const Pair& next, Bucket& bucket) {
+    const Result<Case> minimal = read_case(folder_ + "/" + bucket.min);
+    const Result<Case> original = read_case(folder_ + "/" + bucket.orig);
+    if (minimal && original && !before(next, {*minimal, *original})) return Done{};
+    if (const Result<Done> done = put("min", next.minimal, bucket.min); !done) return done;
+    return put("orig", next.original, bucket.orig);
+  }
+
+  Result<Done> put_worst(const Case& next, Bucket& bucket) {
+    const Result<Case> worst = read_case(folder_ + "/" + bucket.worst);
+    if (worst && !deeper(next, *worst)) return Done{};
+    return put("worst", next, bucket.worst);
+  }
+
+  void remove_replaced() const {
+    std::error_code ignored;
+    for (const std::string& path : replaced_) fs::remove(path, ignored);
+  }
+
+ private:
+  Result<Done> put(const std::string& role, const Case& next, std::string& current) {
+    const std::string name = file_name(role, next);
+    if (const Result<Done> written = write_file(folder_ + "/" + name, print_case(next)); !written) return written;
+    if (!current.empty() && current != name) replaced_.push_back(folder_ + "/" + current);
+    current = name;
+    return Done{};
+  }
+
+  std::string folder_;
+  std::vector<std::string> replaced_;
+};
 
 }  // namespace
 
@@ -204,24 +249,15 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
     added.is_new = false;
   }
   if (const Result<Done> made = make_folder(folder); !made) return made.issue();
-  bool replaced = false;
-  const auto by_cost = [](const Case& a, const Case& b) { return cheaper(a.spec, b.spec); };
-  const auto by_depth = [](const Case& a, const Case& b) {
-    return a.expect.depth != b.expect.depth ? a.expect.depth > b.expect.depth : cheaper(a.spec, b.spec);
-  };
-  if (const auto kept = keep_better(folder, "min", found.minimal, bucket.min, by_cost, replaced); !kept)
-    return kept.issue();
-  if (replaced) {  // orig is the origin of min, whatever its own cost
-    const auto always = [](const Case&, const Case&) { return true; };
-    if (const auto kept = keep_better(folder, "orig", found.original, bucket.orig, always, replaced); !kept)
-      return kept.issue();
-  }
-  if (const auto kept = keep_better(folder, "worst", found.original, bucket.worst, by_depth, replaced); !kept)
-    return kept.issue();
+  BucketFiles files(folder);
+  if (const auto kept = files.put_pair({found.minimal, found.original}, bucket); !kept) return kept.issue();
+  for (const Case* shown : {&found.original, &found.minimal})
+    if (const auto kept = files.put_worst(*shown, bucket); !kept) return kept.issue();
   std::int64_t& seen = bucket.seen[found.run];
   seen = std::max(seen, found.seen);
   if (const auto written = write_file(folder + "/bucket.json", json_fields::write_pretty(bucket)); !written)
     return written.issue();
+  files.remove_replaced();
   const std::string lead =
       folder_ + "/leads/" + bucket_id(family_of(found.original), "") + "-" + short_id(found.original.spec) + ".json";
   std::error_code ignored;

@@ -27,7 +27,7 @@ std::string features_of(const Spec& spec);
 // 12 hex digits over the family and the features.
 std::string bucket_id(const std::string& family, const std::string& features);
 
-// Order of cost between specs that show the same: fewer actions, then fewer frames, then shorter text, then the text.
+// Order of cost between specs that show the same: fewer actions, then shorter text, then the text.
 bool cheaper(const Spec& a, const Spec& b);
 
 struct Bucket {
@@ -53,7 +53,7 @@ struct Found {
 
 // What a run did. The same run for longer replaces it; nothing in it depends on time or machine.
 struct RunRecord {
-  std::string name;  // "seed_7"
+  std::string name;  // "seed_7_0123abcd"
   std::string tool;
   std::int64_t cases = 0;
   std::int64_t frames = 0;

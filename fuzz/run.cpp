@@ -8,6 +8,7 @@
 
 #include "corpus/replay.h"
 #include "fuzz/parallel.h"
+#include "generator/core/hash.h"
 
 namespace contort {
 
@@ -58,13 +59,20 @@ std::vector<Case> failures_of(const Spec& spec, const Stage& stage, const Motion
   return failures;
 }
 
+// Another seed or other characters are another run: what both found is counted twice, not once.
+std::string name_of(const RunConfig& config) {
+  std::string characters;
+  for (const std::string& name : config.draw.characters) characters += name + "\n";
+  return "seed_" + std::to_string(config.seed) + "_" + content_id(characters).substr(0, 8);
+}
+
 class Run {
  public:
   Run(const RunConfig& config, const Library& library, const Corpus& corpus,
       const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop)
       : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop) {
     for (int i = 0; i < config.jobs; ++i) evaluators_.emplace_back(config.checks);
-    run_name_ = "seed_" + std::to_string(config.seed);
+    run_name_ = name_of(config);
   }
 
   RunResult run() {

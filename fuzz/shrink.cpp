@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "fuzz/edits.h"
@@ -17,6 +18,8 @@ class Shrinker {
  public:
   Shrinker(const Case& original, const Library& library, const ShrinkConfig& config)
       : library_(library), config_(config), best_(original), least_depth_(config.depth_floor * original.expect.depth) {
+    // Nothing finite is as deep as NaN, which a case stores with depth 0.
+    if (std::isnan(original.expect.worst_margin)) least_depth_ = std::numeric_limits<double>::infinity();
     best_.provenance.shrunk_from = spec_id(original.spec);
   }
 
@@ -41,17 +44,24 @@ class Shrinker {
     return stopped_ != "fixpoint";
   }
 
+  // Most candidates keep the character: it need not be assembled again for them.
+  Result<Stage> build(const Spec& candidate) const {
+    if (character_ && candidate.character == best_.spec.character) return build_stage(candidate, character_);
+    return build_stage(candidate, library_);
+  }
+
   // Makes the candidate the best one if it builds, fails in the same way, and deeply enough.
   bool accept(const Spec& candidate) {
     if (candidate == best_.spec || spent()) return false;
     if (!tried_.insert(print_spec(candidate)).second) return false;
-    const Result<Stage> stage = build_stage(candidate, library_);
+    const Result<Stage> stage = build(candidate);
     if (!stage) return false;
     ++evaluations_;
     const Evaluation evaluation = evaluator_.run(*stage, best_.expect.check);
     const Finding* finding = deepest(evaluation.findings, best_.expect.check, best_.expect.subject);
     if (finding == nullptr || finding->depth < least_depth_) return false;
     best_.spec = candidate;
+    character_ = stage->character;
     best_.expect = expectation_of(*stage, evaluator_.motion(), evaluation, *finding);
     return true;
   }
@@ -64,7 +74,7 @@ class Shrinker {
 
   // What starts after the worst frame cannot have caused it.
   void cut_time() {
-    const Result<Stage> stage = build_stage(best_.spec, library_);
+    const Result<Stage> stage = build(best_.spec);
     if (!stage) return;
     Spec candidate = best_.spec;
     const std::vector<PlannedAction>& planned = stage->timeline.actions;
@@ -111,6 +121,7 @@ class Shrinker {
   const ShrinkConfig& config_;
   Case best_;
   double least_depth_;
+  std::shared_ptr<const Character> character_;  // of best_, once one was accepted
   int evaluations_ = 0;
   std::string stopped_ = "fixpoint";
   std::set<std::string> tried_;

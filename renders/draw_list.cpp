@@ -7,6 +7,7 @@ namespace contort {
 namespace {
 
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
+constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Of the other one of a pair: red on red hides which is which.
 constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
 constexpr Vec3 kGhostColor{0.22, 0.27, 0.36};
 constexpr double kMarkerRadius_m = 0.038;
@@ -17,6 +18,8 @@ Vec3 muted(const Vec3& color) {
   const double grey = glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
   return glm::mix(Vec3(0.26 + 0.6 * grey), color, 0.3);
 }
+
+Vec3 color_of(int group) { return group == 2 ? kSecondColor : kHighlightColor; }
 
 int add_mesh(Figure& figure, const MeshShape& shape) {
   figure.meshes.push_back(tessellate(shape));
@@ -31,7 +34,7 @@ void add_mesh_pieces(Figure& figure, const Character& character, const Highlight
   const std::vector<int> groups = highlight_groups(character, highlight);
   for (std::size_t i = 0; i < character.mesh().size(); ++i) {
     const MeshPiece& piece = character.mesh()[i];
-    const Vec3 color = groups[i] > 0 ? kHighlightColor : highlight.empty() ? piece.color : muted(piece.color);
+    const Vec3 color = groups[i] > 0 ? color_of(groups[i]) : highlight.empty() ? piece.color : muted(piece.color);
     figure.pieces.push_back({add_mesh(figure, piece.shape), piece.joint, color, groups[i]});
   }
 }
@@ -44,21 +47,23 @@ bool drawn_as_it_is(const Character& character, const Collider& collider) {
 // What was judged is the collider. Where the mesh differs from it, two parts that look apart may overlap.
 void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight) {
   int group = 0;
-  for (const int index : highlight.colliders) {
+  for (const std::vector<int>& solid : highlight.solids) {
     ++group;
-    const Collider& collider = character.colliders()[at(index)];
-    if (drawn_as_it_is(character, collider)) continue;
     const bool has_mesh = std::any_of(figure.pieces.begin(), figure.pieces.end(),
                                       [&](const FigurePiece& piece) { return piece.highlight == group; });
-    figure.pieces.push_back(
-        {add_mesh(figure, as_mesh(collider.shape)), collider.joint, kHighlightColor, group, has_mesh});
+    for (const int index : solid) {
+      const Collider& collider = character.colliders()[at(index)];
+      if (drawn_as_it_is(character, collider)) continue;
+      figure.pieces.push_back(
+          {add_mesh(figure, as_mesh(collider.shape)), collider.joint, color_of(group), group, has_mesh});
+    }
   }
 }
 
 void add_joint_markers(Figure& figure, const Highlight& highlight) {
   if (highlight.joints.empty()) return;
   const int marker = add_mesh(figure, Sphere{Vec3(0.0), kMarkerRadius_m});
-  const int group = static_cast<int>(highlight.colliders.size()) + 1;
+  const int group = static_cast<int>(highlight.solids.size()) + 1;
   for (const int joint : highlight.joints) figure.pieces.push_back({marker, joint, kMarkerColor, group});
 }
 
@@ -106,8 +111,8 @@ std::vector<Vec3> outline(const DrawList& list, std::span<const Triangles> meshe
     Vec3 low = mesh.positions_m.front(), high = low;
     grow_box(mesh, low, high);
     for (int corner = 0; corner < 8; ++corner)
-      corners.push_back(instance.world_from_mesh * Vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                                                        corner & 4 ? high.z : low.z));
+      corners.push_back(instance.world_from_mesh *
+                        Vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z));
   }
   return corners;
 }

@@ -49,7 +49,10 @@ std::vector<int> choose_frames(int first, int worst, int last, int frame_count, 
     insert_sorted(frames, std::max(0, first - std::min(first, context)));
     insert_sorted(frames, end - last < context ? end : last + context);
   }
-  while (frames.size() < wanted && halve_widest_gap(frames, first, last)) {}
+  // A jump shows only beside the frame that was still good.
+  if (frames.size() < wanted && first > 0) insert_sorted(frames, first - 1);
+  while (frames.size() < wanted && halve_widest_gap(frames, first, last)) {
+  }
   // Only where there was no room for both ends of the context (a finding of one frame at the motion's edge).
   for (int frame = 0; frames.size() < wanted; ++frame) insert_sorted(frames, frame);
   return frames;
@@ -60,8 +63,7 @@ std::vector<int> spread_frames(int frame_count, int tiles) {
   if (count <= 0) return {};
   if (count == 1) return {0};
   std::vector<int> frames;
-  for (int i = 0; i < count; ++i)
-    frames.push_back(static_cast<int>(std::int64_t{i} * (frame_count - 1) / (count - 1)));
+  for (int i = 0; i < count; ++i) frames.push_back(static_cast<int>(std::int64_t{i} * (frame_count - 1) / (count - 1)));
   return frames;
 }
 

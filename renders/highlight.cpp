@@ -12,12 +12,23 @@ constexpr std::string_view kBetween = " ~ ";
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+// The colliders of the body or collider of this name; empty where there is none.
+std::vector<int> find_solid(const Character& character, std::string_view name) {
+  std::vector<int> colliders;
+  for (const Body& body : character.bodies())
+    if (body.name == name)
+      for (int i = 0; i < body.collider_count; ++i) colliders.push_back(body.first_collider + i);
+  if (!colliders.empty()) return colliders;
+  const int collider = character.find_collider(name);
+  return collider < 0 ? colliders : std::vector<int>{collider};
+}
+
 bool find_pair(const Character& character, std::string_view subject, Highlight& into) {
   for (std::size_t cut = subject.find(kBetween); cut != subject.npos; cut = subject.find(kBetween, cut + 1)) {
-    const int a = character.find_collider(subject.substr(0, cut));
-    const int b = character.find_collider(subject.substr(cut + kBetween.size()));
-    if (a < 0 || b < 0) continue;
-    into.colliders = {a, b};
+    std::vector<int> a = find_solid(character, subject.substr(0, cut));
+    std::vector<int> b = find_solid(character, subject.substr(cut + kBetween.size()));
+    if (a.empty() || b.empty()) continue;
+    into.solids = {std::move(a), std::move(b)};
     return true;
   }
   return false;
@@ -26,8 +37,8 @@ bool find_pair(const Character& character, std::string_view subject, Highlight& 
 bool find_one(const Character& character, std::string_view name, Highlight& into) {
   if (const int joint = character.find_joint(name); joint >= 0) {
     into.joints = {joint};
-  } else if (const int collider = character.find_collider(name); collider >= 0) {
-    into.colliders = {collider};
+  } else if (std::vector<int> solid = find_solid(character, name); !solid.empty()) {
+    into.solids = {std::move(solid)};
   } else if (const int socket = character.find_socket(name); socket >= 0) {
     into.joints = {character.sockets()[at(socket)].joint};
   } else if (const int part = character.find_part(name); part >= 0) {
@@ -116,10 +127,10 @@ std::vector<int> highlight_groups(const Character& character, const Highlight& h
   const auto mesh = character.mesh();
   std::vector<int> groups(mesh.size(), 0);
   int group = 0;
-  for (const int collider : highlight.colliders) {
+  for (const std::vector<int>& solid : highlight.solids) {
     ++group;
     for (std::size_t i = 0; i < mesh.size(); ++i)
-      if (collider_of(character, mesh[i]) == collider) groups[i] = group;
+      if (std::find(solid.begin(), solid.end(), collider_of(character, mesh[i])) != solid.end()) groups[i] = group;
   }
   ++group;
   for (const int joint : highlight.joints) {

@@ -8,24 +8,25 @@
 
 namespace contort {
 
-// What a finding is about. A pair of colliders, or joints; both empty where the subject is the body as a whole.
+// What a finding is about: solids, such as the two of a collision, each a set of colliders; or joints. Both are empty
+// where the subject is the character as a whole.
 struct Highlight {
-  std::vector<int> colliders;
+  std::vector<std::vector<int>> solids;
   std::vector<int> joints;
-  bool empty() const { return colliders.empty() && joints.empty(); }
+  bool empty() const { return solids.empty() && joints.empty(); }
   bool operator==(const Highlight&) const = default;
 };
 
-// Understands "<collider> ~ <collider>", and "<name>" or "<name> <words>" with the name of a joint, collider, socket or
-// slot ("arm_left/elbow max"). Where only the first of a pair is known, that one is highlighted; unknown names, such
-// as those of parts that are no longer there, highlight nothing.
+// Understands "<solid> ~ <solid>" with names of bodies or colliders, and "<name>" or "<name> <words>" with that of a
+// joint, body, collider, socket or slot ("arm_left/elbow max"). Where only the first of a pair is known, that one is
+// highlighted; unknown names, such as those of parts that are no longer there, highlight nothing.
 Highlight highlighted(const Character& character, const Finding& finding);
 
 // Whether the piece is the collider's very shape, as in parts that have no mesh of their own.
 bool looks_like(const MeshPiece& piece, const Collider& collider);
 
-// Group of each mesh piece: 0 where it is not highlighted, n for the n-th collider, and for the joints, all together,
-// one more than there are colliders. A mesh piece belongs to the nearest collider that moves with the same joint; of a
+// Group of each mesh piece: 0 where it is not highlighted, n for the n-th solid, and for the joints, all together, one
+// more than there are solids. A mesh piece belongs to the nearest collider that moves with the same joint; of a
 // joint without mesh (one axis of several in one place) the pieces of the joints below it stand in.
 std::vector<int> highlight_groups(const Character& character, const Highlight& highlight);
 

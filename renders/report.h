@@ -18,9 +18,9 @@ struct ReportRow {
   std::string subject;  // "arm_left/forearm ~ torso/chest"
   std::string unit;     // of worst_margin
   double worst_margin = 0.0;
-  std::int64_t cases_seen = 0;
-  std::string bucket;  // id
-  std::string state;   // "new", "open", "regressed", …
+  std::int64_t cases_seen = 0;  // of the family: its buckets are told apart only after shrinking
+  std::string bucket;           // id
+  std::string state;            // "new", "open", "regressed", …
   bool gating = false;
   std::string spec_json;       // the minimal spec, laid out for reading
   std::string replay_command;  // exactly what to type

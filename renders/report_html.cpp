@@ -136,9 +136,8 @@ std::string bucket_html(const ReportRow& row, const std::string& id) {
   std::string out = "<section class='bucket' id='" + id + "'>\n";
   out += picture_html(row, row.strip, "Film strip");
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
-         fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) +
-         fact("seen in", counted(row.cases_seen, "case", "cases")) + fact("needs", row.features) +
-         fact("bucket", row.bucket) + "</dl>\n";
+         fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
+         fact("family", row.family) + fact("bucket", row.bucket) + "</dl>\n";
   out += command_html(row.replay_command);
   if (!row.spec_json.empty())
     out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
@@ -151,8 +150,8 @@ std::string bucket_html(const ReportRow& row, const std::string& id) {
 std::string search_text(const FamilyCard& card) {
   std::string text;
   for (const ReportRow* row : card.rows)
-    for (const std::string* part : {&row->check, &row->subject, &row->bucket, &row->features, &row->state})
-      text += *part + " ";
+    for (const std::string* words : {&row->family, &row->subject, &row->bucket, &row->features, &row->state})
+      text += *words + " ";
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
@@ -172,14 +171,14 @@ std::string card_head(const FamilyCard& card) {
   std::string chips;
   std::set<std::string> shown;
   for (const ReportRow* r : card.rows) {
-    cases += r->cases_seen;
+    cases = std::max(cases, r->cases_seen);
     if (shown.insert(r->state).second) chips += chip(r->state, r->gating);
   }
   const auto buckets = static_cast<std::int64_t>(card.rows.size());
   return "<div class='head'>\n<h3><span class='check'>" + html_text(row.check) + "</span> <span class='subject'>" +
          html_text(row.subject) + "</span></h3>\n<p class='summary'>" + chips + " <span>" +
          html_text(counted(cases, "case", "cases")) +
-         (buckets > 1 ? " in " + html_text(counted(buckets, "bucket", "buckets")) : "") + "</span></p>\n</div>\n";
+         (buckets > 1 ? ", " + html_text(counted(buckets, "bucket", "buckets")) : "") + "</span></p>\n</div>\n";
 }
 
 std::string card_html(const FamilyCard& card, std::size_t number) {
@@ -256,12 +255,14 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
   const std::string by_nonce = "'nonce-" + nonce + "'", here = attribute("nonce", nonce);
   return "<!doctype html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
          "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src 'self' file: data:; "
-         "style-src " + by_nonce + "; script-src " + by_nonce + "; base-uri 'none'; form-action 'none'\">\n"
+         "style-src " +
+         by_nonce + "; script-src " + by_nonce +
+         "; base-uri 'none'; form-action 'none'\">\n"
          "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
          "<meta name='color-scheme' content='light dark'>\n<meta name='referrer' content='no-referrer'>\n<title>" +
          html_text(verdict.text + " \xE2\x80\x93 " + model.title) + "</title>\n<link rel='icon' href='data:,'>\n" +
-         "<style" + here + ">\n" + page::kStyle + "</style>\n" +
-         "<script" + here + ">\n" + page::kScript + "</script>\n</head>\n";
+         "<style" + here + ">\n" + page::kStyle + "</style>\n" + "<script" + here + ">\n" + page::kScript +
+         "</script>\n</head>\n";
 }
 
 }  // namespace
@@ -270,8 +271,8 @@ std::string report_html(const ReportModel& model) {
   const Verdict verdict = verdict_of(model);
   return head_html(model, verdict, content_id(report_json(model))) +
          "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" + verdict_html(model, verdict) +
-         "<main class='page'>\n" + failures_html(model) + tested_html(model) +
-         "</main>\n" + footer_html(model) + "</body>\n</html>\n";
+         "<main class='page'>\n" + failures_html(model) + tested_html(model) + "</main>\n" + footer_html(model) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace contort

@@ -50,7 +50,8 @@ Result<Done> add_description(std::string_view text, Library& into) {
   if (format == "contort.object/1") return insert_new(into.objects, checked(parse_object(text)), "object");
   if (format == "contort.character/1") return insert_new(into.characters, parse_character(text), "character");
   return Issue{"library.wrong_format", "/format",
-               "found \"" + format + "\", allowed are contort.part/1, contort.object/1 and contort.character/1"};
+               "found " + json_fields::quoted(format) +
+                   ", allowed are contort.part/1, contort.object/1 and contort.character/1"};
 }
 
 }  // namespace

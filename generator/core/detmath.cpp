@@ -122,9 +122,9 @@ double atan2(double y, double x) {
     angle = 0.5 * kHalfPi;
   } else {
     angle = atan_unit(steep ? ax / ay : ay / ax);
-    if (steep) angle = (kHalfPi - angle) + kHalfPiTail;
+    if (steep) angle = kHalfPi - (angle - kHalfPiTail);  // the tail goes to the smaller number, or it is rounded off
   }
-  if (x < 0.0) angle = (2.0 * kHalfPi - angle) + 2.0 * kHalfPiTail;
+  if (x < 0.0) angle = 2.0 * kHalfPi - (angle - 2.0 * kHalfPiTail);
   return y < 0.0 ? -angle : angle;
 }
 

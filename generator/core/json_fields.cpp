@@ -44,10 +44,12 @@ std::string allowed_text(const Rule& rule) {
   return "";
 }
 
-// Quoted for a message: bounded, and without control characters that would break the line.
-std::string quoted(const std::string& text) {
-  const std::string shown = Json(text.substr(0, 60)).dump(-1, ' ', true, Json::error_handler_t::replace);
-  return text.size() > 60 ? shown + "…" : shown;
+// The parser's message, which quotes the input raw and whole: a megabyte of one number, or bytes that are no UTF-8.
+std::string plain(const std::string& message) {
+  std::string text = message.substr(0, 300);
+  for (char& c : text)
+    if (c < 0x20 || c > 0x7e) c = '?';
+  return message.size() > 300 ? text + "…" : text;
 }
 
 std::string range_text(const Rule& rule) { return "[" + shortest(rule.low) + ", " + shortest(rule.high) + "]"; }
@@ -108,7 +110,7 @@ Result<Json> parse_document(std::string_view text) {
   } catch (const Json::exception& error) {
     const std::string what = error.what();  // "[json.exception.…] parse error at line 1, …"
     const std::size_t start = what.find("] ");
-    return Issue{"json.syntax", "", start == std::string::npos ? what : what.substr(start + 2)};
+    return Issue{"json.syntax", "", plain(start == std::string::npos ? what : what.substr(start + 2))};
   }
 }
 
@@ -121,6 +123,11 @@ std::string kind_of(const Json& value) {
     case Json::value_t::boolean: return "true or false";
     default: return "a number";
   }
+}
+
+std::string quoted(const std::string& text) {
+  const std::string shown = Json(text.substr(0, 60)).dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() > 60 ? shown + "…" : shown;
 }
 
 std::string shortest(double value) {

@@ -64,8 +64,9 @@ class ReadContext {
 Result<Json> parse_document(std::string_view text);
 
 // Shared by the visitors; the .cpp holds them once instead of in every template.
-std::string kind_of(const Json& value);  // "a text", "a number" … for messages
-std::string shortest(double value);      // as JSON writes it
+std::string kind_of(const Json& value);       // "a text", "a number" … for messages
+std::string quoted(const std::string& text);  // for messages: bounded, without control characters
+std::string shortest(double value);           // as JSON writes it
 bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context);
 bool read_integer(const Json& in, const Rule& rule, int& out, ReadContext& context);
 bool read_integer64(const Json& in, const Rule& rule, std::int64_t& out, ReadContext& context);
@@ -230,7 +231,9 @@ class FieldReader {
     const auto found = in_.find(name);
     if (found != in_.end() && *found == value) return;
     if (found != in_.end()) context_.push(name);
-    const std::string got = found == in_.end() ? "nothing" : found->is_string() ? found->dump() : kind_of(*found);
+    const std::string got = found == in_.end()   ? "nothing"
+                            : found->is_string() ? quoted(found->get<std::string>())
+                                                 : kind_of(*found);
     context_.fail("wrong_" + std::string(name), "found " + got + ", expected \"" + std::string(value) + "\"" +
                                                     (found == in_.end() ? " in \"" + std::string(name) + "\"" : ""));
     if (found != in_.end()) context_.pop();

@@ -6,20 +6,21 @@ namespace {
 
 // Pointers and texts quote the input, which may hold control characters, or be a megabyte of one key.
 std::string one_line(const std::string& text, std::size_t most) {
-  std::string line;
-  for (const char c : text.substr(0, most)) {
-    const auto byte = static_cast<unsigned char>(c);
-    line += byte < 0x20 || byte == 0x7f ? '?' : c;
-  }
-  return text.size() > most ? line + "…" : line;
+  std::size_t end = text.size();
+  if (end > most)
+    for (end = most; end > 0 && (text[end] & 0xc0) == 0x80;) --end;  // not inside a character
+  std::string line = text.substr(0, end);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return end < text.size() ? line + "…" : line;
 }
 
 }  // namespace
 
 std::string to_line(const Issue& issue) {
-  const std::string text = one_line(issue.text, 1000);
+  const std::string text = one_line(issue.text, 4000);
   if (issue.pointer.empty()) return issue.code + ": " + text;
-  return issue.code + " at " + one_line(issue.pointer, 500) + ": " + text;
+  return issue.code + " at " + one_line(issue.pointer, 1000) + ": " + text;
 }
 
 }  // namespace contort

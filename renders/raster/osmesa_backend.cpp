@@ -80,8 +80,16 @@ Result<std::unique_ptr<GlBackend>> make_osmesa_backend() {
       !find(library, "OSMesaGetProcAddress", api.function))
     return Issue{"render.no_opengl", "",
                  "libOSMesa was not found, so no pictures can be drawn; install the package libosmesa6."};
-  const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                        OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0, 0};
+  const int wanted[] = {OSMESA_FORMAT,
+                        OSMESA_RGBA,
+                        OSMESA_PROFILE,
+                        OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION,
+                        3,
+                        OSMESA_CONTEXT_MINOR_VERSION,
+                        3,
+                        0,
+                        0};
   OSMesaContext context = api.create(wanted, nullptr);
   if (!context) return Issue{"render.no_opengl", "", "libOSMesa cannot make an OpenGL 3.3 context."};
   return std::unique_ptr<GlBackend>(std::make_unique<OsmesaBackend>(api, context));

@@ -66,9 +66,9 @@ Result<Done> write_text(Image& image, int x, int y, std::string_view text, int s
   const float rgb[] = {static_cast<float>(color.r) / 255.0f, static_cast<float>(color.g) / 255.0f,
                        static_cast<float>(color.b) / 255.0f};
   // One thread: text is small, and OpenImageIO's pool would stay for the life of the process.
-  const bool written = OIIO::ImageBufAlgo::render_text(
-      buffer, x, y, OIIO::string_view(text.data(), text.size()), size_px, face.path, rgb,
-      OIIO::ImageBufAlgo::TextAlignX::Left, OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
+  const bool written = OIIO::ImageBufAlgo::render_text(buffer, x, y, OIIO::string_view(text.data(), text.size()),
+                                                       size_px, face.path, rgb, OIIO::ImageBufAlgo::TextAlignX::Left,
+                                                       OIIO::ImageBufAlgo::TextAlignY::Baseline, 0, {}, 1);
   if (written) return Done{};
   return Issue{"render.no_font", "",
                "The picture has no text: " + buffer.geterror() + ". Install the package fonts-dejavu-core."};

@@ -267,8 +267,7 @@ void Renderer::draw_instance(const DrawInstance& instance, const Eye& eye, const
   const Vec3& color = paint.color ? *paint.color : instance.color;
   glm::mat4 world_from_mesh = float_matrix(instance.world_from_mesh, eye.center_m);
   if (paint.flatten) world_from_mesh = *paint.flatten * world_from_mesh;
-  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "world_from_mesh"), 1, GL_FALSE,
-                       glm::value_ptr(world_from_mesh));
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "world_from_mesh"), 1, GL_FALSE, glm::value_ptr(world_from_mesh));
   gl_.Uniform4f(gl_.GetUniformLocation(solid_, "color"), static_cast<float>(color.x), static_cast<float>(color.y),
                 static_cast<float>(color.z), paint.alpha);
   gl_.Uniform1f(gl_.GetUniformLocation(solid_, "lit"), paint.lit ? 1.0f : 0.0f);

@@ -103,8 +103,7 @@ Result<Image> draw_sheet(Renderer& renderer, const StripInput& input, const Plan
   Sheet sheet(input, static_cast<int>(plan.frames.size()));
   for (std::size_t i = 0; i < plan.frames.size(); ++i) {
     const Camera camera = plan.camera.follows ? moved(plan.camera.camera, plan.anchors[i]) : plan.camera.camera;
-    const Result<Image> picture =
-        renderer.draw(plan.lists[i], camera, sheet.picture_width(), sheet.picture_height());
+    const Result<Image> picture = renderer.draw(plan.lists[i], camera, sheet.picture_width(), sheet.picture_height());
     if (!picture) return picture;
     sheet.add_tile(*picture, plan.frames[i], plan.lists[i].complete);
   }

@@ -16,15 +16,15 @@ inline constexpr char kStripFont[] = "/usr/share/fonts/truetype/dejavu/DejaVuSan
 
 struct StripInput {
   const Character& character;
-  const Motion& motion;            // Of this character.
+  const Motion& motion;              // Of this character.
   const Finding* finding = nullptr;  // Null: frames are evenly spaced and nothing is highlighted.
-  std::string title{};             // "" for the finding's check and subject.
-  std::string replay_command{};    // Goes into the PNG as "Comment".
-  int tile_width = 320;            // Pixels, with the caption; in [96, 2048].
+  std::string title{};               // "" for the finding's check and subject.
+  std::string replay_command{};      // Goes into the PNG as "Comment".
+  int tile_width = 320;              // Pixels, with the caption; in [96, 2048].
   int tile_height = 240;
-  int columns = 4;                 // In [1, 16].
-  int tiles = 8;                   // In [1, 64]; fewer are drawn when the motion has fewer frames.
-  const Motion* ghost = nullptr;   // Drawn translucent behind, frame by frame: the motion that was aimed for.
+  int columns = 4;                // In [1, 16].
+  int tiles = 8;                  // In [1, 64]; fewer are drawn when the motion has fewer frames.
+  const Motion* ghost = nullptr;  // Drawn translucent behind, frame by frame: the motion that was aimed for.
   std::string font = kStripFont;
 };
 

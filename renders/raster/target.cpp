@@ -58,9 +58,9 @@ Image halve_and_flip(const std::vector<std::uint8_t>& rgba, int width, int heigh
     std::uint8_t* to = image.pixel(0, y);
     for (int x = 0; x < image.width; ++x, to += 3, lower += 8)
       for (int c = 0; c < 3; ++c)
-        to[c] = static_cast<std::uint8_t>(
-            (lower[c] + lower[c + 4] + lower[stride + static_cast<std::size_t>(c)] +
-             lower[stride + static_cast<std::size_t>(c) + 4] + 2) / 4);
+        to[c] = static_cast<std::uint8_t>((lower[c] + lower[c + 4] + lower[stride + static_cast<std::size_t>(c)] +
+                                           lower[stride + static_cast<std::size_t>(c) + 4] + 2) /
+                                          4);
   }
   return image;
 }

@@ -49,9 +49,7 @@ TEST(Human, Has36DegreesOfFreedomInElevenParts) {
 }
 
 TEST(Human, OnlyTheShouldersAreBalls) {
-  for (const Joint& j : human().joints())
-    if (j.kind != JointKind::root)
-      EXPECT_EQ(j.kind == JointKind::ball, j.local_name == "shoulder") << j.name;
+  for (const Joint& j : human().joints()) EXPECT_EQ(j.kind == JointKind::ball, j.local_name == "shoulder") << j.name;
   EXPECT_EQ(joint(human(), "arm_left/shoulder").kind, JointKind::ball);
   EXPECT_EQ(joint(human(), "arm_right/shoulder").kind, JointKind::ball);
 }
@@ -131,10 +129,10 @@ TEST(Human, PositiveAnglesTurnTheWayTheirNamesSay) {
     Vec3 direction;
   };
   const Turn turns[] = {
-      {"arm_left/elbow", "hand_left/wrist_flex", {0, 0, 1}},  {"arm_right/elbow", "hand_right/wrist_flex", {0, 0, 1}},
-      {"leg_left/hip_flex", "leg_left/knee", {0, 0, 1}},      {"leg_right/hip_flex", "leg_right/knee", {0, 0, 1}},
-      {"leg_left/hip_abd", "leg_left/knee", {1, 0, 0}},       {"leg_right/hip_abd", "leg_right/knee", {-1, 0, 0}},
-      {"leg_left/knee", "foot_left/ankle_flex", {0, 0, -1}},  {"leg_right/knee", "foot_right/ankle_flex", {0, 0, -1}},
+      {"arm_left/elbow", "hand_left/wrist_flex", {0, 0, 1}}, {"arm_right/elbow", "hand_right/wrist_flex", {0, 0, 1}},
+      {"leg_left/hip_flex", "leg_left/knee", {0, 0, 1}},     {"leg_right/hip_flex", "leg_right/knee", {0, 0, 1}},
+      {"leg_left/hip_abd", "leg_left/knee", {1, 0, 0}},      {"leg_right/hip_abd", "leg_right/knee", {-1, 0, 0}},
+      {"leg_left/knee", "foot_left/ankle_flex", {0, 0, -1}}, {"leg_right/knee", "foot_right/ankle_flex", {0, 0, -1}},
       {"torso/lumbar_flex", "head/neck_flex", {0, 0, 1}},
   };
   const std::vector<Rigid> rest = world_at_rest(human());

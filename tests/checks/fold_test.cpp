@@ -86,8 +86,9 @@ RC_GTEST_PROP(Fold, AgreesWithAReferenceThatSeesWholeRows, ()) {
   std::vector<Episode> expected;
   for (std::size_t s = 0; s < rows.size(); ++s)
     for (const Episode& e : reference(rows[s], gap, static_cast<int>(s))) expected.push_back(e);
-  std::sort(expected.begin(), expected.end(),
-            [](const Episode& a, const Episode& b) { return std::pair(a.first, a.subject) < std::pair(b.first, b.subject); });
+  std::sort(expected.begin(), expected.end(), [](const Episode& a, const Episode& b) {
+    return std::pair(a.first, a.subject) < std::pair(b.first, b.subject);
+  });
   const std::vector<Episode> got = fold_rows(rows, gap).episodes();
   RC_ASSERT(std::equal(got.begin(), got.end(), expected.begin(), expected.end(), same));
 }
@@ -112,8 +113,7 @@ RC_GTEST_PROP(Fold, IntervalsCoverTheViolatedFramesAndNoGapLongerThanAllowed, ()
       }
       RC_ASSERT(safe == 0);
     }
-    for (std::size_t f = 0; f < cover.size(); ++f)
-      RC_ASSERT(violated(rows[s][f]) ? cover[f] == 1 : cover[f] <= 1);
+    for (std::size_t f = 0; f < cover.size(); ++f) RC_ASSERT((violated(rows[s][f]) ? cover[f] == 1 : cover[f] <= 1));
   }
 }
 

@@ -129,10 +129,10 @@ TEST_F(JointRange, EveryCoordinateThatIsNotANumberIsAFinding) {
 
 TEST_F(JointRange, NamesItsSubjectsAfterJointAndSide) {
   const std::vector<std::string> expected = {
-      "arm_left/slide min",       "arm_left/slide max",        "arm_left/lift min",  "arm_left/lift max",
-      "arm_left/wrist swing",     "arm_left/wrist twist min",  "arm_left/wrist twist max",
-      "arm_right/slide min",      "arm_right/slide max",       "arm_right/lift min", "arm_right/lift max",
-      "arm_right/wrist swing",    "arm_right/wrist twist min", "arm_right/wrist twist max"};
+      "arm_left/slide min",        "arm_left/slide max",       "arm_left/lift min",        "arm_left/lift max",
+      "arm_left/wrist swing",      "arm_left/wrist twist min", "arm_left/wrist twist max", "arm_right/slide min",
+      "arm_right/slide max",       "arm_right/lift min",       "arm_right/lift max",       "arm_right/wrist swing",
+      "arm_right/wrist twist min", "arm_right/wrist twist max"};
   EXPECT_EQ(small::subjects_of("joint_range", character_), expected);
 }
 

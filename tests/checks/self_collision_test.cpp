@@ -80,8 +80,7 @@ TEST(SelfCollision, AnAttachedObjectCounts) {
 
 TEST(SelfCollision, AnAttachedObjectIsPartOfItsCarrier) {
   CharacterChoice choice{"small", {}, {{"peg", "arm_left", "inside"}}};
-  for (const std::string& subject :
-       small::subjects_of("self_collision", small::build(small::library(), choice)))
+  for (const std::string& subject : small::subjects_of("self_collision", small::build(small::library(), choice)))
     EXPECT_NE(subject, "arm_left/slide ~ object:peg");
 }
 

@@ -3,6 +3,7 @@
 // distance of cores is that of the origin from a zonotope.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -101,18 +102,20 @@ inline Bounds distance_bounds(const Zonotope& z, int sweeps) {
 }
 
 // Least extent of a zonotope that holds the origin, over directions: how far it must be moved to let the origin out.
-// An upper bound of the depth, found by sampling and then halving steps around the best direction.
-inline double sampled_depth(const Zonotope& z, Random& r, int samples) {
-  Vec3 best(0, 1, 0);
-  for (int i = 0; i < samples; ++i)
-    if (const Vec3 n = r.direction(); z.support(n) < z.support(best)) best = n;
-  for (double step = 0.2; step > 1e-8; step *= 0.7)
-    for (int i = 0; i < 12; ++i) {
-      const Vec3 near = best + step * r.direction();
-      const Vec3 n = near / std::sqrt(glm::dot(near, near));
-      if (z.support(n) < z.support(best)) best = n;
-    }
-  return z.support(best);
+// An upper bound of the depth. Every face is a local minimum, so steps are halved around many random directions.
+inline double sampled_depth(const Zonotope& z, Random& r, int starts) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int start = 0; start < starts; ++start) {
+    Vec3 best = r.direction();
+    for (double step = 0.3; step > 1e-6; step *= 0.6)
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 near = best + step * r.direction();
+        const Vec3 n = near / std::sqrt(glm::dot(near, near));
+        if (z.support(n) < z.support(best)) best = n;
+      }
+    least = std::min(least, z.support(best));
+  }
+  return least;
 }
 
 inline const char* name_of(Core core) {

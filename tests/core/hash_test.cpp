@@ -68,8 +68,8 @@ TEST(Hash, TextsDoNotRunTogether) {
 }
 
 TEST(Hash, ValuesAreFixedForAllTime) {
-  EXPECT_EQ(to_hex(hash_of({0.0, 1.0, -2.5})), "?");
-  EXPECT_EQ(content_id("contort"), "?");
+  EXPECT_EQ(to_hex(hash_of({0.0, 1.0, -2.5})), "8201ff3db4681954");
+  EXPECT_EQ(content_id("contort"), "22397e29790d2a72d979a30b4bd6d43f");
   EXPECT_EQ(content_id(""), "99aa06d3014798d86001c324468d497f");  // XXH3-128 of nothing, as xxhash's own tests say
 }
 

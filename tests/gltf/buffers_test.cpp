@@ -56,8 +56,8 @@ TEST_F(GltfFiles, BuffersMayBeFilesInTheAssetsFolder) {
 
 TEST_F(GltfFiles, BuffersMayBeDataUris) {
   GlbBuilder b;
-  b.root["nodes"] = {Json::object()};
-  b.root["animations"] = {Json::object()};
+  b.root["nodes"] = Json::array({Json::object()});
+  b.root["animations"] = Json::array({Json::object()});
   b.root["buffers"] = {{{"byteLength", 16}, {"uri", "data:application/octet-stream;base64,AAAAPwAAgD8AAABAAABAQA=="}}};
   b.root["bufferViews"] = {{{"buffer", 0}, {"byteLength", 4}}, {{"buffer", 0}, {"byteOffset", 4}, {"byteLength", 12}}};
   b.root["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}},

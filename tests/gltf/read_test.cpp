@@ -268,14 +268,14 @@ RC_GTEST_PROP(ReadGltfProperty, KeysComeBackAsTheyAre, ()) {
   const auto numbers = *rc::gen::suchThat(rc::gen::container<std::vector<int>>(rc::gen::inRange(-100000, 100000)),
                                           [](const auto& v) { return v.size() >= 3; });
   GlbBuilder b;
-  b.root["nodes"] = {Json::object()};
+  b.root["nodes"] = Json::array({Json::object()});
   std::vector<float> times;
   std::vector<float> values;
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
     times.push_back(static_cast<float>(i) / 7.0F);
     for (std::size_t c = 0; c < 3; ++c) values.push_back(static_cast<float>(numbers[i + c]) / 3.0F);
   }
-  b.root["animations"] = {Json::object()};
+  b.root["animations"] = Json::array({Json::object()});
   b.add_channel(0, 0, "translation", b.add_scalars(times), b.add_vec3(values));
   const auto result = parse_glb(b.glb());
   RC_ASSERT(result.ok());

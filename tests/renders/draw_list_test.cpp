@@ -26,7 +26,7 @@ std::vector<Rigid> rest_world() {
   return world;
 }
 
-Highlight pair_of(const char* a, const char* b) { return {{mech().find_collider(a), mech().find_collider(b)}, {}}; }
+Highlight pair_of(const char* a, const char* b) { return {{{mech().find_collider(a)}, {mech().find_collider(b)}}, {}}; }
 
 std::ptrdiff_t highlighted_count(const Figure& figure) {
   return std::count_if(figure.pieces.begin(), figure.pieces.end(),
@@ -44,7 +44,7 @@ TEST(Figure, IsRedNowhereButWhereItIsHighlighted) {
   const Figure figure = make_figure(mech(), pair_of("arm_left/forearm", "torso/chest"));
   EXPECT_GE(highlighted_count(figure), 2);
   for (const FigurePiece& piece : figure.pieces) {
-    const bool red = piece.color.x > 0.5 && piece.color.y < 0.2 && piece.color.z < 0.2;
+    const bool red = piece.color.x > 0.5 && piece.color.y <= 0.2 && piece.color.z < 0.2;
     EXPECT_EQ(red, piece.highlight > 0);
   }
 }

@@ -32,8 +32,7 @@ TEST(ChooseFrames, KeepsItsPromisesForEveryShortMotion) {
     for (int count = 1; count <= 14; ++count)
       for (int first = 0; first < count; ++first)
         for (int worst = first; worst < count; ++worst)
-          for (int last = worst; last < count; ++last)
-            ASSERT_TRUE(keeps_promises(first, worst, last, count, tiles));
+          for (int last = worst; last < count; ++last) ASSERT_TRUE(keeps_promises(first, worst, last, count, tiles));
 }
 
 RC_GTEST_PROP(ChooseFrames, KeepsItsPromisesForLongMotions, ()) {
@@ -53,7 +52,13 @@ RC_GTEST_PROP(ChooseFrames, SurvivesAnyArguments, (int first, int worst, int las
 
 TEST(ChooseFrames, ShowsWhatWasBeforeAndAfter) {
   const Frames frames = choose_frames(40, 55, 80, 120, 8);
-  EXPECT_EQ(frames, (Frames{20, 40, 47, 55, 67, 73, 80, 100}));
+  EXPECT_EQ(frames, (Frames{20, 39, 40, 47, 55, 67, 80, 100}));
+}
+
+TEST(ChooseFrames, ShowsAJumpBesideTheFrameBeforeIt) {
+  for (const int last : {70, 71, 90})
+    for (int tiles = 6; tiles <= 12; ++tiles) EXPECT_TRUE(has(choose_frames(70, 70, last, 120, tiles), 69));
+  EXPECT_TRUE(has(choose_frames(119, 119, 119, 120, 8), 118));
 }
 
 TEST(ChooseFrames, StaysCloseToAShortFinding) {

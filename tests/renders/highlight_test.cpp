@@ -36,16 +36,32 @@ TEST(Highlighted, UnderstandsPairsOfColliders) {
   const int forearm = human().find_collider("arm_left/forearm"), chest = human().find_collider("torso/chest");
   ASSERT_GE(forearm, 0);
   ASSERT_GE(chest, 0);
-  EXPECT_EQ(highlight_of("arm_left/forearm ~ torso/chest"), (Highlight{{forearm, chest}, {}}));
+  const Highlight pair = highlight_of("arm_left/forearm ~ torso/chest");
+  ASSERT_EQ(pair.solids.size(), 2u);
+  EXPECT_NE(std::find(pair.solids[0].begin(), pair.solids[0].end(), forearm), pair.solids[0].end());
+  EXPECT_EQ(pair.solids[1], std::vector<int>{chest});
   const int barrel = human().find_collider("object:rifle/barrel");
   ASSERT_GE(barrel, 0);
-  EXPECT_EQ(highlight_of("object:rifle/barrel ~ torso/chest"), (Highlight{{barrel, chest}, {}}));
+  EXPECT_EQ(highlight_of("object:rifle/barrel ~ torso/chest").solids[0], std::vector<int>{barrel});
+}
+
+TEST(Highlighted, UnderstandsWhatIsJudged) {
+  for (const JudgedPair& judged : human().judged_pairs()) {
+    const Body& a = human().bodies()[static_cast<std::size_t>(judged.body_a)];
+    const Body& b = human().bodies()[static_cast<std::size_t>(judged.body_b)];
+    const Highlight pair = highlight_of(a.name + " ~ " + b.name);
+    ASSERT_EQ(pair.solids.size(), 2u) << a.name << " ~ " << b.name;
+    EXPECT_EQ(pair.solids[0].size(), static_cast<std::size_t>(a.collider_count));
+    EXPECT_EQ(pair.solids[1].front(), b.first_collider);
+    const std::vector<int> groups = highlight_groups(human(), pair);
+    for (const int group : {1, 2}) EXPECT_GE(std::count(groups.begin(), groups.end(), group), 1) << a.name << b.name;
+  }
 }
 
 TEST(Highlighted, UnderstandsEverySubjectOfEveryPairOfColliders) {
   for (const Collider& a : human().colliders())
     for (const Collider& b : human().colliders())
-      ASSERT_EQ(highlight_of(a.name + " ~ " + b.name).colliders.size(), 2u) << a.name << " ~ " << b.name;
+      ASSERT_EQ(highlight_of(a.name + " ~ " + b.name).solids.size(), 2u) << a.name << " ~ " << b.name;
 }
 
 TEST(Highlighted, UnderstandsJointsWithAndWithoutWords) {
@@ -58,13 +74,15 @@ TEST(Highlighted, UnderstandsJointsWithAndWithoutWords) {
 }
 
 TEST(Highlighted, UnderstandsOtherNames) {
-  EXPECT_EQ(highlight_of("torso/chest max").joints.size() + highlight_of("torso/chest max").colliders.size(), 1u);
+  EXPECT_EQ(highlight_of("torso/chest max").solids.size(), 1u);
+  EXPECT_EQ(highlight_of("object:rifle").solids.size(), 1u);
   EXPECT_FALSE(highlight_of("hand_right/grip").empty());
   EXPECT_GE(highlight_of("arm_left").joints.size(), 2u);
 }
 
 TEST(Highlighted, HighlightsNothingForUnknownNames) {
-  for (const char* subject : {"", " ", "~", " ~ ", "nothing ~ torso/chest", "nothing", "nothing max", "arm_left/elbo", "arm_left/forearm~torso/chest"})
+  for (const char* subject : {"", " ", "~", " ~ ", "nothing ~ torso/chest", "nothing", "nothing max", "arm_left/elbo",
+                              "arm_left/forearm~torso/chest"})
     EXPECT_TRUE(highlight_of(subject).empty()) << subject;
 }
 

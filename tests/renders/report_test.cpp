@@ -78,8 +78,8 @@ TEST(Report, NamesNewFailuresFirst) {
 }
 
 TEST(Report, CountsWhatGatesByState) {
-  const std::string html = report_html(model_of({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true),
-                                                 row_of("c", "d", "open", false)}));
+  const std::string html = report_html(
+      model_of({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true), row_of("c", "d", "open", false)}));
   EXPECT_TRUE(contains(html, "<h1>2 gating failures</h1>"));
   EXPECT_TRUE(contains(html, "In 2 families: 1 new, 1 regressed. Known, not gating: 1 open."));
 }
@@ -122,10 +122,13 @@ TEST(Report, SaysWhereAPictureIsMissing) {
 TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
   std::vector<ReportRow> rows = {row_of("c", "known", "open", false), row_of("c", "both", "open", false),
                                  row_of("c", "known", "open", false), row_of("c", "both", "new", true)};
+  rows[3].cases_seen = 2000;
   const std::string html = report_html(model_of(rows));
   EXPECT_EQ(count(html, "<article"), 2u);
   EXPECT_EQ(count(html, "<section class='bucket'"), 4u);
   EXPECT_EQ(count(html, "1 more bucket</summary>"), 2u);
+  EXPECT_EQ(count(html, "1\u202F280 cases, 2 buckets"), 1u);
+  EXPECT_EQ(count(html, "2\u202F000 cases, 2 buckets"), 1u);  // of the family: not the sum
   EXPECT_LT(html.find("both</span>"), html.find("known</span>"));
 }
 

@@ -41,10 +41,10 @@ TEST(OneLine, KeepsGoodTextAndCutsLongText) {
 
 TEST(OneLine, ReplacesWhatIsNotText) {
   EXPECT_EQ(one_line("a\nb\tc\x7f"), "a\uFFFDb\uFFFDc\uFFFD");
-  EXPECT_EQ(one_line("\xff\xc0\xaf"), "\uFFFD\uFFFD\uFFFD");          // never a lead byte; overlong
-  EXPECT_EQ(one_line("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");          // a surrogate
-  EXPECT_EQ(one_line("\xe2\x82"), "\uFFFD\uFFFD");                    // cut off
-  EXPECT_EQ(one_line("a\u202Eb"), "a\uFFFD\uFFFD\uFFFDb");            // writes backwards
+  EXPECT_EQ(one_line("\xff\xc0\xaf"), "\uFFFD\uFFFD\uFFFD");  // never a lead byte; overlong
+  EXPECT_EQ(one_line("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // a surrogate
+  EXPECT_EQ(one_line("\xe2\x82"), "\uFFFD\uFFFD");            // cut off
+  EXPECT_EQ(one_line("a\u202Eb"), "a\uFFFD\uFFFD\uFFFDb");    // writes backwards
   EXPECT_EQ(one_line(std::string_view("a\0b", 3)), "a\uFFFDb");
 }
 

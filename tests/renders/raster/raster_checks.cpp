@@ -30,16 +30,16 @@ std::unique_ptr<Renderer> make_renderer() {
   return std::move(renderer).value();
 }
 
-Camera front() {
-  const Vec3 corners[] = {{-0.8, 0.2, -0.8}, {0.8, 1.8, 0.8}};
-  return frame_points(corners, {0.0, 0.0}, static_cast<double>(kWidth) / kHeight);
+Camera front(double elevation_deg = 0.0) {
+  const Vec3 corners[] = {{-0.8, 0.0, -0.8}, {0.8, 0.0, 0.8}, {-0.8, 1.8, 0.8}, {0.8, 1.8, -0.8}};
+  return frame_points(corners, {0.0, elevation_deg * kRadPerDeg}, static_cast<double>(kWidth) / kHeight);
 }
 
-Image draw(const DrawList& list) {
+Image draw(const DrawList& list, const Camera& camera = front()) {
   const Scene scene;
   const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->set_meshes(scene.meshes);
-  return renderer->draw(list, front(), kWidth, kHeight).value();
+  return renderer->draw(list, camera, kWidth, kHeight).value();
 }
 
 DrawList list_of(std::vector<DrawInstance> instances) {
@@ -57,8 +57,7 @@ long redness(const Image& image) {
 
 int differing_pixels(const Image& a, const Image& b) {
   int count = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-    count += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3) count += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
   return count;
 }
 
@@ -79,6 +78,29 @@ TEST(Renderer, DrawsSomething) {
 TEST(Renderer, HasTheSkyAbove) {
   const Image empty = draw({});
   EXPECT_GT(empty.pixel(5, 0)[0], empty.pixel(5, kHeight - 1)[0] + 10);
+}
+
+int brightness(const Image& image, int x, int y) { return image.pixel(x, y)[0] + image.pixel(x, y)[1]; }
+
+TEST(Renderer, HasLinesOnTheGround) {
+  const Image empty = draw({}, front(30.0));
+  int edges = 0;
+  for (int x = 1; x < kWidth; ++x)
+    edges += std::abs(brightness(empty, x, kHeight - 8) - brightness(empty, x - 1, kHeight - 8)) > 20 ? 1 : 0;
+  EXPECT_GE(edges, 4);
+}
+
+TEST(Renderer, CastsShadowsOnTheGround) {
+  DrawInstance low = Scene::ball(0.0, 0);
+  low.world_from_mesh.p_m.y = 0.35;
+  const Image empty = draw({}, front(30.0)), ball = draw(list_of({low}), front(30.0));
+  int shadow = 0;
+  for (int y = kHeight / 2; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool grey = std::abs(ball.pixel(x, y)[0] - ball.pixel(x, y)[2]) < 40;
+      shadow += grey && brightness(ball, x, y) < brightness(empty, x, y) - 20 ? 1 : 0;
+    }
+  EXPECT_GT(shadow, 50);
 }
 
 TEST(Renderer, DrawsTheSameBytesAgain) {

@@ -36,9 +36,7 @@ Motion bending(int frames) {
   return motion;
 }
 
-Finding collision() {
-  return {"self_collision", "arm_left/forearm ~ torso/chest", "m", 40, 55, 80, -0.0234, 1.2};
-}
+Finding collision() { return {"self_collision", "arm_left/forearm ~ torso/chest", "m", 40, 55, 80, -0.0234, 1.2}; }
 
 class Strip : public testing::Test {
  protected:
@@ -151,6 +149,17 @@ TEST_F(Strip, ShowsMotionsThatAreNotFinite) {
   EXPECT_TRUE(render_strip(input(), path("some.png")).ok());
   for (Rigid& root : motion_.root) root.p_m.y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(render_strip(input(), path("all.png")).ok());
+}
+
+TEST_F(Strip, FollowsAFigureThatTravels) {
+  for (int f = 0; f < motion_.frame_count; ++f) motion_.root[static_cast<std::size_t>(f)].p_m.z += 0.2 * f;
+  ASSERT_TRUE(render_strip(input(), path("a.png")).ok());
+  const Image image = read_png(path("a.png")).image;
+  for (int tile = 0; tile < 4; ++tile) {
+    Image column(320, image.height);
+    for (int y = 0; y < image.height; ++y) std::copy_n(image.pixel(2 + tile * 322, y), 3 * 320, column.pixel(0, y));
+    EXPECT_GT(red_pixels(column, input()), 100) << tile;
+  }
 }
 
 TEST_F(Strip, DrawsAGhostBehindTheMotion) {

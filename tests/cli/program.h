@@ -1,0 +1,80 @@
+// Runs the built contort and keeps what it printed.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <vector>
+
+#include "tests/corpus/temp_folder.h"
+
+namespace contort {
+
+struct Ran {
+  int code = -1;  // exit code; 1000 + n where signal n ended it
+  std::string out;
+  std::string err;
+};
+
+// A running contort whose outputs go to files.
+class Program {
+ public:
+  Program(const std::vector<std::string>& arguments, const std::string& folder) : folder_(folder) {
+    child_ = ::fork();
+    if (child_ == 0) exec(arguments);
+  }
+  void send(int signal) const { ::kill(child_, signal); }
+  Ran wait() const {
+    int status = 0;
+    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    }
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), slurp(folder_ + "/stdout"),
+            slurp(folder_ + "/stderr")};
+  }
+
+ private:
+  void redirect(const char* name, int to) const {
+    const int file = ::open((folder_ + name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, to);
+  }
+  [[noreturn]] void exec(const std::vector<std::string>& arguments) const {
+    static std::string program = CONTORT_BINARY_DIR "/contort";
+    std::vector<char*> argv = {program.data()};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    redirect("/stdout", STDOUT_FILENO);
+    redirect("/stderr", STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+
+  std::string folder_;
+  pid_t child_ = -1;
+};
+
+inline Ran contort_program(const std::vector<std::string>& arguments) {
+  const TempFolder folder;
+  return Program(arguments, folder.path()).wait();
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+inline std::string last_line(const std::string& text) {
+  const std::vector<std::string> lines = lines_of(text);
+  return lines.empty() ? "" : lines.back();
+}
+
+}  // namespace contort

@@ -1,0 +1,327 @@
+// The corpus as a map from bucket to the best case: minima and maxima, so that no order of adding matters.
+#include "corpus/corpus.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/corpus/sample_cases.h"
+#include "tests/corpus/temp_folder.h"
+
+namespace contort {
+
+namespace {
+
+// A made-up case of the elbow's family. Everything that running it would show follows from the spec, as it does in
+// life.
+Case made_up(int elbow_deg, int duration, std::int64_t seed) {
+  Case c;
+  c.spec = bent_elbow(elbow_deg, duration);
+  c.expect.check = "joint_range";
+  c.expect.subject = kElbow;
+  c.expect.unit = "rad";
+  c.expect.worst_margin = (150 - elbow_deg) * kRadPerDeg;
+  c.expect.depth = -c.expect.worst_margin / 0.1;
+  c.expect.motion_hash = "0123456789abcdef";
+  c.expect.character_hash = "0123456789abcdef";
+  c.provenance.seed = seed;
+  return c;
+}
+
+Case made_up_nan(Case c) {
+  c.expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
+  c.expect.depth = 0.0;
+  return c;
+}
+
+Found found(int elbow_deg, int duration, std::int64_t seed, int seen = 1) {
+  Found f;
+  f.original = made_up(elbow_deg + 7, duration + 40, seed);
+  f.minimal = made_up(elbow_deg, duration, seed);
+  f.minimal.provenance.shrunk_from = spec_id(f.original.spec);
+  f.run = "seed_" + std::to_string(seed);
+  f.seen = seen;
+  return f;
+}
+
+Corpus create(const TempFolder& folder) {
+  Result<Corpus> corpus = Corpus::create(folder / "corpus");
+  if (!corpus) ADD_FAILURE() << to_line(corpus.issue());
+  return std::move(corpus).value();
+}
+
+Bucket only_bucket(const Corpus& corpus) {
+  std::vector<Issue> damaged;
+  const std::vector<Bucket> all = corpus.buckets(damaged);
+  EXPECT_TRUE(damaged.empty());
+  EXPECT_EQ(all.size(), 1U);
+  return all.empty() ? Bucket{} : all.front();
+}
+
+Case stored(const Corpus& corpus, const Bucket& bucket, const std::string& file) {
+  const Result<Case> read = read_case(corpus.folder_of(bucket) + "/" + file);
+  EXPECT_TRUE(read) << to_line(read.issue());
+  return read ? *read : Case{};
+}
+
+Tree corpus_of(const std::vector<Found>& founds) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  for (const Found& f : founds) {
+    const auto added = corpus.add(f);
+    EXPECT_TRUE(added) << to_line(added.issue());
+  }
+  return tree_of(corpus.folder());
+}
+
+// Few different values, so that equal minimal specs with different origins, equal depths and equal runs all occur.
+Found draw_found() {
+  Found f = found(151 + *rc::gen::inRange(0, 3), 30, *rc::gen::inRange(0, 3), *rc::gen::inRange(1, 4));
+  f.original = made_up(160 + *rc::gen::inRange(0, 3), 60 + *rc::gen::inRange(0, 2), f.original.provenance.seed);
+  f.minimal.provenance.shrunk_from = spec_id(f.original.spec);
+  if (*rc::gen::inRange(0, 4) == 0) f.minimal.expect.subject = f.original.expect.subject = "arm_right/elbow max";
+  if (*rc::gen::inRange(0, 8) == 0) f.original = made_up_nan(f.original);
+  return f;
+}
+
+std::vector<Found> draw_founds() {
+  std::vector<Found> founds;
+  const int count = *rc::gen::inRange(1, 5);
+  for (int i = 0; i < count; ++i) founds.push_back(draw_found());
+  return founds;
+}
+
+RC_GTEST_PROP(CorpusAdd, AnyOrderLeavesTheSameBytes, ()) {
+  const std::vector<Found> founds = draw_founds();
+  std::vector<Found> shuffled = founds;
+  for (std::size_t i = shuffled.size(); i > 1; --i)
+    std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(i)))]);
+  const std::string difference = first_difference(corpus_of(founds), corpus_of(shuffled));
+  if (!difference.empty()) RC_FAIL(difference);
+}
+
+RC_GTEST_PROP(CorpusAdd, AddingAllTwiceChangesNothing, ()) {
+  const std::vector<Found> founds = draw_founds();
+  std::vector<Found> twice = founds;
+  twice.insert(twice.end(), founds.begin(), founds.end());
+  const std::string difference = first_difference(corpus_of(founds), corpus_of(twice));
+  if (!difference.empty()) RC_FAIL(difference);
+}
+
+TEST(CorpusAdd, KeepsTheCheapestAsMinWithItsOriginAndTheDeepestAsWorst) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  Found cheap = found(160, 40, 2);  // the same length of text: 160 stands before 161
+  Found deep = found(161, 40, 1);
+  deep.original = made_up(199, 99, 1);
+  for (const Found* f : {&deep, &cheap}) ASSERT_TRUE(corpus.add(*f));
+  const Bucket bucket = only_bucket(corpus);
+  EXPECT_EQ(stored(corpus, bucket, bucket.min), cheap.minimal);
+  EXPECT_EQ(stored(corpus, bucket, bucket.orig), cheap.original);
+  EXPECT_EQ(stored(corpus, bucket, bucket.worst), deep.original);
+  EXPECT_EQ(tree_of(corpus.folder()).size(), 4U) << "files that were replaced are still there";
+}
+
+TEST(CorpusAdd, AMinimalCaseThatIsDeeperThanItsOriginIsTheWorst) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  Found f = found(160, 40, 1);
+  std::swap(f.minimal.expect.depth, f.original.expect.depth);
+  std::swap(f.minimal.expect.worst_margin, f.original.expect.worst_margin);
+  ASSERT_TRUE(corpus.add(f));
+  const Bucket bucket = only_bucket(corpus);
+  EXPECT_EQ(stored(corpus, bucket, bucket.worst), f.minimal);
+}
+
+TEST(CorpusAdd, NothingIsDeeperThanNaN) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  Found f = found(160, 40, 1);
+  f.original = made_up_nan(f.original);
+  ASSERT_TRUE(corpus.add(f));
+  Found finite = found(161, 40, 2);
+  finite.original = made_up(300, 99, 2);
+  ASSERT_TRUE(corpus.add(finite));
+  const Bucket bucket = only_bucket(corpus);
+  EXPECT_TRUE(std::isnan(stored(corpus, bucket, bucket.worst).expect.worst_margin));
+}
+
+TEST(CorpusAdd, ABucketIsNewOnceAndCountsARunOnce) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const auto first = corpus.add(found(160, 40, 1, 3));
+  const auto again = corpus.add(found(160, 40, 1, 2));
+  const auto other = corpus.add(found(165, 40, 2, 5));
+  ASSERT_TRUE(first && again && other);
+  EXPECT_TRUE(first->is_new);
+  EXPECT_FALSE(again->is_new);
+  EXPECT_FALSE(other->is_new);
+  EXPECT_EQ(first->bucket, other->bucket);
+  const std::map<std::string, std::int64_t> seen = {{"seed_1", 3}, {"seed_2", 5}};
+  EXPECT_EQ(only_bucket(corpus).seen, seen);
+}
+
+TEST(CorpusAdd, KeepsTheStateThatAPersonGaveABucket) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const auto added = corpus.add(found(160, 40, 1));
+  ASSERT_TRUE(added);
+  std::string text = slurp(added->bucket + "/bucket.json");
+  const std::size_t at = text.find("\"state\": \"new\"");
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, 14, "\"state\": \"open\"");
+  spill(added->bucket + "/bucket.json", text);
+  ASSERT_TRUE(corpus.add(found(155, 40, 2)));
+  EXPECT_EQ(only_bucket(corpus).state, "open");
+}
+
+TEST(CorpusAdd, ABucketThatCannotBeReadIsAnErrorAndStaysAsItIs) {
+  for (const std::string bad : {"{", "{\"format\": \"contort.bucket/9\"}", ""}) {
+    const TempFolder folder;
+    const Corpus corpus = create(folder);
+    const auto added = corpus.add(found(160, 40, 1));
+    ASSERT_TRUE(added);
+    spill(added->bucket + "/bucket.json", bad);
+    const Tree before = tree_of(corpus.folder());
+    const auto refused = corpus.add(found(155, 30, 2));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.issue().text.find("bucket.json"), std::string::npos) << refused.issue().text;
+    EXPECT_EQ(first_difference(before, tree_of(corpus.folder())), "");
+    std::vector<Issue> damaged;
+    EXPECT_TRUE(corpus.buckets(damaged).empty());
+    EXPECT_EQ(damaged.size(), 1U);
+  }
+}
+
+TEST(CorpusAdd, AStateThatDoesNotExistIsRefused) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const auto added = corpus.add(found(160, 40, 1));
+  ASSERT_TRUE(added);
+  std::string text = slurp(added->bucket + "/bucket.json");
+  text.replace(text.find("\"new\""), 5, "\"odd\"");
+  spill(added->bucket + "/bucket.json", text);
+  const auto refused = corpus.add(found(160, 40, 1));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.issue().code, "bucket.unknown_state");
+}
+
+TEST(CorpusAdd, ALeadGoesOnlyWhenItsBucketIsWritten) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const Found f = found(160, 40, 1);
+  const Result<std::string> lead = corpus.add_lead(f.original);
+  ASSERT_TRUE(lead);
+  const Result<Case> read = read_case(*lead);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, f.original);
+  ASSERT_TRUE(corpus.add(f));
+  EXPECT_FALSE(std::filesystem::exists(*lead));
+}
+
+// Root may write everywhere, so what is in the way here are files where folders should be, and folders for files.
+TEST(CorpusUnwritable, ABucketFolderThatCannotBeMadeLosesNothing) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const Found f = found(160, 40, 1);
+  const Result<std::string> lead = corpus.add_lead(f.original);
+  ASSERT_TRUE(lead);
+  Bucket bucket;
+  bucket.check = "joint_range";
+  bucket.id = bucket_id(family_of(f.minimal), features_of(f.minimal.spec));
+  spill(corpus.folder_of(bucket), "in the way");
+  const auto added = corpus.add(f);
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.issue().code, "file.unwritable");
+  EXPECT_TRUE(std::filesystem::exists(*lead));
+  EXPECT_EQ(slurp(corpus.folder_of(bucket)), "in the way");
+}
+
+TEST(CorpusUnwritable, ABucketFileThatCannotBeReplacedKeepsTheLeadAndTheOldCases) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const auto added = corpus.add(found(160, 40, 1));
+  ASSERT_TRUE(added);
+  const Found better = found(155, 30, 2);
+  const Result<std::string> lead = corpus.add_lead(better.original);
+  ASSERT_TRUE(lead);
+  const std::string blocked = added->bucket + "/min-" + spec_id(better.minimal.spec).substr(0, 16) + ".json";
+  std::filesystem::create_directories(blocked + "/x");
+  const auto refused = corpus.add(better);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.issue().code, "file.unwritable");
+  EXPECT_TRUE(std::filesystem::exists(*lead));
+  const Bucket bucket = only_bucket(corpus);
+  for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) stored(corpus, bucket, file);
+}
+
+// A kill just before bucket.json is replaced must leave the files that the old one names.
+TEST(CorpusUnwritable, WithoutANewBucketFileTheOldOneStillNamesFilesThatAreThere) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const auto added = corpus.add(found(160, 40, 1));
+  ASSERT_TRUE(added);
+  const std::string part = added->bucket + "/bucket.json." + std::to_string(::getpid()) + ".part";
+  std::filesystem::create_directories(part);  // where write_file puts its temporary file
+  Found better = found(155, 30, 2);
+  better.original = made_up(199, 99, 2);
+  ASSERT_FALSE(corpus.add(better));
+  const Bucket bucket = only_bucket(corpus);
+  for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) stored(corpus, bucket, file);
+}
+
+TEST(CorpusUnwritable, AFolderBelowAFileIsRefusedAtOnce) {
+  const TempFolder folder;
+  spill(folder / "file", "x");
+  const Result<Corpus> corpus = Corpus::create(folder / "file/corpus");
+  ASSERT_FALSE(corpus);
+  EXPECT_EQ(corpus.issue().code, "file.unwritable");
+  const Result<Corpus> in_proc = Corpus::create("/proc/contort");
+  ASSERT_FALSE(in_proc);
+  EXPECT_EQ(in_proc.issue().code, "file.unwritable");
+}
+
+TEST(CorpusUnwritable, AFolderThatHoldsNoCorpusIsNotOpened) {
+  const TempFolder folder;
+  for (const std::string& path : {folder.path(), folder / "missing"}) {
+    const Result<Corpus> corpus = Corpus::open(path);
+    ASSERT_FALSE(corpus);
+    EXPECT_EQ(corpus.issue().code, "corpus.not_found");
+  }
+}
+
+TEST(CorpusCost, FewerActionsThenShorterTextThenTheText) {
+  Spec two = bent_elbow(160);
+  two.sequences[0].clips[0].actions.push_back(pose_use("arm_right", {}));
+  EXPECT_TRUE(cheaper(bent_elbow(160.123456789), two));
+  EXPECT_TRUE(cheaper(bent_elbow(160), bent_elbow(160.5)));
+  EXPECT_TRUE(cheaper(bent_elbow(160), bent_elbow(161)));
+  EXPECT_FALSE(cheaper(bent_elbow(160), bent_elbow(160)));
+}
+
+TEST(CorpusCost, FeaturesNameWhatAMinimalSpecNeeds) {
+  EXPECT_EQ(features_of(bent_elbow(160)), "actions=pose clips=1 sequences=1");
+  Spec spec = bent_elbow(160);
+  ActionUse reach = pose_use("arm_left", {});
+  reach.action = "reach";
+  spec.sequences[0].clips.push_back({"", 0, 0, 1.0, {reach}});
+  spec.sequences.resize(4, spec.sequences[0]);
+  spec.character.parts["head"] = "human_head";
+  spec.character.attachments.push_back({"rifle", "hand_left", "grip"});
+  EXPECT_EQ(features_of(spec), "actions=pose,reach clips=3+ sequences=3+ swap attachment");
+  EXPECT_EQ(features_of(Spec{}), "actions= clips=0 sequences=0");
+}
+
+TEST(CorpusCost, FeaturesHoldNoNumbers) {
+  EXPECT_EQ(features_of(bent_elbow(160)), features_of(bent_elbow(200, 99)));
+  EXPECT_NE(bucket_id("a", "b"), bucket_id("a", "c"));
+  EXPECT_NE(bucket_id("a", "b"), bucket_id("b", "b"));
+  EXPECT_EQ(bucket_id("a", "b").size(), 12U);
+}
+
+}  // namespace
+
+}  // namespace contort
