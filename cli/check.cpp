@@ -49,7 +49,7 @@ void check_spec(const Options& options, Context& context) {
                       {"frames", evaluation.frame_count},
                       {"motion_hash", to_hex(evaluation.motion_hash)},
                       {"findings", Json::parse(findings_json(evaluation.findings, stage->rate_hz))}};
-    std::printf("%s\n", out.dump(2).c_str());
+    std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
   for (const Finding& finding : evaluation.findings) std::printf("%s\n", finding_line(finding, stage->rate_hz).c_str());
@@ -115,7 +115,9 @@ void check_gltf(const Options& options, Context& context) {
   }
   context.exit_code = findings == 0 ? kClean : kFindings;
   if (options.json)
-    std::printf("%s\n", Json{{"file", options.file}, {"clips", list}}.dump(2).c_str());
+    std::printf(
+        "%s\n",
+        Json{{"file", options.file}, {"clips", list}}.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   else
     print_result(findings, static_cast<int>(clips.size()));
 }
@@ -133,6 +135,7 @@ void add_check(CLI::App& app, Context& context) {
       ->add_option("--max-speed-deg-s", options->max_speed_deg_s,
                    "Greatest angular speed of joints without their own limit")
       ->check(CLI::Range(1e-3, 1e6))
+      ->check(refuse_nan)
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Exit code 1 when something was found.\nExample: contort check robot.glb --max-speed-deg-s 1500");

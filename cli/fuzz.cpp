@@ -99,7 +99,7 @@ void print_totals(const RunResult& result, const Options& options) {
                              {"unconfirmed", result.unconfirmed},
                              {"discarded", result.discarded},
                              {"tested", result.tested}};
-    std::printf("%s\n", out.dump(2).c_str());
+    std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
     return;
   }
   print_found(result);

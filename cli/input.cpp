@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "corpus/corpus.h"
@@ -51,6 +53,10 @@ Result<double> parse_time_s(const std::string& text) {
   if (error != std::errc{} || !(value > 0.0) || scale == 0.0 || value * scale > 1e7)
     return Issue{"usage.bad_time", "", "found \"" + text + "\", allowed is a number with s, m or h, like 45s or 10m"};
   return value * scale;
+}
+
+std::string refuse_nan(const std::string& text) {
+  return std::isnan(std::strtod(text.c_str(), nullptr)) ? "found \"" + text + "\", expected a number" : "";
 }
 
 Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths) {

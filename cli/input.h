@@ -23,6 +23,9 @@ bool is_gltf(const std::string& path);  // by its ending
 // "45s", "10m", "2h", "90" (seconds). Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 
+// Why a number on the command line is none, "" where it is one: CLI::Range lets NaN pass.
+std::string refuse_nan(const std::string& text);
+
 // Case files named directly, and all cases of the corpus folders named: each bucket's min, worst and orig.
 Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths);
 

@@ -83,7 +83,7 @@ void run(const Options& options, Context& context) {
                   explain(*stored, result).c_str());
   }
   if (options.json) {
-    std::printf("%s\n", list.dump(2).c_str());
+    std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
   std::printf("RESULT cases=%zu same=%d same_family=%d different=%d passes=%d refused=%d\n", paths->size(),

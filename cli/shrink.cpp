@@ -57,6 +57,7 @@ void add_shrink(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--depth-floor", options->config.depth_floor, "Stay at least this share of the depth")
       ->check(CLI::Range(0.0, 1.0))
+      ->check(refuse_nan)
       ->capture_default_str();
   command->footer(
       "Example: contort shrink contort-out/corpus/buckets/joint_range-0123456789ab/orig-0123456789abcdef.json -o "

@@ -2,9 +2,10 @@
 // whole character's.
 //
 // On each part the latest started ik action wins over the latest started overwrite action, which wins over what was
-// there before (a posture that was reached is held). An action moves its part from the posture in which it took over to
-// its target posture along the minimum-jerk ease; one that takes over again after another had the part starts from
-// there.
+// there before (a posture that was reached is held). In the very frame of its start an action has nothing to move yet:
+// one that still has the part then, keeps it for that frame, and so arrives where the next one starts. An action moves
+// its part from the posture in which it took over to its target posture along the minimum-jerk ease; one that takes
+// over again after another had the part starts from there.
 #pragma once
 
 #include "generator/motion/motion.h"

@@ -137,7 +137,7 @@ std::string bucket_html(const ReportRow& row, const std::string& id) {
   out += picture_html(row, row.strip, "Film strip");
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
          fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
-         fact("family", row.family) + fact("bucket", row.bucket) + "</dl>\n";
+         fact("bucket", row.bucket) + "</dl>\n";
   out += command_html(row.replay_command);
   if (!row.spec_json.empty())
     out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");

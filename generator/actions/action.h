@@ -63,7 +63,7 @@ struct ActionDef {
 std::span<const ActionDef> all_actions();
 const ActionDef* find_action(std::string_view name);  // nullptr where there is none
 
-// Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range, .missing_param;
+// Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range;
 // pointers relative to the use ("/params/elbow_deg").
 Result<std::vector<double>> bind_params(const ActionDef& action, const Character& character, const Part& part,
                                         const std::map<std::string, ParamValue>& values);

@@ -171,7 +171,8 @@ class Character {
 };
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
-// .unknown_object, .unknown_collider, .no_joint and those of check_part; pointers go into the CharacterChoice
+// .unknown_object, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root and those of check_part; pointers
+// go into the CharacterChoice
 // ("/parts/arm_left"), or, with the file's name in the text, into the description at fault.
 Result<Character> build_character(const CharacterChoice& choice, const Library& library);
 

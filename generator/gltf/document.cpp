@@ -4,16 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 
+#include "generator/core/json_fields.h"
 #include "generator/gltf/limits.h"
 
 namespace contort {
 
 namespace {
 
-using Json = nlohmann::json;
+using json_fields::Json;
 
 // ---- what glTF allows, for the properties that we read; all others are removed
 

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <map>
-#include <unordered_map>
 
-#include "generator/core/hash.h"
 #include "generator/gltf/write_parts.h"
 
 namespace contort {
@@ -14,17 +12,9 @@ namespace {
 using Color = std::array<double, 3>;
 using Vertex = std::array<float, 6>;  // position, normal
 
-struct VertexHash {
-  std::size_t operator()(const Vertex& vertex) const {
-    Hash64 hash;
-    for (const float v : vertex) hash.add(static_cast<double>(v));
-    return static_cast<std::size_t>(hash.value());
-  }
-};
-
 // The pieces of one joint in one colour. Equal corners are one vertex: round shapes shrink to a quarter.
 struct Surface {
-  std::unordered_map<Vertex, std::uint32_t, VertexHash> known;  // Asked, never walked: vertices keep their first order.
+  std::map<Vertex, std::uint32_t> known;
   std::vector<float> positions_m;
   std::vector<float> normals;
   std::vector<std::uint32_t> indices;

@@ -81,9 +81,10 @@ bool is_flat(const Zonotope& z) {  // no volume: cores that cross have depth 0
 // Worst measured gap between sampled and computed depth: 3e-8.
 TEST_P(DistanceOf, OverlappingNeedsNoLessInAnyDirectionAndNoMoreInTheBest) {
   int overlapping = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const Solid a = draw_a();
-    const Solid b = shifted(draw_b(), a.center_m * 0.7);
+    Solid b = draw_b();
+    b.center_m = a.center_m + random_.in_cube(0.12);
     const Zonotope z = difference_of_cores(a, b);
     if (is_flat(z) || distance_bounds(z, 400).high > 1e-7) continue;
     ++overlapping;
@@ -93,7 +94,7 @@ TEST_P(DistanceOf, OverlappingNeedsNoLessInAnyDirectionAndNoMoreInTheBest) {
     ASSERT_LE(sampled, depth + 1e-4) << "pair " << i;
   }
   const bool solid = GetParam().a == Core::box || GetParam().b == Core::box;
-  EXPECT_EQ(overlapping > 8, solid) << overlapping;
+  EXPECT_EQ(overlapping > 10, solid) << overlapping;
 }
 
 TEST_P(DistanceOf, WithABandIsExactBelowItAndNeverTooFarAboveIt) {

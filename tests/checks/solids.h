@@ -107,8 +107,8 @@ inline double sampled_depth(const Zonotope& z, Random& r, int starts) {
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < starts; ++start) {
     Vec3 best = r.direction();
-    for (double step = 0.3; step > 1e-6; step *= 0.6)
-      for (int i = 0; i < 8; ++i) {
+    for (double step = 0.3; step > 1e-6; step *= 0.7)
+      for (int i = 0; i < 24; ++i) {
         const Vec3 near = best + step * r.direction();
         const Vec3 n = near / std::sqrt(glm::dot(near, near));
         if (z.support(n) < z.support(best)) best = n;

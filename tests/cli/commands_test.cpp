@@ -74,7 +74,7 @@ TEST_F(Commands, CheckPrintsJson) {
   ASSERT_TRUE(out.is_object()) << ran.out;
   EXPECT_EQ(out["frames"], 61);
   EXPECT_EQ(out["findings"][0]["subject"], kElbow);
-  EXPECT_NEAR(out["findings"].back()["worst_margin"].get<double>(), -40 * kRadPerDeg, 1e-6);
+  EXPECT_NEAR(out["findings"][0]["worst_margin"].get<double>(), -40 * kRadPerDeg, 1e-6);
 }
 
 TEST_F(Commands, GenerateAndCheckAgreeOnTheSpeedOfAJoint) {

@@ -60,6 +60,7 @@ TEST_F(Usage, NoCommandAnUnknownOneAndUnknownOptionsAreRefused) {
   expect_refused({"fuzz", "--jobs", "0"}, 2);
   expect_refused({"fuzz", "--cases", "-1"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "2"}, 2);
+  expect_refused({"shrink", good_spec(), "--depth-floor", "nan"}, 2, "nan");
 }
 
 TEST_F(Usage, ABadTimeIsRefused) {
@@ -148,6 +149,10 @@ TEST_F(Usage, NamesWithOddBytesDoNotBreakTheOneLine) {
   const Ran ran = contort_program({"check", odd, "--json"});
   EXPECT_EQ(ran.code, 1) << ran.err;
   EXPECT_FALSE(nlohmann::json::parse(ran.out, nullptr, false).is_discarded()) << ran.out;
+  expect_refused({"generate", odd, "-o", folder_ / "out.glb"}, 3, "gltf.bad_text");  // a .glb cannot hold the name
+  const Ran replayed = contort_program({"replay", file("\xfe.json", print_case(elbow_case())), "--json"});
+  EXPECT_EQ(replayed.code, 1) << replayed.err;
+  EXPECT_FALSE(nlohmann::json::parse(replayed.out, nullptr, false).is_discarded()) << replayed.out;
 }
 
 TEST_F(Usage, ListsSchemasAndTheVersionArePrinted) {

@@ -75,7 +75,8 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // A change here means that (seed, index) of every stored case names another spec from now on: change kDrawStream in
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
-  const std::array<std::string, 3> pinned = {"PIN0", "PIN1", "PIN2"};
+  const std::array<std::string, 3> pinned = {"2bf7687fc365a04d62b85f1d10057a8b", "36c446f74c593b0d6045a7f4f34edcf2",
+                                             "3bfaeb629c392eef3a976155e9bf9940"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }
@@ -111,7 +112,7 @@ void expect_actions(const std::string& name, const Character& character, const s
 }
 
 TEST(Draw, EveryActionPartAndObjectOccurs) {
-  const std::set<std::string> seen = seen_in(1500);
+  const std::set<std::string> seen = seen_in(900);
   for (const auto& [name, desc] : stock_library().characters) {
     for (const SlotDesc& slot : desc.slots)
       for (std::size_t option = 0; option < slot.parts.size(); ++option) {

@@ -112,11 +112,11 @@ RC_GTEST_PROP(Timeline, ProgressClimbsFromZeroToOne, ()) {
   }
 }
 
-// Stretched to 1.8e-12 of a frame, which a start near frame 35000 swallows: doubles are 7e-12 apart there.
+// Stretched to 1.8e-12 of a frame, which a start at frame 35000 swallows: doubles are 7e-12 apart there.
 TEST(Timeline, ActionsShorterThanTheRoundingOfTheirStartStillArrive) {
   SequenceDesc tiny = sequence({elbow(0, 1, 10), elbow(36000, 36000, 20)});
   tiny.clips.push_back(tiny.clips[0]);
-  tiny.clips[0].duration_frames = 1, tiny.clips[0].speed = 10, tiny.clips[0].start_frame = 36000;
+  tiny.clips[0].duration_frames = 1, tiny.clips[0].speed = 10;
   tiny.clips[1].speed = 0.1, tiny.clips[1].start_frame = 36000;
   tiny.duration_frames = 1;
   const Timeline timeline = timeline_of({sequence({elbow(0, 35000, 0)}), tiny});

@@ -1,4 +1,4 @@
-// Real files, which nobody in the project wrote: /work/shared/assets beside the repository. Skipped where they are not.
+// Real files, which nobody in the project wrote: shared/assets beside the repository. Skipped where they are not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
