@@ -12,30 +12,35 @@ namespace {
 using Color = std::array<double, 3>;
 using Vertex = std::array<float, 6>;  // position, normal
 
-// The pieces of one joint in one colour. Equal corners are one vertex: round shapes shrink to a quarter.
+// The pieces of one joint in one colour.
 struct Surface {
-  std::map<Vertex, std::uint32_t> known;
   std::vector<float> positions_m;
   std::vector<float> normals;
   std::vector<std::uint32_t> indices;
 };
 
-void add_corner(Surface& surface, const Vec3& position_m, const Vec3& normal) {
-  Vertex vertex{};
+Vertex to_vertex(const Vec3& position_m, const Vec3& normal) {
+  Vertex out{};
   for (int i = 0; i < 3; ++i) {
-    vertex[static_cast<std::size_t>(i)] = static_cast<float>(position_m[i]);
-    vertex[static_cast<std::size_t>(i) + 3] = static_cast<float>(normal[i]);
+    out[static_cast<std::size_t>(i)] = static_cast<float>(position_m[i]);
+    out[static_cast<std::size_t>(i) + 3] = static_cast<float>(normal[i]);
   }
-  const auto [place, is_new] = surface.known.try_emplace(vertex, static_cast<std::uint32_t>(surface.known.size()));
-  surface.indices.push_back(place->second);
-  if (!is_new) return;
-  surface.positions_m.insert(surface.positions_m.end(), vertex.begin(), vertex.begin() + 3);
-  surface.normals.insert(surface.normals.end(), vertex.begin() + 3, vertex.end());
+  return out;
 }
 
+// Equal corners of a piece are one vertex: round shapes shrink to a quarter. A map of its own for each piece, because
+// pieces share no corners and small maps are quick.
 void add_triangles(Surface& surface, const Triangles& triangles) {
-  for (std::size_t i = 0; i < triangles.positions_m.size(); ++i)
-    add_corner(surface, triangles.positions_m[i], triangles.normals[i]);
+  std::map<Vertex, std::uint32_t> known;
+  const std::size_t first = surface.positions_m.size() / 3;
+  for (std::size_t i = 0; i < triangles.positions_m.size(); ++i) {
+    const Vertex vertex = to_vertex(triangles.positions_m[i], triangles.normals[i]);
+    const auto [place, is_new] = known.try_emplace(vertex, static_cast<std::uint32_t>(first + known.size()));
+    surface.indices.push_back(place->second);
+    if (!is_new) continue;
+    surface.positions_m.insert(surface.positions_m.end(), vertex.begin(), vertex.begin() + 3);
+    surface.normals.insert(surface.normals.end(), vertex.begin() + 3, vertex.end());
+  }
 }
 
 int add_material(tinygltf::Model& model, const Color& color, std::map<Color, int>& materials) {

@@ -31,7 +31,7 @@ Solid shifted(Solid solid, const Vec3& by) {
   return solid;
 }
 
-// Worst measured over 20 000 pairs: 2.2e-16 (points), 6.7e-16 (boxes).
+// Worst measured over 20 000 pairs of each kind: 5e-16.
 TEST_P(DistanceOf, DoesNotDependOnTheOrder) {
   for (int i = 0; i < 2000; ++i) {
     const Solid a = draw_a(), b = draw_b();
@@ -39,7 +39,7 @@ TEST_P(DistanceOf, DoesNotDependOnTheOrder) {
   }
 }
 
-// Worst measured over 20 000 pairs: 2e-15.
+// Worst measured over 20 000 pairs of each kind: 1.1e-15.
 TEST_P(DistanceOf, DoesNotChangeWhenBothMoveTogether) {
   for (int i = 0; i < 2000; ++i) {
     const Solid a = draw_a(), b = draw_b();
@@ -71,14 +71,14 @@ TEST_P(DistanceOf, ApartAgreesWithDescent) {
     ASSERT_LE(core, truth.high + 1e-12) << "pair " << i;
   }
   EXPECT_GT(apart, 100);
-  EXPECT_GT(tight, apart * 9 / 10);  // measured: 97 % and more
+  EXPECT_GT(tight, apart * 9 / 10);  // measured: 99.4 % and more
 }
 
 bool is_flat(const Zonotope& z) {  // no volume: cores that cross have depth 0
   return z.generators.size() < 3;
 }
 
-// Worst measured gap between sampled and computed depth: 3e-8.
+// Worst measured of 1500 overlapping pairs: 4.7e-6 more than computed, never less.
 TEST_P(DistanceOf, OverlappingNeedsNoLessInAnyDirectionAndNoMoreInTheBest) {
   int overlapping = 0;
   for (int i = 0; i < 30; ++i) {
@@ -121,12 +121,13 @@ Solid scaled(Solid solid, double by) {
   return solid;
 }
 
-// Nothing in it may take a small thing for no thing. Worst measured, relative: 3e-16 at 1e-3, 2e-9 at 1e-6.
+// Nothing in it may take a small thing for no thing. Worst measured: 3.3e-16; 0.13 at 1e-6 when an axis of two tiny
+// half sides was dropped.
 TEST_P(DistanceOf, ScalesWithTheSolids) {
   for (const double by : {1e-6, 1e-3, 1e3})
     for (int i = 0; i < 500; ++i) {
       const Solid a = draw_a(), b = shifted(draw_b(), random_.in_cube(0.3));
-      ASSERT_NEAR(exact(scaled(a, by), scaled(b, by)) / by, exact(a, b), 1e-8) << by << " pair " << i;
+      ASSERT_NEAR(exact(scaled(a, by), scaled(b, by)) / by, exact(a, b), 1e-12) << by << " pair " << i;
     }
 }
 
