@@ -15,7 +15,8 @@ endforeach()
 add_library(contort_headers OBJECT EXCLUDE_FROM_ALL ${HEADER_SOURCES})
 target_include_directories(contort_headers PRIVATE ${CMAKE_SOURCE_DIR})
 target_compile_options(contort_headers PRIVATE -Wall -Wextra -Wshadow -Wconversion -Werror -O0 -g0)
-target_compile_definitions(contort_headers PRIVATE CONTORT_ASSERTS CONTORT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+target_compile_definitions(contort_headers PRIVATE
+  CONTORT_ASSERTS CONTORT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CONTORT_BINARY_DIR="${CMAKE_BINARY_DIR}")
 
 add_test(NAME Guards.HeadersCompileAlone
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_headers)
