@@ -2,17 +2,17 @@
 
 namespace contort {
 
-#define X(name, scale, needs_world, help)        \
-  int name##_subject_count(const Character&);    \
-  Subject name##_subject(const Character&, int); \
+#define X(name, scale, resolution, needs_world, help) \
+  int name##_subject_count(const Character&);         \
+  Subject name##_subject(const Character&, int);      \
   void name##_measure(const CheckInput&, MarginFold&);
 #include "checks/check_list.inc"
 #undef X
 
 std::span<const CheckDef> all_checks() {
   static const CheckDef checks[] = {
-#define X(name, scale, needs_world, help) \
-  {#name, scale, needs_world, help, name##_subject_count, name##_subject, name##_measure},
+#define X(name, scale, resolution, needs_world, help) \
+  {#name, scale, resolution, needs_world, help, name##_subject_count, name##_subject, name##_measure},
 #include "checks/check_list.inc"
 #undef X
   };

@@ -41,6 +41,7 @@ struct Subject {
 struct CheckDef {
   std::string_view name;  // "joint_range"
   double scale;           // margin / scale compares checks: 0.1 rad out of range is "as bad as" 2 cm deep
+  double resolution;      // margins down to -resolution are rounding, not violations
   bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it
   std::string_view help;
   // What is judged, numbered from 0.

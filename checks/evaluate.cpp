@@ -55,7 +55,7 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
       place(character, motion);
       placed = true;
     }
-    MarginFold fold(check.subject_count(character), settings_.merge_gap_frames);
+    MarginFold fold(check.subject_count(character), settings_.merge_gap_frames, check.resolution);
     check.measure({character, motion, world_, settings_}, fold);
     append_findings(check, character, fold, findings);
   }

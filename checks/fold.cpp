@@ -8,8 +8,9 @@ std::string family_of(const std::string& character, const Finding& finding) {
   return finding.check + "|" + character + "|" + finding.subject;
 }
 
-MarginFold::MarginFold(int subject_count, int merge_gap_frames)
+MarginFold::MarginFold(int subject_count, int merge_gap_frames, double resolution)
     : merge_gap_frames_(merge_gap_frames),
+      least_(-resolution),
       smallest_(static_cast<std::size_t>(subject_count), std::numeric_limits<double>::infinity()),
       open_(static_cast<std::size_t>(subject_count), -1) {}
 

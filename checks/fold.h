@@ -33,13 +33,14 @@ class MarginFold {
     double worst_margin;
   };
 
-  MarginFold(int subject_count, int merge_gap_frames);
+  // Margins down to -resolution count as 0.
+  MarginFold(int subject_count, int merge_gap_frames, double resolution = 0.0);
 
   void report(int subject, int frame, double margin) {
     double& smallest = smallest_[static_cast<std::size_t>(subject)];
-    if (margin >= 0.0) {
+    if (margin >= least_) {
       if (margin < smallest) smallest = margin;
-    } else {  // negative, or NaN
+    } else {  // violated, or NaN
       violated(subject, frame, margin);
     }
   }
@@ -54,6 +55,7 @@ class MarginFold {
   void violated(int subject, int frame, double margin);
 
   int merge_gap_frames_;
+  double least_;  // that is not violated: -resolution
   std::vector<double> smallest_;
   std::vector<int> open_;  // per subject: index of its last episode, or -1
   std::vector<Episode> episodes_;

@@ -78,16 +78,16 @@ Result<RunConfig> configure(const Options& options, const Library& library) {
   return config;
 }
 
-void print_found(const RunResult& result) {
+void print_found(const RunResult& result, const std::vector<std::string>& library_folders) {
   for (const std::string& folder : result.new_buckets) {
-    const Result<std::string> line = bucket_line(folder);
+    const Result<std::string> line = bucket_line(folder, library_folders);
     std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
   }
   for (const std::string& lead : result.unconfirmed)
     std::printf("NOT CONFIRMED (a second run differed): %s\n", lead.c_str());
 }
 
-void print_totals(const RunResult& result, const Options& options) {
+void print_totals(const RunResult& result, const Options& options, const std::vector<std::string>& library_folders) {
   const RunProgress& t = result.totals;
   if (options.json) {
     json_fields::Json out = {{"cases", t.cases},
@@ -99,10 +99,11 @@ void print_totals(const RunResult& result, const Options& options) {
                              {"unconfirmed", result.unconfirmed},
                              {"discarded", result.discarded},
                              {"tested", result.tested}};
+    if (!options.report.empty()) out["report"] = options.report + "/index.html";
     std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
     return;
   }
-  print_found(result);
+  print_found(result, library_folders);
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), t.elapsed_s,
               static_cast<long long>(t.failing), result.families.size(), options.corpus.c_str());
@@ -138,12 +139,12 @@ void run(const Options& options, Context& context) {
       *config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
   line.clear();
   context.exit_code = exit_code_of(result);
-  print_totals(result, options);
+  print_totals(result, options, context.library_folders);
   if (!result.issue.code.empty()) context.fail(result.issue, kInternal);
   if (result.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.discarded));
-  if (!options.report.empty()) make_report({options.corpus, options.report}, *library, context);
+  if (!options.report.empty()) make_report({options.corpus, options.report, !options.json}, *library, context);
   if (!options.json) print_result(result);
 }
 

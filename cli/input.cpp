@@ -88,6 +88,10 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string replay_command(const std::string& case_path) { return "contort replay " + shell_quoted(case_path); }
+std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders) {
+  std::string command = "contort replay " + shell_quoted(case_path);
+  for (const std::string& folder : library_folders) command += " --library " + shell_quoted(folder);
+  return command;
+}
 
 }  // namespace contort::cli

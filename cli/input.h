@@ -29,8 +29,8 @@ std::string refuse_nan(const std::string& text);
 // Case files named directly, and all cases of the corpus folders named: each bucket's min, worst and orig.
 Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths);
 
-// How to see a case again, quoted for a shell.
-std::string replay_command(const std::string& case_path);
+// How to see a case again, quoted for a shell, with the libraries it needs.
+std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders);
 std::string shell_quoted(const std::string& text);
 
 }  // namespace contort::cli

@@ -65,7 +65,7 @@ Json list_actions(const Library& library) {
 Json list_checks(const Library&) {
   Json out = Json::array();
   for (const CheckDef& check : all_checks())
-    out.push_back({{"name", check.name}, {"scale", check.scale}, {"help", check.help}});
+    out.push_back({{"name", check.name}, {"scale", check.scale}, {"resolution", check.resolution}, {"help", check.help}});
   return out;
 }
 

@@ -30,8 +30,8 @@ const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& fi
   return worst;
 }
 
-Result<StripDone> draw(StripRenderer& renderer, const Library& library, const std::string& file, const std::string& png,
-                       int tiles) {
+Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
+                       const std::string& png) {
   const Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
   const Result<Stage> stage = build_stage(input->spec, library);
@@ -40,8 +40,8 @@ Result<StripDone> draw(StripRenderer& renderer, const Library& library, const st
   const Evaluation evaluation = evaluator.run(*stage);
   StripInput strip{*stage->character, evaluator.motion()};
   strip.finding = subject_of(*input, evaluation.findings);
-  strip.replay_command = input->stored ? replay_command(file) : "contort check " + shell_quoted(file);
-  strip.tiles = tiles;
+  strip.replay_command = input->stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
+  strip.tiles = options.tiles;
   return renderer.render(strip, png);
 }
 
@@ -66,7 +66,7 @@ int run(const Options& options) {
   int code = kClean;
   for (std::size_t i = 0; i < options.files.size(); i += options.many ? 2 : 1) {
     const Result<StripDone> done =
-        draw(drawing, library, options.files[i], options.many ? options.files[i + 1] : options.output, options.tiles);
+        draw(drawing, library, options, options.files[i], options.many ? options.files[i + 1] : options.output);
     if (!done)
       code = fail(done.issue(), code_of(done.issue()));
     else

@@ -31,7 +31,7 @@ std::int64_t total_seen(const Bucket& bucket) {
   return total;
 }
 
-ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored) {
+ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
   row.family = bucket.family, row.check = bucket.check,
@@ -41,7 +41,7 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.bucket = bucket.id, row.state = bucket.state;
   row.gating = bucket.state == "new" || bucket.state == "regressed";
   row.spec_json = pretty_spec(stored.spec);
-  row.replay_command = replay_command(path);
+  row.replay_command = replay_command(path, context.library_folders);
   row.strip = "strips/" + bucket.check + "-" + bucket.id + ".png";
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
   row.last_frame = stored.expect.last_frame;
@@ -62,7 +62,7 @@ void fill_rows(const Corpus& corpus, ReportModel& model, std::vector<Picture>& p
       damaged.push_back(stored.issue());
       continue;
     }
-    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored));
+    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, context));
     pictures.push_back({folder + "/" + bucket.min, out + "/" + rows.back().second.strip});
   }
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
@@ -118,14 +118,15 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
 
 }  // namespace
 
-Result<std::string> bucket_line(const std::string& bucket_folder) {
+Result<std::string> bucket_line(const std::string& bucket_folder,
+                                const std::vector<std::string>& library_folders) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(bucket_folder, error)) {
     if (entry.path().filename().string().rfind("min-", 0) != 0) continue;
     const Result<Case> stored = read_case(entry.path().string());
     if (!stored) return stored.issue();
     return "NEW " + family_of(*stored) + "  " + short_number(stored->expect.worst_margin) + " " + stored->expect.unit +
-           "  " + replay_command(entry.path().string());
+           "  " + replay_command(entry.path().string(), library_folders);
   }
   return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
 }
@@ -147,6 +148,7 @@ void make_report(const ReportRequest& request, const Library&, Context& context)
     std::fprintf(stderr, "contort: some pictures are missing; the report is complete without them\n");
     context.exit_code = std::max<int>(context.exit_code, kInternal);
   }
+  if (!request.announce) return;
   std::printf("report: %s/index.html (%zu buckets, %lld families)\n", request.folder.c_str(), model.rows.size(),
               static_cast<long long>(model.families));
 }

@@ -10,15 +10,13 @@ namespace contort::cli {
 struct ReportRequest {
   std::string corpus;
   std::string folder;
-  std::int64_t cases = 0;  // of the run that just ended; 0: unknown
-  std::int64_t frames = 0;
-  std::map<std::string, std::int64_t> tested{};
+  bool announce = true;  // print where it is
 };
 
 // Writes the page first and the pictures after it, so that no picture can cost a finding.
 void make_report(const ReportRequest& request, const Library& library, Context& context);
 
 // "NEW self_collision|mech|… -0.03 m  contort replay …/min-….json", for a bucket's folder.
-Result<std::string> bucket_line(const std::string& bucket_folder);
+Result<std::string> bucket_line(const std::string& bucket_folder, const std::vector<std::string>& library_folders);
 
 }  // namespace contort::cli

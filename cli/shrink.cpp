@@ -42,7 +42,7 @@ void run(const Options& options, Context& context) {
   std::printf("%s: %zu bytes of spec, was %zu (%d evaluations, %s)\n", output.c_str(), print_spec(smaller.spec).size(),
               print_spec(original.spec).size(), smaller.provenance.shrink_evaluations,
               smaller.provenance.shrink_stopped.c_str());
-  std::printf("%s\n", replay_command(output).c_str());
+  std::printf("%s\n", replay_command(output, context.library_folders).c_str());
 }
 
 }  // namespace

@@ -186,6 +186,7 @@ class Run {
 
   Case shrink_one(const Case& candidate) {
     ShrinkConfig config = config_.shrink;
+    config.checks = config_.checks;
     config.out_of_time = [this] { return halted(); };
     return shrink(candidate, library_, config);
   }

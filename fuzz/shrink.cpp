@@ -17,7 +17,7 @@ constexpr int kMaxBisections = 8;
 class Shrinker {
  public:
   Shrinker(const Case& original, const Library& library, const ShrinkConfig& config)
-      : library_(library), config_(config), best_(original), least_depth_(config.depth_floor * original.expect.depth) {
+      : library_(library), config_(config), best_(original), least_depth_(config.depth_floor * original.expect.depth), evaluator_(config.checks) {
     // Nothing finite is as deep as NaN, which a case stores with depth 0.
     if (std::isnan(original.expect.worst_margin)) least_depth_ = std::numeric_limits<double>::infinity();
     best_.provenance.shrunk_from = spec_id(original.spec);

@@ -16,6 +16,7 @@ struct ShrinkConfig {
   // A candidate must stay at least this deep, as a share of the original depth: without a floor, shrinking ends at
   // violations by a hair, which look like noise.
   double depth_floor = 0.5;
+  CheckSettings checks;  // those that found the failure
   std::function<bool()> out_of_time;  // asked before every evaluation; may be empty
 };
 

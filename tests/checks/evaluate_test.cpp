@@ -202,6 +202,26 @@ TEST(Evaluator, AMotionWithoutFramesHasNoFindings) {
   EXPECT_TRUE(Evaluator().judge(character, small::at_rest(character, 0)).empty());
 }
 
+// Easing away from a limit comes out 5.6e-17 rad beyond it, which no one would call a failure.
+TEST(Evaluate, RoundingAtALimitIsNoFinding) {
+  const Result<Spec> spec = parse_spec(R"({"format": "contort.spec/1", "character": {"name": "human"},
+    "sequences": [{"clips": [{"actions": [
+      {"action": "pose", "slot": "foot_left", "start_frame": 23},
+      {"action": "pose", "slot": "foot_left", "start_frame": 14, "duration_frames": 86,
+       "params": {"ankle_inv_deg": -20.0}}]}]}]})");
+  ASSERT_TRUE(spec);
+  const Library library = stock_library();
+  const Result<Stage> stage = build_stage(*spec, library);
+  ASSERT_TRUE(stage);
+  Evaluator evaluator;
+  EXPECT_TRUE(evaluator.run(*stage, "joint_range").findings.empty());
+  const Joint& ankle = small::joint_of(*stage->character, "foot_left/ankle_inv");
+  double least = 0.0;
+  for (int f = 0; f < evaluator.motion().frame_count; ++f)
+    least = std::min(least, evaluator.motion().row(f)[static_cast<std::size_t>(ankle.coord)] - ankle.low);
+  EXPECT_LT(least, 0.0) << "the spec no longer comes out beyond the limit: find another";
+}
+
 }  // namespace
 
 }  // namespace contort

@@ -159,6 +159,16 @@ TEST(Fold, ZeroIsTheLimitAndNotAViolation) {
   EXPECT_EQ(fold_rows({row_of({-5e-324})}, 2).episodes().size(), 1U);
 }
 
+TEST(Fold, MarginsDownToTheResolutionAreZero) {
+  MarginFold fold(1, 2, 1e-9);
+  fold.report(0, 0, -1e-9);
+  EXPECT_TRUE(fold.episodes().empty());
+  fold.report(0, 1, -1.1e-9);
+  ASSERT_EQ(fold.episodes().size(), 1U);
+  EXPECT_EQ(fold.episodes()[0].first, 1);
+  EXPECT_EQ(fold.smallest()[0], -1.1e-9);
+}
+
 TEST(Fold, SafeFramesUpToTheGapJoinAndOneMoreSplits) {
   const Row two_apart = row_of({-1, 1, 1, -1});
   EXPECT_EQ(fold_rows({two_apart}, 2).episodes().size(), 1U);

@@ -142,6 +142,28 @@ TEST_F(Commands, FuzzFindsAndReplayConfirms) {
   for (const Json& one : list) EXPECT_EQ(one["verdict"], "same");
 }
 
+TEST_F(Commands, ACommandToReplayNamesTheLibraryThatTheCaseNeeds) {
+  const Ran found = fuzz(folder_ / "corpus");
+  const std::string command = "contort replay ";
+  const std::size_t first = found.out.find(command) + command.size();
+  ASSERT_GT(first, command.size()) << found.out;
+  const std::string rest = found.out.substr(first, found.out.find('\n', first) - first);
+  const std::size_t space = rest.find(' ');
+  ASSERT_NE(space, std::string::npos) << rest;
+  EXPECT_EQ(rest.substr(space), " --library " + small_library());
+  EXPECT_EQ(contort_program({"replay", rest.substr(0, space), "--library", small_library()}).code, 1);
+}
+
+TEST_F(Commands, JsonIsAllThatIsPrintedWithAReportToo) {
+  const std::string report = folder_ / "report";
+  const Ran ran =
+      contort_program({"fuzz", "--cases", "0", "--json", "--corpus", folder_ / "corpus", "--report", report});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Json out = Json::parse(ran.out, nullptr, false);
+  ASSERT_TRUE(out.is_object()) << ran.out;
+  EXPECT_EQ(out["report"], report + "/index.html");
+}
+
 TEST_F(Commands, FuzzTakesTheStockCharactersAndPrintsCommandsThatWork) {
   const std::string corpus = folder_ / "corpus";
   const Ran found = contort_program(
