@@ -51,7 +51,7 @@ Json list_actions(const Library& library) {
     for (const auto& [name, desc] : library.characters)
       if (const Result<Character> character = build_character({name, {}, {}}, library); character)
         for (const Part& part : character->parts())
-          if (action.supports(part) && !on.contains(part.name)) {
+          if (action.supports(*character, part) && !on.contains(part.name)) {
             Json params = Json::array();
             for (const ParamDef& def : action.params(*character, part)) params.push_back(param_json(def));
             on[part.name] = params;

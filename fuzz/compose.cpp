@@ -121,7 +121,7 @@ void draw_params(const Character& character, const Part& part, const ActionDef& 
 std::vector<const Part*> movable_parts(const Character& character) {
   std::vector<const Part*> parts;
   for (const Part& part : character.parts())
-    if (std::any_of(all_actions().begin(), all_actions().end(), [&](const ActionDef& a) { return a.supports(part); }))
+    if (std::any_of(all_actions().begin(), all_actions().end(), [&](const ActionDef& a) { return a.supports(character, part); }))
       parts.push_back(&part);
   return parts;
 }
@@ -130,7 +130,7 @@ ActionUse compose_action(const RawAction& raw, const Character& character, const
   const Part& part = *parts[pick(raw.slot, parts.size())];
   std::vector<const ActionDef*> actions;
   for (const ActionDef& action : all_actions())
-    if (action.supports(part)) actions.push_back(&action);
+    if (action.supports(character, part)) actions.push_back(&action);
   const ActionDef& action = *actions[pick(raw.action, actions.size())];
   ActionUse use;
   use.action = action.name;

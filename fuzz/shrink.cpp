@@ -14,6 +14,14 @@ namespace {
 constexpr int kMaxRounds = 8;
 constexpr int kMaxBisections = 8;
 
+// In which frame of the motion an action begins; 0 where an interrupt may change that.
+int first_frame(const Timeline& timeline, const PlannedAction& action) {
+  if (!timeline.interrupts.empty()) return 0;
+  int start = 0;
+  for (int s = 0; s < action.sequence; ++s) start += timeline.sequences[static_cast<std::size_t>(s)].length;
+  return start + action.first_frame;
+}
+
 class Shrinker {
  public:
   Shrinker(const Case& original, const Library& library, const ShrinkConfig& config)
@@ -79,7 +87,8 @@ class Shrinker {
     Spec candidate = best_.spec;
     const std::vector<PlannedAction>& planned = stage->timeline.actions;
     for (std::size_t i = planned.size(); i-- > 0;) {  // from the end, so that indices before stay good
-      if (planned[i].first_frame <= best_.expect.worst_frame) continue;
+      if (i + 1 < planned.size() && planned[i + 1].use == planned[i].use) continue;  // one use, several parts
+      if (first_frame(stage->timeline, planned[i]) <= best_.expect.worst_frame) continue;
       std::vector<ActionUse>& actions = candidate.sequences[static_cast<std::size_t>(planned[i].sequence)]
                                             .clips[static_cast<std::size_t>(planned[i].clip)]
                                             .actions;

@@ -2,126 +2,234 @@
 
 #include <algorithm>
 
+#include "generator/motion/blend.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
 
-bool moves_at(const PlannedAction& action, int frame) {
-  return frame >= action.first_frame && frame <= action.last_frame;
-}
-
-// Whether `next` takes the part from `held`: the higher layer, then the later start, then the later in the spec. In the
-// frame of its start an action has not moved anything yet, and leaves the part to one that is just arriving.
-bool outranks(const PlannedAction& next, const PlannedAction& held, int frame) {
-  if ((next.start < frame) != (held.start < frame)) return next.start < frame;
-  if (next.def->layer != held.def->layer) return next.def->layer > held.def->layer;
-  return next.start >= held.start;
-}
-
-int winner(const Timeline& timeline, std::size_t part, int frame) {
-  int best = -1;
-  for (const int index : timeline.of_part[part]) {
-    const PlannedAction& action = timeline.actions[static_cast<std::size_t>(index)];
-    if (!moves_at(action, frame)) continue;
-    if (best < 0 || outranks(action, timeline.actions[static_cast<std::size_t>(best)], frame)) best = index;
-  }
-  return best;
-}
-
-// row = from blended to target, joint by joint: balls along the shorter arc, the rest linearly.
-void blend_part(const Character& character, const Part& part, const double* from, const double* target, double weight,
-                double* row) {
-  for (int j = part.first_joint; j < part.first_joint + part.joint_count; ++j) {
-    const Joint& joint = character.joints()[static_cast<std::size_t>(j)];
-    const double* a = from + joint.coord;
-    const double* b = target + joint.coord;
-    double* out = row + joint.coord;
-    if (joint.kind == JointKind::ball) {
-      const Quat q = slerp_short(Quat(a[0], a[1], a[2], a[3]), Quat(b[0], b[1], b[2], b[3]), weight);
-      out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
-    } else {
-      out[0] = a[0] + (b[0] - a[0]) * weight;
-    }
-  }
-}
+using Hold = GenerateScratch::Hold;
 
 class Generation {
  public:
   Generation(const Stage& stage, GenerateScratch& scratch, Motion& motion)
-      : stage_(stage), character_(*stage.character), scratch_(scratch), motion_(motion) {}
+      : stage_(stage), timeline_(stage.timeline), character_(*stage.character), s_(scratch), motion_(motion) {}
 
   void run() {
     prepare();
-    for (int frame = 0; frame < stage_.frame_count; ++frame) make_frame(frame);
+    for (int frame = 0; frame < stage_.most_frames && !finished(frame); ++frame) make_frame(frame);
+    motion_.coords.resize(static_cast<std::size_t>(motion_.frame_count) *
+                          static_cast<std::size_t>(motion_.coord_count));
+    motion_.root.resize(static_cast<std::size_t>(motion_.frame_count));
+    const std::span<const QueueSpan> history = s_.queue.history();
+    motion_.queue.assign(history.begin(), history.end());
   }
 
  private:
   void prepare() {
-    const auto frames = static_cast<std::size_t>(stage_.frame_count);
-    const auto coords = static_cast<std::size_t>(character_.coord_count());
+    const auto frames = static_cast<std::size_t>(stage_.most_frames);
     motion_.rate_hz = stage_.rate_hz;
-    motion_.frame_count = stage_.frame_count;
+    motion_.frame_count = 0;
     motion_.coord_count = character_.coord_count();
-    motion_.coords.resize(frames * coords);
-    motion_.root.assign(frames, character_.rest_root());
+    motion_.coords.resize(frames * static_cast<std::size_t>(character_.coord_count()));
+    motion_.root.resize(frames);
     motion_.spans.clear();
-    scratch_.control.assign(character_.parts().size(), {});
-    scratch_.from.resize(coords);
-    scratch_.target.resize(coords);
-    scratch_.world.resize(character_.joints().size());
+    // Every action may be cut once by every interrupt.
+    motion_.spans.reserve(timeline_.actions.size() * (1 + timeline_.interrupts.size()));
+    s_.queue.start(timeline_.sequences, timeline_.interrupts, timeline_.queued);
+    s_.signals.assign(timeline_.interrupts.size(), 0);
+    s_.stacks.assign(character_.parts().size(), {});
+    s_.additive_spans.assign(timeline_.actions.size(), -1);
+    s_.world.resize(character_.joints().size());
+    s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
+    s_.base.root = stage_.start * character_.rest_root();
+    s_.plain = s_.from_overwrite = s_.from_ik = s_.target = s_.shown = s_.base;
+  }
+
+  // The queue ran dry hold_frames ago.
+  bool finished(int frame) const {
+    if (frame == 0 || !s_.queue.idle()) return false;
+    const std::span<const QueueSpan> history = s_.queue.history();
+    return frame > (history.empty() ? 0 : history.back().last_frame) + stage_.hold_frames;
   }
 
   void make_frame(int frame) {
-    const std::span<double> row = motion_.row(frame);
-    const std::span<const double> before =
-        frame == 0 ? character_.rest_coords() : std::span<const double>(motion_.row(frame - 1));
-    std::copy(before.begin(), before.end(), row.begin());
-    scratch_.world[0] = motion_.root[static_cast<std::size_t>(frame)];
-    const std::span<const Part> parts = character_.parts();
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const int action = winner(stage_.timeline, p, frame);
-      hand_over(p, action, frame, row);
-      if (action >= 0) move_part(parts[p], scratch_.control[p], frame, row);
-      forward_kinematics(character_, row, parts[p].first_joint, parts[p].first_joint + parts[p].joint_count,
-                         scratch_.world);
-    }
+    frame_ = frame;
+    s_.queue.advance(frame, s_.signals);
+    for (const int p : timeline_.part_order) move_part(static_cast<std::size_t>(p));
+    std::copy(s_.shown.coords.begin(), s_.shown.coords.end(), motion_.row(frame).begin());
+    motion_.root[static_cast<std::size_t>(frame)] = s_.shown.root;
+    motion_.frame_count = frame + 1;
   }
 
-  // When another action takes the part, remembers the posture that it starts from, and notes the span.
-  void hand_over(std::size_t p, int action, int frame, std::span<const double> row) {
-    GenerateScratch::Control& control = scratch_.control[p];
-    if (action >= 0 && action != control.action) {
-      const PlannedAction& planned = stage_.timeline.actions[static_cast<std::size_t>(action)];
-      const Part& part = character_.parts()[p];
-      std::copy_n(row.begin() + part.first_coord, part.coord_count, scratch_.from.begin() + part.first_coord);
-      control.eased_at_gain = ease(progress(planned, frame - 1));
-      control.span = static_cast<int>(motion_.spans.size());
-      motion_.spans.push_back({frame, frame, planned.sequence, planned.clip, planned.action});
+  void move_part(std::size_t p) {
+    GenerateScratch::Stack& stack = s_.stacks[p];
+    const Hold ik_before = stack.ik;
+    take_over(stack.ik, Layer::ik, p, s_.plain, s_.from_ik);
+    if (ik_before.action >= 0 && stack.ik.action < 0 && !(planned(ik_before).blend_out > 0.0)) settle(p, stack.overwrite);
+    take_over(stack.overwrite, Layer::overwrite, p, s_.base, s_.from_overwrite);
+    if (stack.overwrite.action >= 0) move(p, stack.overwrite, s_.from_overwrite, s_.from_overwrite, s_.base);
+    if (stack.ik.action >= 0) {
+      move(p, stack.ik, s_.from_ik, s_.base, s_.plain);
+      fade(p, stack.ik);
+    } else {
+      copy_part(character_, p, s_.base, s_.plain);
     }
-    control.action = action;
-    if (action >= 0) motion_.spans[static_cast<std::size_t>(control.span)].last_frame = frame;
+    copy_part(character_, p, s_.plain, s_.shown);
+    add_additives(p);
+    place(p, s_.shown);
   }
 
-  void move_part(const Part& part, const GenerateScratch::Control& control, int frame, std::span<double> row) {
-    const PlannedAction& action = stage_.timeline.actions[static_cast<std::size_t>(control.action)];
-    std::copy_n(scratch_.from.begin() + part.first_coord, part.coord_count, scratch_.target.begin() + part.first_coord);
-    // A chain may hang on a joint of its own part.
-    if (action.def->layer == Layer::ik)
-      forward_kinematics(character_, scratch_.target, part.first_joint, part.first_joint + part.joint_count,
-                         scratch_.world);
-    action.def->rule({character_, part, action.params, scratch_.world}, scratch_.target);
-    const double eased = ease(progress(action, frame));
-    const double left = 1.0 - control.eased_at_gain;
-    const double weight = left > 1e-9 ? (eased - control.eased_at_gain) / left : 1.0;
-    blend_part(character_, part, scratch_.from.data(), scratch_.target.data(), weight, row.data());
+  // ---- who has a layer
+
+  const PlannedAction& planned(const Hold& hold) const {
+    return timeline_.actions[static_cast<std::size_t>(hold.action)];
+  }
+  const QueueSpan& run_of(const Hold& hold) const {
+    return s_.queue.history()[static_cast<std::size_t>(hold.run)];
+  }
+  // The frame of its own sequence.
+  static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
+  int content(const Hold& hold) const { return content(run_of(hold), frame_); }
+
+  // When an action began to move, on the motion's time line: at its start, or when its sequence went on.
+  static double began(const PlannedAction& action, const QueueSpan& run) {
+    const double own = std::max(action.start, static_cast<double>(run.first_content));
+    return own - run.first_content + run.first_frame;
+  }
+
+  // Whether the action moves its part in this frame of a run.
+  bool moves(const PlannedAction& action, const QueueSpan& run) const {
+    const int now = content(run, frame_);
+    return now >= action.first_frame && now <= action.last_frame;
+  }
+
+  // Calls visit(run index, action index) for the actions of a layer that move a part now. Runs overlap in one frame.
+  template <class Visit>
+  void for_moving(std::size_t p, Layer layer, Visit visit) const {
+    const std::span<const QueueSpan> history = s_.queue.history();
+    std::size_t first = history.size();
+    while (first > 0 && history[first - 1].last_frame >= frame_) --first;
+    for (std::size_t r = first; r < history.size(); ++r)
+      for (const int a : timeline_.of_part[static_cast<std::size_t>(history[r].sequence) * character_.parts().size() + p])
+        if (timeline_.actions[static_cast<std::size_t>(a)].def->layer == layer &&
+            moves(timeline_.actions[static_cast<std::size_t>(a)], history[r]))
+          visit(static_cast<int>(r), a);
+  }
+
+  // The one that started last and did so after what had the layer before. Who starts in this very frame comes after
+  // those that have moved already.
+  Hold winner(const Hold& held, Layer layer, std::size_t p) const {
+    Hold best;
+    double best_began = 0.0;
+    for_moving(p, layer, [&](int run, int action) {
+      const double start = began(timeline_.actions[static_cast<std::size_t>(action)],
+                                 s_.queue.history()[static_cast<std::size_t>(run)]);
+      if (start < held.since || (start == held.since && action < held.since_action)) return;
+      const bool moved = start < frame_, best_moved = best_began < frame_;
+      if (best.action >= 0 && (moved != best_moved ? !moved : start < best_began)) return;
+      best.action = action, best.run = run;
+      best_began = start;
+    });
+    best.since = best.action >= 0 ? best_began : held.since;
+    best.since_action = best.action >= 0 ? best.action : held.since_action;
+    return best;
+  }
+
+  // Gives the layer to whom it belongs now; a new one starts from the present posture.
+  void take_over(Hold& hold, Layer layer, std::size_t p, const Posture& present, Posture& from) {
+    Hold next = winner(hold, layer, p);
+    if (next.action == hold.action && next.run == hold.run) {
+      if (hold.action >= 0) motion_.spans[static_cast<std::size_t>(hold.span)].last_frame = frame_;
+      return;
+    }
+    if (next.action >= 0) begin(next, p, present, from);
+    hold = next;
+  }
+
+  void begin(Hold& hold, std::size_t p, const Posture& present, Posture& from) {
+    copy_part(character_, p, present, from);
+    const PlannedAction& action = planned(hold);
+    hold.came = std::max(action.start, static_cast<double>(run_of(hold).first_content));
+    hold.eased = action.def->timing == Timing::goal ? blended_in(action, hold.came, content(hold) - 1) : 0.0;
+    hold.span = add_span(action);
+  }
+
+  int add_span(const PlannedAction& action) {
+    motion_.spans.push_back({frame_, frame_, action.sequence, action.clip, action.action, action.part});
+    return static_cast<int>(motion_.spans.size()) - 1;
+  }
+
+  // An ik action has ended: what it reached is the base now, and an overwrite beneath goes on from there.
+  void settle(std::size_t p, Hold& overwrite) {
+    copy_part(character_, p, s_.plain, s_.base);
+    if (overwrite.action < 0) return;
+    copy_part(character_, p, s_.plain, s_.from_overwrite);
+    overwrite.eased = blended_in(planned(overwrite), overwrite.came, content(overwrite) - 1);
+  }
+
+  // ---- what it does
+
+  ActionTime time_of(const PlannedAction& action, int content_frame) const {
+    const double duration_s = (action.end - action.start) / action.scale / stage_.rate_hz;
+    const double u = progress(action, content_frame);
+    return {u, u * duration_s, duration_s};
+  }
+
+  void apply(const PlannedAction& action, std::size_t p, int content_frame) {
+    const Part& part = character_.parts()[p];
+    if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
+    const ActionTime time = time_of(action, content_frame);
+    action.def->rule({character_, part, action.params, s_.world, time}, s_.target);
+  }
+
+  // out = from `from` towards what the rule makes of `beneath`.
+  void move(std::size_t p, const Hold& hold, const Posture& from, const Posture& beneath, Posture& out) {
+    copy_part(character_, p, beneath, s_.target);
+    apply(planned(hold), p, content(hold));
+    const double left = 1.0 - hold.eased;
+    const double eased = blended_in(planned(hold), hold.came, content(hold));
+    const double weight = left > 1e-9 ? (eased - hold.eased) / left : 1.0;
+    blend_part(character_, p, from, s_.target, weight, out);
+  }
+
+  void fade(std::size_t p, const Hold& hold) {
+    blend_part(character_, p, s_.base, s_.plain, not_blended_out(planned(hold), content(hold)), s_.plain);
+  }
+
+  void add_additives(std::size_t p) {
+    for_moving(p, Layer::additive, [&](int run, int a) {
+      const PlannedAction& action = timeline_.actions[static_cast<std::size_t>(a)];
+      const int now = content(s_.queue.history()[static_cast<std::size_t>(run)], frame_);
+      mark_additive(a, action);
+      copy_part(character_, p, s_.shown, s_.target);
+      apply(action, p, now);
+      const double weight = blended_in(action, action.start, now) * not_blended_out(action, now);
+      blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
+    });
+  }
+
+  // One span for as long as it adds without a break.
+  void mark_additive(int index, const PlannedAction& action) {
+    int& span = s_.additive_spans[static_cast<std::size_t>(index)];
+    if (span < 0 || motion_.spans[static_cast<std::size_t>(span)].last_frame < frame_ - 1) span = add_span(action);
+    motion_.spans[static_cast<std::size_t>(span)].last_frame = frame_;
+  }
+
+  // World transforms of a part's own joints.
+  void place(std::size_t p, const Posture& posture) {
+    const Part& part = character_.parts()[p];
+    if (p == 0) s_.world[0] = posture.root;
+    forward_kinematics(character_, posture.coords, part.first_joint, part.first_joint + part.joint_count, s_.world);
   }
 
   const Stage& stage_;
+  const Timeline& timeline_;
   const Character& character_;
-  GenerateScratch& scratch_;
+  GenerateScratch& s_;
   Motion& motion_;
+  int frame_ = 0;
 };
 
 }  // namespace

@@ -1,11 +1,5 @@
-// Stage to Motion: per frame the part animations, in the order of the slots from the root outward, and from them the
-// whole character's.
-//
-// On each part the latest started ik action wins over the latest started overwrite action, which wins over what was
-// there before (a posture that was reached is held). In the very frame of its start an action has nothing to move yet:
-// one that still has the part then, keeps it for that frame, and so arrives where the next one starts. An action moves
-// its part from the posture in which it took over to its target posture along the minimum-jerk ease; one that takes
-// over again after another had the part starts from there.
+// Stage to Motion. In each frame the queue says which sequences run; then the parts are moved, from the root outward,
+// each by its own stack of layers (base, ik, additive); docs/timeline.md has the rules of both.
 #pragma once
 
 #include "generator/motion/motion.h"
@@ -13,16 +7,34 @@
 
 namespace contort {
 
-// Memory that generate() reuses from call to call; any Stage may follow any other.
+// Memory that generate() reuses from call to call; any Stage may follow any other. After the first frame of a motion
+// nothing allocates.
 struct GenerateScratch {
-  struct Control {    // of one part
-    int action = -1;  // who moves it now, index into Timeline::actions
-    double eased_at_gain = 0.0;
-    int span = -1;  // its entry in Motion::spans
+  // Who has a layer of a part. An action takes over from the posture that was there: `eased` is how far it had come in
+  // the frame before, so that what is left of its way is covered in what is left of its time.
+  struct Hold {
+    int action = -1;  // index into Timeline::actions; -1: nobody
+    int run = -1;     // index into the queue's history
+    double eased = 0.0;
+    double came = 0.0;  // when it took over, in frames of its sequence
+    int span = -1;         // its entry in Motion::spans
+    double since = -1e30;  // start of the latest that had the layer: what started before it does not come back
+    int since_action = -1;
   };
-  std::vector<Control> control;
-  std::vector<double> from;    // row: the posture in which each part's action took over
-  std::vector<double> target;  // row: the posture that it goes to
+  struct Stack {
+    Hold overwrite;
+    Hold ik;
+  };
+  PlayQueue queue;
+  std::vector<char> signals;        // of the interrupts
+  std::vector<Stack> stacks;        // of the parts
+  std::vector<int> additive_spans;  // by action: its entry in Motion::spans, or -1
+  Posture base;                     // what the overwrite layer has made
+  Posture plain;                    // with ik, without additives: what was seen last, but for these
+  Posture from_overwrite;           // where the actions that have the layers took over
+  Posture from_ik;
+  Posture target;
+  Posture shown;
   std::vector<Rigid> world;
 };
 

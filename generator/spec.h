@@ -12,11 +12,20 @@
 
 namespace contort {
 
+// Where the character stands in frame 0.
+struct StartDesc {
+  Vec3 position_m{0.0};      // its height is the ground's there
+  double heading_deg = 0.0;  // about +Y; 0 faces +Z
+  bool operator==(const StartDesc&) const = default;
+};
+
 struct Spec {
   CharacterChoice character;
+  StartDesc start;
   double rate_hz = 60.0;                // [1, 1000] frames per second
   int hold_frames = 0;                  // [0, 6000] frames after the last sequence
   std::vector<SequenceDesc> sequences;  // played in this order
+  std::vector<InterruptDesc> interrupts;
   bool operator==(const Spec&) const = default;
 };
 

@@ -8,6 +8,7 @@
 namespace contort {
 
 inline const json_fields::Rule kFrames{.low = 0, .high = 36000};
+inline const json_fields::Rule kBlend{.low = 0, .high = 600};
 inline const json_fields::Rule kSpeed{.low = 0.1, .high = 10};
 inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
 
@@ -41,8 +42,10 @@ void fields(V& v, const ActionUse*) {
   v.field("action", &ActionUse::action, {.required = true}, "A registered action; see `contort list actions`.");
   v.field("slot", &ActionUse::slot, {.required = true}, "The slot whose part moves.");
   v.field("start_frame", &ActionUse::start_frame, kFrames, "From the clip's start.");
-  v.field("duration_frames", &ActionUse::duration_frames, {.low = 1, .high = 36000}, "A longer period plays slower.");
+  v.field("duration_frames", &ActionUse::duration_frames, kFrames, "A longer period plays slower.");
   v.field("speed", &ActionUse::speed, kSpeed, "Progress within the period.");
+  v.field("blend_in_frames", &ActionUse::blend_in_frames, kBlend, "How long a course takes to come in.");
+  v.field("blend_out_frames", &ActionUse::blend_out_frames, kBlend, "How long it fades out before its end.");
   v.field("params", &ActionUse::params, {.max_count = 64}, "Parameters by the names that the action declares.");
 }
 
@@ -60,6 +63,35 @@ void fields(V& v, const SequenceDesc*) {
   v.field("name", &SequenceDesc::name, kLabel, "For reports.");
   v.field("duration_frames", &SequenceDesc::duration_frames, kFrames, "0: natural length; else stretched to this.");
   v.field("clips", &SequenceDesc::clips, {.max_count = 256}, "Clips on one time line.");
+}
+
+inline constexpr std::string_view kEventNames[] = {"frame",  "clip_ended",    "sequence_ended", "contact", "aim_reached",
+                                                   "impact", "near_obstacle", "ground_steeper"};
+inline constexpr std::string_view kEnterNames[] = {"front", "after_clip", "after_sequence", "end"};
+
+template <class V>
+void fields(V& v, const ConditionDesc*) {
+  v.field("event", &ConditionDesc::event, {.names = kEventNames, .required = true}, "What it waits for.");
+  v.field("frame", &ConditionDesc::frame, kFrames, "frame: of the motion.");
+  v.field("name", &ConditionDesc::name, kLabel, "clip_ended, sequence_ended, near_obstacle: whose.");
+  v.field("slot", &ConditionDesc::slot, {.may_be_empty = true}, "contact, aim_reached: of this slot's part.");
+  v.field("distance_m", &ConditionDesc::distance_m, {.low = 0, .high = 1000}, "near_obstacle: from the root.");
+  v.field("slope_deg", &ConditionDesc::slope_deg, {.low = 0, .high = 90}, "ground_steeper: under the root.");
+}
+
+template <class V>
+void fields(V& v, const InterruptDesc*) {
+  v.field("when", &InterruptDesc::when, {.required = true}, "Fires in the first frame in which this holds.");
+  v.field("enter", &InterruptDesc::enter, {.names = kEnterNames}, "Its place in the queue.");
+  v.field("after", &InterruptDesc::after, kLabel, "after_sequence: the name of that sequence.");
+  v.field("resume", &InterruptDesc::resume, {}, "What it cuts goes on afterwards; else the rest is dropped.");
+  v.field("sequence", &InterruptDesc::sequence, {.required = true}, "What enters.");
+}
+
+template <class V>
+void fields(V& v, const StartDesc*) {
+  v.field("position_m", &StartDesc::position_m, {.low = -1000, .high = 1000}, "On the ground, whatever its height.");
+  v.field("heading_deg", &StartDesc::heading_deg, {.low = -360, .high = 360}, "0 faces +Z, 90 faces +X.");
 }
 
 template <class V>
@@ -82,7 +114,9 @@ void fields(V& v, const Spec*) {
   v.field("character", &Spec::character, {.required = true}, "Who moves.");
   v.field("rate_hz", &Spec::rate_hz, {.low = 1, .high = 1000}, "Frames per second.");
   v.field("hold_frames", &Spec::hold_frames, {.low = 0, .high = 6000}, "Frames after the last sequence.");
+  v.field("start", &Spec::start, {}, "Where the character stands at first.");
   v.field("sequences", &Spec::sequences, {.max_count = 64}, "Played one after another.");
+  v.field("interrupts", &Spec::interrupts, {.max_count = 64}, "Sequences that wait for a condition.");
 }
 
 }  // namespace contort

@@ -13,14 +13,17 @@ Result<Stage> build_stage(const Spec& spec, const Library& library) {
 }
 
 Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character) {
-  Result<Timeline> timeline = lay_out(spec.sequences, *character);
+  Result<Timeline> timeline = lay_out({spec.sequences, spec.interrupts, *character});
   if (!timeline) return timeline.issue();
   Stage stage;
   stage.timeline = std::move(timeline).value();
   stage.rate_hz = spec.rate_hz;
-  // One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
-  stage.frame_count = stage.timeline.frame_count + spec.hold_frames + 1;
-  if (stage.frame_count > kMaxFrames + 1)
+  stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), spec.start.position_m};
+  stage.hold_frames = spec.hold_frames;
+  // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
+  stage.most_frames =
+      stage.timeline.frame_count + spec.hold_frames * (1 + static_cast<int>(spec.interrupts.size())) + 1;
+  if (stage.most_frames > kMaxFrames + 1)
     return Issue{"spec.too_long", "/hold_frames",
                  "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
   stage.character = std::move(character);

@@ -13,7 +13,9 @@ struct Stage {
   std::shared_ptr<const Character> character;
   Timeline timeline;
   double rate_hz = 60.0;
-  int frame_count = 1;  // >= 1
+  Rigid start;          // where the character stands in frame 0: a turn about +Y and a place
+  int hold_frames = 0;  // after the queue has run dry
+  int most_frames = 1;  // >= 1; fewer where an interrupt never fires or drops what it cuts
 };
 
 // Codes "spec.*" and "character.*" with pointers into the spec.

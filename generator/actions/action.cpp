@@ -6,16 +6,17 @@
 
 namespace contort {
 
-#define X(name, layer, help)                                          \
+#define X(name, layer, timing, spread, help)                          \
   std::vector<ParamDef> name##_params(const Character&, const Part&); \
-  bool name##_supports(const Part&);                                  \
-  void name##_rule(const RuleInput&, std::span<double>);
+  bool name##_supports(const Character&, const Part&);                \
+  void name##_rule(const RuleInput&, Posture&);
 #include "generator/actions/action_list.inc"
 #undef X
 
 std::span<const ActionDef> all_actions() {
   static const ActionDef actions[] = {
-#define X(name, layer, help) {#name, Layer::layer, help, name##_params, name##_supports, name##_rule},
+#define X(name, layer, timing, spread, help) \
+  {#name, Layer::layer, Timing::timing, Spread::spread, help, name##_params, name##_supports, name##_rule},
 #include "generator/actions/action_list.inc"
 #undef X
   };
@@ -26,6 +27,26 @@ const ActionDef* find_action(std::string_view name) {
   for (const ActionDef& action : all_actions())
     if (action.name == name) return &action;
   return nullptr;
+}
+
+namespace {
+
+// The part that carries this one; the root part for itself.
+int carrier_of(const Character& character, int part) {
+  const Part& own = character.parts()[static_cast<std::size_t>(part)];
+  if (own.joint_count == 0 || part == 0) return 0;
+  const int joint = character.joints()[static_cast<std::size_t>(own.first_joint)].parent;
+  return character.joints()[static_cast<std::size_t>(joint)].part;
+}
+
+}  // namespace
+
+std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part) {
+  std::vector<int> moved = {named_part};
+  if (action.spread == Spread::own) return moved;
+  for (int p = named_part + 1; p < static_cast<int>(character.parts().size()); ++p)
+    if (carrier_of(character, p) == moved.back()) moved.push_back(p);
+  return moved;
 }
 
 std::string_view layer_name(Layer layer) {

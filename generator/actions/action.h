@@ -11,12 +11,23 @@
 #include "generator/actions/action_use.h"
 #include "generator/character/character.h"
 #include "generator/core/result.h"
+#include "generator/motion/motion.h"
 
 namespace contort {
 
 // Order of evaluation on one part: overwrite, then ik on top, then additive.
 enum class Layer { overwrite, ik, additive };
 std::string_view layer_name(Layer layer);
+
+// A goal is reached at the end of the action's period; a course is a posture as a function of time (docs/timeline.md).
+enum class Timing { goal, course };
+
+// What one use of an action moves.
+enum class Spread {
+  own,   // the part that the spec names
+  limb,  // and the parts that hang on it, one after another: arm and hand
+  legs,  // it must be the root part: and all legs and feet
+};
 
 enum class ParamType { number, vector };
 
@@ -39,29 +50,43 @@ struct ParamDef {
   bool operator==(const ParamDef&) const = default;
 };
 
-// What a rule may look at. Joints of carriers are final for this frame. On the layer ik the part's own entries of
-// `world` stand where the posture in the row puts them, and are scratch; on other layers they mean nothing.
+// Where an action stands at a frame, in time of its content.
+struct ActionTime {
+  double progress = 0.0;    // of its period, [0, 1]
+  double time_s = 0.0;      // since its start
+  double duration_s = 0.0;  // of its period
+};
+
+// What a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the part's own
+// entries of `world` stand where the posture puts them, and are scratch; on overwrite they mean nothing.
 struct RuleInput {
   const Character& character;
-  const Part& part;
+  const Part& part;                // the one to move
   std::span<const double> params;  // in the order of ActionDef::params; a vector takes three
   std::span<Rigid> world;
+  const ActionTime& time;
 };
 
 struct ActionDef {
   std::string_view name;
   Layer layer;
+  Timing timing;
+  Spread spread;
   std::string_view help;
   // The parameters on a given part; they may depend on its joints.
   std::vector<ParamDef> (*params)(const Character&, const Part&);
   // Whether the part has what the action needs.
-  bool (*supports)(const Part&);
-  // Writes the part's coordinates of the target posture into a row that holds the present posture.
-  void (*rule)(const RuleInput&, std::span<double> row);
+  bool (*supports)(const Character&, const Part&);
+  // Writes the part's coordinates (and, on the root part, the root) of the target posture into one that holds what is
+  // beneath: the present posture for overwrite, the base for ik, everything below for additive.
+  void (*rule)(const RuleInput&, Posture&);
 };
 
 std::span<const ActionDef> all_actions();
 const ActionDef* find_action(std::string_view name);  // nullptr where there is none
+
+// The parts that one use moves, carriers first.
+std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);
 
 // Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range;
 // pointers relative to the use ("/params/elbow_deg").

@@ -17,13 +17,13 @@ std::vector<ParamDef> direction_params(const Character&, const Part&) {
   return {azimuth, elevation};
 }
 
-bool direction_supports(const Part& part) { return !part.facing.empty(); }
+bool direction_supports(const Character&, const Part& part) { return !part.facing.empty(); }
 
-void direction_rule(const RuleInput& in, std::span<double> row) {
+void direction_rule(const RuleInput& in, Posture& posture) {
   const det::SinCos azimuth = det::sincos(in.params[0] * kRadPerDeg);
   const det::SinCos elevation = det::sincos(in.params[1] * kRadPerDeg);
   const Vec3 direction(elevation.cos * azimuth.sin, elevation.sin, elevation.cos * azimuth.cos);
-  face_direction(in.character, in.part.facing.front(), in.world, in.world[0].q * direction, row);
+  face_direction(in.character, in.part.facing.front(), in.world, in.world[0].q * direction, posture.coords);
 }
 
 }  // namespace contort

@@ -38,13 +38,13 @@ std::vector<ParamDef> pose_params(const Character& character, const Part& part) 
   return defs;
 }
 
-bool pose_supports(const Part& part) { return part.joint_count > 0; }
+bool pose_supports(const Character&, const Part& part) { return part.joint_count > 0; }
 
-void pose_rule(const RuleInput& in, std::span<double> row) {
+void pose_rule(const RuleInput& in, Posture& posture) {
   const double* p = in.params.data();
   for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
     const Joint& joint = in.character.joints()[static_cast<std::size_t>(j)];
-    double* q = row.data() + joint.coord;
+    double* q = posture.coords.data() + joint.coord;
     const bool given = !std::isnan(p[0]);
     if (joint.kind == JointKind::ball) {
       const Quat turned =

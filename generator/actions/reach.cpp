@@ -20,14 +20,14 @@ std::vector<ParamDef> reach_params(const Character&, const Part&) {
   return {target, swivel};
 }
 
-bool reach_supports(const Part& part) { return !part.reach.empty(); }
+bool reach_supports(const Character&, const Part& part) { return !part.reach.empty(); }
 
-void reach_rule(const RuleInput& in, std::span<double> row) {
+void reach_rule(const RuleInput& in, Posture& posture) {
   // The character's frame is the root's, taken down to the ground that it stands on at rest.
   const Rigid world_from_character = in.world[0] * inverse(in.character.rest_root());
   const Vec3 target(in.params[0], in.params[1], in.params[2]);
   reach_for(in.character, in.part.reach.front(), in.world, world_from_character * target, in.params[3] * kRadPerDeg,
-            row);
+            posture.coords);
 }
 
 }  // namespace contort

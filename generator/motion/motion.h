@@ -10,14 +10,31 @@
 
 namespace contort {
 
-// Which action moved a part in which frames.
+// One posture: all coordinates (see Character) and where the root is.
+struct Posture {
+  std::vector<double> coords;
+  Rigid root;  // world_from_root
+  bool operator==(const Posture&) const = default;
+};
+
+// In which frames an action had its layer of a part. Sequences of interrupts are numbered after those of the spec's queue.
 struct ActionSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
   int sequence = 0;    // indices into the spec
   int clip = 0;
   int action = 0;
+  int part = 0;  // of the character
   bool operator==(const ActionSpan&) const = default;
+};
+
+// In which frames a sequence ran. In frame f it stood at its own frame first_content + f - first_frame.
+struct QueueSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive: the frame in which it ended or was cut
+  int sequence = 0;
+  int first_content = 0;
+  bool operator==(const QueueSpan&) const = default;
 };
 
 struct Motion {
@@ -27,6 +44,7 @@ struct Motion {
   std::vector<double> coords;  // frame_count * coord_count
   std::vector<Rigid> root;     // frame_count: world_from_root
   std::vector<ActionSpan> spans;
+  std::vector<QueueSpan> queue;  // the queue's history
 
   std::span<const double> row(int frame) const {
     return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),

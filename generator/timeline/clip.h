@@ -27,4 +27,29 @@ struct SequenceDesc {
   bool operator==(const SequenceDesc&) const = default;
 };
 
+// What an interrupt waits for; docs/timeline.md says what each event means.
+enum class Event { frame, clip_ended, sequence_ended, contact, aim_reached, impact, near_obstacle, ground_steeper };
+
+struct ConditionDesc {
+  Event event = Event::frame;
+  int frame = 0;            // frame: [0, 36000]
+  std::string name;         // clip_ended, sequence_ended: its name; near_obstacle: the obstacle's, "" for any
+  std::string slot;         // contact, aim_reached
+  double distance_m = 1.0;  // near_obstacle: from the root
+  double slope_deg = 10.0;  // ground_steeper
+  bool operator==(const ConditionDesc&) const = default;
+};
+
+enum class Enter { front, after_clip, after_sequence, end };
+
+// A sequence that enters the queue when its condition holds for the first time.
+struct InterruptDesc {
+  ConditionDesc when;
+  Enter enter = Enter::front;
+  std::string after;  // after_sequence: the name of that sequence
+  bool resume = true;
+  SequenceDesc sequence;
+  bool operator==(const InterruptDesc&) const = default;
+};
+
 }  // namespace contort

@@ -47,10 +47,10 @@ std::string slots_of(const Character& character) {
   return text;
 }
 
-std::string actions_of(const Part& part) {
+std::string actions_of(const Character& character, const Part& part) {
   std::string text;
   for (const ActionDef& action : all_actions())
-    if (action.supports(part)) text += (text.empty() ? "" : ", ") + std::string(action.name);
+    if (action.supports(character, part)) text += (text.empty() ? "" : ", ") + std::string(action.name);
   return text.empty() ? "none" : text;
 }
 
@@ -62,85 +62,191 @@ std::string all_action_names() {
 
 class Layout {
  public:
-  explicit Layout(const Character& character) : character_(character) { out_.of_part.resize(character.parts().size()); }
+  explicit Layout(const TimelineInput& input) : input_(input), character_(input.character) {}
 
-  Result<Timeline> lay_out(const std::vector<SequenceDesc>& sequences) {
-    double start = 0.0;
-    for (std::size_t s = 0; s < sequences.size(); ++s) {
-      const double natural = natural_length(sequences[s]);
-      const double scale = stretch_scale(natural, sequences[s].duration_frames);
-      const Result<Done> done = add_sequence(sequences[s], static_cast<int>(s), {start, scale});
-      if (!done) return done.issue();
-      start = frame_from(start + stretched(natural, sequences[s].duration_frames));  // sequences change on a frame
-      if (start > kMaxFrames)
-        return Issue{"spec.too_long", "/sequences/" + std::to_string(s),
-                     "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
-    }
-    out_.frame_count = static_cast<int>(start);
+  Result<Timeline> lay_out() {
+    out_.queued = static_cast<int>(input_.sequences.size());
+    for (std::size_t s = 0; s < input_.sequences.size(); ++s)
+      if (Result<Done> done = add_sequence(input_.sequences[s], "/sequences/" + std::to_string(s)); !done)
+        return done.issue();
+    for (std::size_t i = 0; i < input_.interrupts.size(); ++i)
+      if (Result<Done> done = add_interrupt(input_.interrupts[i], "/interrupts/" + std::to_string(i)); !done)
+        return done.issue();
+    for (std::size_t i = 0; i < input_.interrupts.size(); ++i)
+      if (Result<Done> done = check_names(input_.interrupts[i], "/interrupts/" + std::to_string(i)); !done)
+        return done.issue();
+    list_by_part();
     return std::move(out_);
   }
 
  private:
-  Result<Done> add_sequence(const SequenceDesc& sequence, int index, const Stretch& stretch) {
-    for (std::size_t c = 0; c < sequence.clips.size(); ++c) {
-      const ClipDesc& clip = sequence.clips[c];
-      const double scale = stretch_scale(natural_length(clip), clip.duration_frames) / clip.speed;
-      const Stretch content{stretch.at(clip.start_frame), stretch.scale * scale};
-      for (std::size_t a = 0; a < clip.actions.size(); ++a) {
-        PlannedAction planned;
-        planned.sequence = index, planned.clip = static_cast<int>(c), planned.action = static_cast<int>(a);
-        if (Result<Done> done = add_action(clip.actions[a], content, planned); !done) {
-          Issue issue = done.issue();
-          issue.pointer = "/sequences/" + std::to_string(index) + "/clips/" + std::to_string(c) + "/actions/" +
-                          std::to_string(a) + issue.pointer;
-          return issue;
-        }
+  Result<Done> add_sequence(const SequenceDesc& sequence, const std::string& pointer) {
+    const double natural = natural_length(sequence);
+    const double scale = stretch_scale(natural, sequence.duration_frames);
+    // Sequences change on a frame.
+    const double length = frame_from(stretched(natural, sequence.duration_frames));
+    if (out_.frame_count + length > kMaxFrames)
+      return Issue{"spec.too_long", pointer, "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
+    out_.frame_count += static_cast<int>(length);
+    out_.sequences.push_back({sequence.name, static_cast<int>(length), {}});
+    for (std::size_t c = 0; c < sequence.clips.size(); ++c)
+      if (Result<Done> done =
+              add_clip(sequence.clips[c], static_cast<int>(c), scale, pointer + "/clips/" + std::to_string(c));
+          !done)
+        return done;
+    extend_for_last_frames();
+    return Done{};
+  }
+
+  // Actions without length need a frame after their start, which may lie beyond the end of what is stretched.
+  void extend_for_last_frames() {
+    PlannedSequence& own = out_.sequences.back();
+    const int before = own.length;
+    for (const PlannedAction& action : out_.actions)
+      if (action.sequence == static_cast<int>(out_.sequences.size()) - 1)
+        own.length = std::max(own.length, action.last_frame);
+    out_.frame_count += own.length - before;
+  }
+
+  Result<Done> add_clip(const ClipDesc& clip, int index, double scale, const std::string& pointer) {
+    const double own_scale = stretch_scale(natural_length(clip), clip.duration_frames) / clip.speed;
+    const Stretch content{clip.start_frame * scale, scale * own_scale};
+    const double end = (clip.start_frame + clip_length(clip)) * scale;
+    out_.sequences.back().clips.push_back(
+        {clip.name, static_cast<int>(frame_from(content.start)), static_cast<int>(frame_from(end))});
+    for (std::size_t a = 0; a < clip.actions.size(); ++a) {
+      PlannedAction planned;
+      planned.sequence = static_cast<int>(out_.sequences.size()) - 1;
+      planned.clip = index, planned.action = static_cast<int>(a);
+      if (Result<Done> done = add_action(clip.actions[a], content, planned); !done) {
+        Issue issue = done.issue();
+        issue.pointer = pointer + "/actions/" + std::to_string(a) + issue.pointer;
+        return issue;
       }
     }
     return Done{};
   }
 
-  Result<Done> add_action(const ActionUse& use, const Stretch& content, PlannedAction& planned) {
+  Result<Done> resolve(const ActionUse& use, PlannedAction& planned) const {
     planned.def = find_action(use.action);
     if (planned.def == nullptr)
       return Issue{"spec.unknown_action", "/action", "found \"" + use.action + "\", allowed are " + all_action_names()};
-    planned.part = character_.find_part(use.slot);
-    if (planned.part < 0)
+    planned.named = character_.find_part(use.slot);
+    if (planned.named < 0)
       return Issue{"spec.unknown_slot", "/slot", "found \"" + use.slot + "\", allowed are " + slots_of(character_)};
-    const Part& part = character_.parts()[static_cast<std::size_t>(planned.part)];
-    if (!planned.def->supports(part))
-      return Issue{"spec.unsupported_action", "/action",
-                   "part " + part.name + " cannot do \"" + use.action + "\", allowed are " + actions_of(part)};
+    const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
+    if (!planned.def->supports(character_, part))
+      return Issue{
+          "spec.unsupported_action", "/action",
+          "part " + part.name + " cannot do \"" + use.action + "\", allowed are " + actions_of(character_, part)};
     Result<std::vector<double>> params = bind_params(*planned.def, character_, part, use.params);
     if (!params) return params.issue();
     planned.params = std::move(params).value();
+    return check_blends(use, *planned.def);
+  }
+
+  static Result<Done> check_blends(const ActionUse& use, const ActionDef& def) {
+    const std::string name(def.name);
+    if (use.blend_in_frames > 0 && def.timing == Timing::goal)
+      return Issue{"spec.bad_blend", "/blend_in_frames", "\"" + name + "\" blends in over its whole period, allowed is 0"};
+    if (use.blend_out_frames > 0 && def.layer == Layer::overwrite)
+      return Issue{"spec.bad_blend", "/blend_out_frames", "\"" + name + "\" has nothing to fade to, allowed is 0"};
+    return Done{};
+  }
+
+  Result<Done> add_action(const ActionUse& use, const Stretch& content, PlannedAction& planned) {
+    if (Result<Done> done = resolve(use, planned); !done) return done;
+    planned.use = out_.use_count++;
     planned.start = content.at(use.start_frame);
     planned.end = content.at(static_cast<double>(use.start_frame) + use.duration_frames);
     planned.speed = use.speed;
+    planned.scale = content.scale;
+    planned.blend_in = use.blend_in_frames * content.scale;
+    planned.blend_out = use.blend_out_frames * content.scale;
     planned.first_frame = static_cast<int>(std::min(frame_from(planned.start), 1e9));
     // At least one frame after the start, or an action shorter than the rounding would never reach its target.
     planned.last_frame =
         static_cast<int>(std::min(std::max(frame_from(planned.end), std::floor(planned.start) + 1.0), 1e9));
-    out_.of_part[static_cast<std::size_t>(planned.part)].push_back(static_cast<int>(out_.actions.size()));
-    out_.actions.push_back(std::move(planned));
+    for (const int part : parts_moved(*planned.def, character_, planned.named)) {
+      planned.part = part;
+      out_.actions.push_back(planned);
+    }
     return Done{};
   }
 
+  Result<Done> add_interrupt(const InterruptDesc& desc, const std::string& pointer) {
+    PlannedInterrupt planned;
+    planned.when = desc.when, planned.enter = desc.enter, planned.after = desc.after, planned.resume = desc.resume;
+    planned.sequence = static_cast<int>(out_.sequences.size());
+    if (desc.when.event == Event::contact || desc.when.event == Event::aim_reached) {
+      planned.part = character_.find_part(desc.when.slot);
+      if (planned.part < 0)
+        return Issue{"spec.unknown_slot", pointer + "/when/slot",
+                     "found \"" + desc.when.slot + "\", allowed are " + slots_of(character_)};
+    }
+    out_.interrupts.push_back(std::move(planned));
+    return add_sequence(desc.sequence, pointer + "/sequence");
+  }
+
+  // A name that nobody has would wait for ever, or be put in another place than the author meant.
+  Result<Done> check_names(const InterruptDesc& desc, const std::string& pointer) const {
+    bool clip = false, sequence = false, after = false;
+    for (const PlannedSequence& planned : out_.sequences) {
+      sequence |= planned.name == desc.when.name;
+      after |= planned.name == desc.after;
+      for (const PlannedClip& own : planned.clips) clip |= own.name == desc.when.name;
+    }
+    const auto unknown = [&](const char* field, const std::string& name) {
+      return Issue{"spec.unknown_name", pointer + field, "found \"" + name + "\", which nothing in this spec is called"};
+    };
+    if (desc.when.event == Event::clip_ended && !clip) return unknown("/when/name", desc.when.name);
+    if (desc.when.event == Event::sequence_ended && !sequence) return unknown("/when/name", desc.when.name);
+    if (desc.enter == Enter::after_sequence && !after) return unknown("/after", desc.after);
+    return Done{};
+  }
+
+  void list_by_part() {
+    const std::size_t parts = character_.parts().size();
+    out_.of_part.resize(out_.sequences.size() * parts);
+    for (std::size_t i = 0; i < out_.actions.size(); ++i) {
+      const PlannedAction& action = out_.actions[i];
+      out_.of_part[static_cast<std::size_t>(action.sequence) * parts + static_cast<std::size_t>(action.part)].push_back(
+          static_cast<int>(i));
+    }
+    for (std::size_t p = 0; p < parts; ++p) out_.part_order.push_back(static_cast<int>(p));
+  }
+
+  const TimelineInput& input_;
   const Character& character_;
   Timeline out_;
 };
 
+// 0 before `from`, 1 after `from + length`, eased between; at once where the length is 0.
+double ramp(double frame, double from, double length) {
+  if (!(length > 0.0)) return frame >= from ? 1.0 : 0.0;
+  return ease(std::clamp((frame - from) / length, 0.0, 1.0));
+}
+
 }  // namespace
 
-Result<Timeline> lay_out(const std::vector<SequenceDesc>& sequences, const Character& character) {
-  return Layout(character).lay_out(sequences);
-}
+Result<Timeline> lay_out(const TimelineInput& input) { return Layout(input).lay_out(); }
 
 double progress(const PlannedAction& action, int frame) {
   const double period = action.end - action.start;
   if (!(period > 0.0)) return frame > action.start ? 1.0 : 0.0;  // stretched to less than the rounding of its start
   const double u = action.speed * (frame - action.start) / period;
   return std::clamp(u, 0.0, 1.0);
+}
+
+double blended_in(const PlannedAction& action, double came, int frame) {
+  if (action.def->timing == Timing::goal) return ease(progress(action, frame));
+  return ramp(frame, came, action.blend_in);
+}
+
+double not_blended_out(const PlannedAction& action, int frame) {
+  if (!(action.blend_out > 0.0)) return 1.0;
+  const double length = std::min(action.blend_out, action.end - action.start);
+  return 1.0 - ramp(frame, action.end - length, length);
 }
 
 double ease(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }

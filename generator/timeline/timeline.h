@@ -1,4 +1,4 @@
-// Timeline: the queue of sequences laid out in frames, with every name resolved.
+// Timeline: sequences laid out in frames, with every name resolved.
 #pragma once
 
 #include <vector>
@@ -7,38 +7,61 @@
 #include "generator/character/character.h"
 #include "generator/core/result.h"
 #include "generator/timeline/clip.h"
+#include "generator/timeline/queue.h"
 
 namespace contort {
 
 inline constexpr int kMaxFrames = 36000;  // of one motion: ten minutes at 60 Hz
 
-// One action at its place in the motion. Times are in frames, with fractions where stretching made them.
+// One action on one part, at its place in its sequence. Times are in frames from the sequence's start, with fractions
+// where stretching made them. An action that moves several parts is planned once for each.
 struct PlannedAction {
   int sequence = 0;  // indices into the spec
   int clip = 0;
   int action = 0;
+  int use = 0;  // numbers the uses of actions: equal where one use moves several parts
   const ActionDef* def = nullptr;
-  int part = 0;
+  int part = 0;   // that it moves
+  int named = 0;  // that the spec names
   double start = 0.0;
   double end = 0.0;  // >= start
   double speed = 1.0;
+  double scale = 1.0;   // frames per frame of content
   int first_frame = 0;  // the frames that it moves: ceil(start) to ceil(end), rounding forgiven, two at least
   int last_frame = 0;
+  double blend_in = 0.0;  // frames
+  double blend_out = 0.0;
   std::vector<double> params;
 };
 
 struct Timeline {
-  std::vector<PlannedAction> actions;     // in spec order
-  std::vector<std::vector<int>> of_part;  // indices into actions, per part
-  int frame_count = 0;                    // up to the end of the last sequence
+  std::vector<PlannedSequence> sequences;  // the spec's, then those of its interrupts
+  std::vector<PlannedInterrupt> interrupts;
+  int queued = 0;                      // how many sequences wait in the queue at first
+  std::vector<PlannedAction> actions;  // in spec order
+  int use_count = 0;
+  std::vector<std::vector<int>> of_part;  // indices into actions, by sequence * part_count + part
+  std::vector<int> part_order;            // carriers first, and what an action looks at before those that it moves
+  int frame_count = 0;                    // up to the end of the last sequence, with every interrupt
 };
 
-// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .too_long and those of bind_params, with pointers from
-// "/sequences/0" down.
-Result<Timeline> lay_out(const std::vector<SequenceDesc>& sequences, const Character& character);
+struct TimelineInput {
+  const std::vector<SequenceDesc>& sequences;
+  const std::vector<InterruptDesc>& interrupts;
+  const Character& character;
+};
 
-// Progress of an action at a frame, in [0, 1].
+// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .unknown_name, .bad_blend, .too_long and those of
+// bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
+Result<Timeline> lay_out(const TimelineInput& input);
+
+// Progress of an action at a frame of its sequence, in [0, 1].
 double progress(const PlannedAction& action, int frame);
+
+// How far an action has come in, a course since it took its part at `came`; and how much of it is left while it fades
+// out. Frames of its sequence; both in [0, 1].
+double blended_in(const PlannedAction& action, double came, int frame);
+double not_blended_out(const PlannedAction& action, int frame);
 
 // Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and
 // Hogan 1985). Its greatest slope is 1.875, in the middle.

@@ -36,8 +36,10 @@ TEST(Examples, AllOfThemMove) {
     const Motion motion = generate(*stage);
     ASSERT_GT(motion.frame_count, 1) << path;
     const auto first = motion.row(0);
-    const auto last = motion.row(motion.frame_count - 1);
-    EXPECT_FALSE(std::equal(first.begin(), first.end(), last.begin())) << path << " stands still";
+    bool moves = false;
+    for (int f = 1; f < motion.frame_count; ++f)
+      moves = moves || !std::equal(first.begin(), first.end(), motion.row(f).begin());
+    EXPECT_TRUE(moves) << path << " stands still";
   }
 }
 

@@ -1,0 +1,16 @@
+// Postures, part by part: hinges and travels blend linearly, balls and the root's rotation along the shorter arc, the
+// root's place linearly. The root belongs to the first part.
+#pragma once
+
+#include "generator/character/character.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+void copy_part(const Character& character, std::size_t part, const Posture& from, Posture& to);
+
+// out = a at weight 0, b at weight 1; out may be a or b.
+void blend_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double weight,
+                Posture& out);
+
+}  // namespace contort
