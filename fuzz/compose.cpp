@@ -30,6 +30,9 @@ double speed_of(int raw) {
   return kSpeeds[pick(raw, std::size(kSpeeds))];
 }
 
+// Half of the blends are at once; the others take up to 20 frames.
+int blend_of(int raw) { return std::max(0, between(raw, -20, 20)); }
+
 // On the lattice, and never beyond the ends.
 double within(double value, double steps_per_unit, double low, double high) {
   const double rounded = contort::on_lattice(value, steps_per_unit);
@@ -92,8 +95,17 @@ ParamValue draw_reach_point(const Character& character, const ReachChain& chain,
   return on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
 }
 
+// A point 0.3 to 5 m away, between the ground and 2.5 m, in centimetres.
+ParamValue draw_around(Values& values) {
+  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
+  const double distance_m = 0.3 + 4.7 * values.next();
+  return on_lattice(Vec3(distance_m * around.sin, 2.5 * values.next(), distance_m * around.cos), 100.0);
+}
+
 ParamValue draw_uniform(const ParamDef& def, Values& values) {
-  const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), 1.0, def.low, def.high); };
+  // Shares of 1 in hundredths, all else in whole units.
+  const double steps = def.high - def.low <= 2.0 ? 100.0 : 1.0;
+  const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), steps, def.low, def.high); };
   if (def.type == ParamType::number) return one();
   const double x = one(), y = one(), z = one();
   return Vec3(x, y, z);
@@ -101,10 +113,15 @@ ParamValue draw_uniform(const ParamDef& def, Values& values) {
 
 ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
                       Values& values) {
+  if (def.type == ParamType::object_point) {
+    const std::vector<std::string> names = object_points(character, part);
+    return names[std::min(names.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
+  }
   switch (def.domain) {
     case Domain::joint_range:
       return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
     case Domain::within_reach: return draw_reach_point(character, part.reach.front(), values);
+    case Domain::around: return draw_around(values);
     case Domain::uniform: break;
   }
   return draw_uniform(def, values);
@@ -138,6 +155,8 @@ ActionUse compose_action(const RawAction& raw, const Character& character, const
   use.start_frame = between(raw.start, 0, 40);
   use.duration_frames = between(raw.duration, 6, 90);
   use.speed = speed_of(raw.speed);
+  if (action.timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in);
+  if (action.layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out);
   draw_params(character, part, action, Values(raw.values), use);
   return use;
 }
@@ -185,6 +204,47 @@ void compose_attachments(const RawSpec& raw, const Library& library, CharacterCh
   }
 }
 
+SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Character& character,
+                              const std::vector<const Part*>& parts) {
+  SequenceDesc sequence;
+  for (const RawClip& clip : raw)
+    if (!parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, character, parts));
+  return sequence;
+}
+
+// One of the sequences of the queue, which then has a name.
+SequenceDesc& named_sequence(Spec& spec, int raw) {
+  const std::size_t index = pick(raw, spec.sequences.size());
+  SequenceDesc& sequence = spec.sequences[index];
+  sequence.name = "sequence " + std::to_string(index + 1);
+  return sequence;
+}
+
+ConditionDesc compose_condition(const RawInterrupt& raw, Spec& spec) {
+  ConditionDesc when;
+  constexpr Event kEvents[] = {Event::frame, Event::frame, Event::clip_ended, Event::sequence_ended, Event::impact};
+  when.event = kEvents[pick(raw.event, std::size(kEvents))];
+  if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
+  if (when.event == Event::sequence_ended) when.name = named_sequence(spec, raw.what).name;
+  if (when.event == Event::clip_ended) {
+    SequenceDesc& sequence = named_sequence(spec, raw.what);
+    const std::size_t index = pick(raw.after, sequence.clips.size());
+    when.name = sequence.clips[index].name = sequence.name + ", clip " + std::to_string(index + 1);
+  }
+  return when;
+}
+
+InterruptDesc compose_interrupt(const RawInterrupt& raw, const Character& character,
+                                const std::vector<const Part*>& parts, Spec& spec) {
+  InterruptDesc interrupt;
+  interrupt.when = compose_condition(raw, spec);
+  interrupt.enter = static_cast<Enter>(pick(raw.enter, 4));
+  if (interrupt.enter == Enter::after_sequence) interrupt.after = named_sequence(spec, raw.after).name;
+  interrupt.resume = pick(raw.resume, 3) > 0;
+  interrupt.sequence = compose_sequence(raw.clips, character, parts);
+  return interrupt;
+}
+
 }  // namespace
 
 Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, const Library& library) {
@@ -195,12 +255,13 @@ Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, con
   const Result<Character> character = build_character(spec.character, library);
   if (!character) return spec;  // the caller's build says why
   const std::vector<const Part*> parts = movable_parts(*character);
-  for (const std::vector<RawClip>& raw_sequence : raw.sequences) {
-    SequenceDesc sequence;
-    for (const RawClip& clip : raw_sequence)
-      if (!parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, *character, parts));
-    if (!sequence.clips.empty()) spec.sequences.push_back(std::move(sequence));
-  }
+  for (const std::vector<RawClip>& clips : raw.sequences)
+    if (SequenceDesc sequence = compose_sequence(clips, *character, parts); !sequence.clips.empty())
+      spec.sequences.push_back(std::move(sequence));
+  // Every third spec is interrupted, once or twice.
+  if (raw.start < kLattice / 3 && !spec.sequences.empty())
+    for (const RawInterrupt& interrupt : raw.interrupts)
+      spec.interrupts.push_back(compose_interrupt(interrupt, *character, parts, spec));
   return spec;
 }
 

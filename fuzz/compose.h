@@ -21,6 +21,8 @@ struct RawAction {
   int start = 0;
   int duration = 0;
   int speed = 0;
+  int blend_in = 0;
+  int blend_out = 0;
   std::array<int, kRawValues> values{};
 };
 
@@ -31,12 +33,23 @@ struct RawClip {
   std::vector<RawAction> actions;
 };
 
+struct RawInterrupt {
+  int event = 0;
+  int what = 0;  // the frame, the clip, the sequence
+  int enter = 0;
+  int after = 0;
+  int resume = 0;
+  std::vector<RawClip> clips;
+};
+
 struct RawSpec {
   int character = 0;
   int hold = 0;
+  int start = 0;
   std::array<int, kRawParts> parts{};
   std::array<int, kRawObjects> objects{};
   std::vector<std::vector<RawClip>> sequences;
+  std::vector<RawInterrupt> interrupts;
 };
 
 // Every number is read as a choice among what there is, so every raw value makes a spec that builds.

@@ -42,7 +42,8 @@ rc::Gen<RawAction> raw_action() {
   return rc::gen::build<RawAction>(
       rc::gen::set(&RawAction::slot, lattice()), rc::gen::set(&RawAction::action, lattice()),
       rc::gen::set(&RawAction::start, lattice()), rc::gen::set(&RawAction::duration, lattice()),
-      rc::gen::set(&RawAction::speed, lattice()),
+      rc::gen::set(&RawAction::speed, lattice()), rc::gen::set(&RawAction::blend_in, lattice()),
+      rc::gen::set(&RawAction::blend_out, lattice()),
       rc::gen::set(&RawAction::values, rc::gen::container<std::array<int, kRawValues>>(lattice())));
 }
 
@@ -52,12 +53,21 @@ rc::Gen<RawClip> raw_clip() {
                                  rc::gen::set(&RawClip::actions, list_up_to(4, raw_action())));
 }
 
+rc::Gen<RawInterrupt> raw_interrupt() {
+  return rc::gen::build<RawInterrupt>(
+      rc::gen::set(&RawInterrupt::event, lattice()), rc::gen::set(&RawInterrupt::what, lattice()),
+      rc::gen::set(&RawInterrupt::enter, lattice()), rc::gen::set(&RawInterrupt::after, lattice()),
+      rc::gen::set(&RawInterrupt::resume, lattice()), rc::gen::set(&RawInterrupt::clips, list_up_to(2, raw_clip())));
+}
+
 rc::Gen<RawSpec> raw_spec() {
   return rc::gen::build<RawSpec>(
       rc::gen::set(&RawSpec::character, lattice()), rc::gen::set(&RawSpec::hold, lattice()),
+      rc::gen::set(&RawSpec::start, lattice()),
       rc::gen::set(&RawSpec::parts, rc::gen::container<std::array<int, kRawParts>>(lattice())),
       rc::gen::set(&RawSpec::objects, rc::gen::container<std::array<int, kRawObjects>>(lattice())),
-      rc::gen::set(&RawSpec::sequences, list_up_to(2, list_up_to(3, raw_clip()))));
+      rc::gen::set(&RawSpec::sequences, list_up_to(2, list_up_to(3, raw_clip()))),
+      rc::gen::set(&RawSpec::interrupts, list_up_to(2, raw_interrupt())));
 }
 
 }  // namespace

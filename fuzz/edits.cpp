@@ -7,11 +7,18 @@ namespace contort {
 
 namespace {
 
-// Calls visit(container, index in it, number among all) for the elements of nested lists.
+// The sequences of the queue, then those of the interrupts: s counts through both.
+std::size_t sequence_count(const Spec& spec) { return spec.sequences.size() + spec.interrupts.size(); }
+SequenceDesc& sequence_at(Spec& spec, std::size_t s) {
+  const std::size_t queued = spec.sequences.size();
+  return s < queued ? spec.sequences[s] : spec.interrupts[s - queued].sequence;
+}
+const SequenceDesc& sequence_at(const Spec& spec, std::size_t s) { return sequence_at(const_cast<Spec&>(spec), s); }
+
 template <class Visit>
 void for_clips(Spec& spec, Visit visit) {
-  for (SequenceDesc& sequence : spec.sequences)
-    for (ClipDesc& clip : sequence.clips) visit(clip);
+  for (std::size_t s = 0; s < sequence_count(spec); ++s)
+    for (ClipDesc& clip : sequence_at(spec, s).clips) visit(clip);
 }
 
 template <class Visit>
@@ -43,23 +50,25 @@ struct Numbering {
   }
 };
 
+int count_interrupts(const Spec& spec) { return static_cast<int>(spec.interrupts.size()); }
+void remove_interrupts(Spec& spec, int first, int count) { remove_numbered(spec.interrupts, 0, first, count); }
+
 int count_sequences(const Spec& spec) { return static_cast<int>(spec.sequences.size()); }
 void remove_sequences(Spec& spec, int first, int count) { remove_numbered(spec.sequences, 0, first, count); }
 
 int count_clips(const Spec& spec) {
   int total = 0;
-  for (const SequenceDesc& sequence : spec.sequences) total += static_cast<int>(sequence.clips.size());
+  for (std::size_t s = 0; s < sequence_count(spec); ++s) total += static_cast<int>(sequence_at(spec, s).clips.size());
   return total;
 }
 void remove_clips(Spec& spec, int first, int count) {
   Numbering<std::vector<ClipDesc>> numbering{first, count};
-  for (SequenceDesc& sequence : spec.sequences) numbering.remove_from(sequence.clips);
+  for (std::size_t s = 0; s < sequence_count(spec); ++s) numbering.remove_from(sequence_at(spec, s).clips);
 }
 
 int count_actions(const Spec& spec) {
   int total = 0;
-  for (const SequenceDesc& sequence : spec.sequences)
-    for (const ClipDesc& clip : sequence.clips) total += static_cast<int>(clip.actions.size());
+  for_clips(const_cast<Spec&>(spec), [&](const ClipDesc& clip) { total += static_cast<int>(clip.actions.size()); });
   return total;
 }
 void remove_actions(Spec& spec, int first, int count) {
@@ -86,6 +95,7 @@ void remove_params(Spec& spec, int first, int count) {
 }
 
 constexpr UnitKind kUnitKinds[] = {
+    {"interrupts", count_interrupts, remove_interrupts},
     {"sequences", count_sequences, remove_sequences},
     {"clips", count_clips, remove_clips},
     {"actions", count_actions, remove_actions},
@@ -96,21 +106,21 @@ constexpr UnitKind kUnitKinds[] = {
 
 // The a-th action of the c-th clip of the s-th sequence.
 ActionUse& action_at(Spec& spec, std::size_t s, std::size_t c, std::size_t a) {
-  return spec.sequences[s].clips[c].actions[a];
+  return sequence_at(spec, s).clips[c].actions[a];
 }
 
 template <class Visit>
 void for_places(const Spec& spec, Visit visit) {
-  for (std::size_t s = 0; s < spec.sequences.size(); ++s)
-    for (std::size_t c = 0; c < spec.sequences[s].clips.size(); ++c)
-      for (std::size_t a = 0; a < spec.sequences[s].clips[c].actions.size(); ++a) visit(s, c, a);
+  for (std::size_t s = 0; s < sequence_count(spec); ++s)
+    for (std::size_t c = 0; c < sequence_at(spec, s).clips.size(); ++c)
+      for (std::size_t a = 0; a < sequence_at(spec, s).clips[c].actions.size(); ++a) visit(s, c, a);
 }
 
 // Whole degrees, or centimetres for a name that ends in _m.
-double steps_of(const std::string& name) { return name.ends_with("_m") ? 100.0 : 1.0; }
+double steps_of(const std::string& name) { return name.ends_with("_m") || name == "share" ? 100.0 : 1.0; }
 
 void add_param_numbers(const Spec& spec, std::size_t s, std::size_t c, std::size_t a, std::vector<NumberRef>& out) {
-  for (const auto& [name, value] : spec.sequences[s].clips[c].actions[a].params) {
+  for (const auto& [name, value] : sequence_at(spec, s).clips[c].actions[a].params) {
     const std::string key = name;
     if (std::holds_alternative<double>(value))
       out.push_back({[=](Spec& x) -> double& { return std::get<double>(action_at(x, s, c, a).params.at(key)); }, 0.0,
@@ -133,20 +143,28 @@ std::vector<Edit> default_edits(const Spec& spec) {
   std::vector<Edit> edits;
   edits.push_back([](Spec& x) { x.hold_frames = plain_spec.hold_frames; });
   edits.push_back([](Spec& x) { x.rate_hz = plain_spec.rate_hz; });
-  for (std::size_t s = 0; s < spec.sequences.size(); ++s) {
-    edits.push_back([=](Spec& x) { x.sequences[s].name = plain_sequence.name; });
-    edits.push_back([=](Spec& x) { x.sequences[s].duration_frames = plain_sequence.duration_frames; });
-    for (std::size_t c = 0; c < spec.sequences[s].clips.size(); ++c) {
-      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].name = plain_clip.name; });
-      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].start_frame = plain_clip.start_frame; });
-      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].duration_frames = plain_clip.duration_frames; });
-      edits.push_back([=](Spec& x) { x.sequences[s].clips[c].speed = plain_clip.speed; });
+  edits.push_back([](Spec& x) { x.start = plain_spec.start; });
+  for (std::size_t i = 0; i < spec.interrupts.size(); ++i) {
+    edits.push_back([=](Spec& x) { x.interrupts[i].enter = Enter::front; });
+    edits.push_back([=](Spec& x) { x.interrupts[i].resume = true; });
+    edits.push_back([=](Spec& x) { x.interrupts[i].when = ConditionDesc{}; });
+  }
+  for (std::size_t s = 0; s < sequence_count(spec); ++s) {
+    edits.push_back([=](Spec& x) { sequence_at(x, s).name = plain_sequence.name; });
+    edits.push_back([=](Spec& x) { sequence_at(x, s).duration_frames = plain_sequence.duration_frames; });
+    for (std::size_t c = 0; c < sequence_at(spec, s).clips.size(); ++c) {
+      edits.push_back([=](Spec& x) { sequence_at(x, s).clips[c].name = plain_clip.name; });
+      edits.push_back([=](Spec& x) { sequence_at(x, s).clips[c].start_frame = plain_clip.start_frame; });
+      edits.push_back([=](Spec& x) { sequence_at(x, s).clips[c].duration_frames = plain_clip.duration_frames; });
+      edits.push_back([=](Spec& x) { sequence_at(x, s).clips[c].speed = plain_clip.speed; });
     }
   }
   for_places(spec, [&](std::size_t s, std::size_t c, std::size_t a) {
     edits.push_back([=](Spec& x) { action_at(x, s, c, a).start_frame = plain_use.start_frame; });
     edits.push_back([=](Spec& x) { action_at(x, s, c, a).duration_frames = plain_use.duration_frames; });
     edits.push_back([=](Spec& x) { action_at(x, s, c, a).speed = plain_use.speed; });
+    edits.push_back([=](Spec& x) { action_at(x, s, c, a).blend_in_frames = plain_use.blend_in_frames; });
+    edits.push_back([=](Spec& x) { action_at(x, s, c, a).blend_out_frames = plain_use.blend_out_frames; });
   });
   return edits;
 }

@@ -142,13 +142,20 @@ class Run {
     totals.families = static_cast<int>(result_.families.size());
   }
 
+  void count_tested(const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions) ++result_.tested["action " + use.action + " on " + use.slot];
+  }
+
   void count_tested(const Spec& spec) {
     ++result_.tested["character " + spec.character.name];
     for (const auto& [slot, part] : spec.character.parts) ++result_.tested["part " + part];
     for (const AttachmentDesc& attachment : spec.character.attachments) ++result_.tested["object " + attachment.object];
-    for (const SequenceDesc& sequence : spec.sequences)
-      for (const ClipDesc& clip : sequence.clips)
-        for (const ActionUse& use : clip.actions) ++result_.tested["action " + use.action + " on " + use.slot];
+    for (const SequenceDesc& sequence : spec.sequences) count_tested(sequence);
+    for (const InterruptDesc& interrupt : spec.interrupts) {
+      ++result_.tested["interrupt on " + std::string(event_name(interrupt.when.event))];
+      count_tested(interrupt.sequence);
+    }
   }
 
   // Written to disk first, then confirmed from there, then shrunk, then stored: a kill at any point loses nothing.

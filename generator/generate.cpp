@@ -40,6 +40,7 @@ class Generation {
     s_.queue.start(timeline_.sequences, timeline_.interrupts, timeline_.queued);
     s_.signals.assign(timeline_.interrupts.size(), 0);
     s_.stacks.assign(character_.parts().size(), {});
+    s_.feedback.assign(character_.parts().size(), {});
     s_.additive_spans.assign(timeline_.actions.size(), -1);
     s_.world.resize(character_.joints().size());
     s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
@@ -57,19 +58,43 @@ class Generation {
   void make_frame(int frame) {
     frame_ = frame;
     s_.queue.advance(frame, s_.signals);
+    for (Feedback& feedback : s_.feedback) feedback = {};
     for (const int p : timeline_.part_order) move_part(static_cast<std::size_t>(p));
+    signal();
     std::copy(s_.shown.coords.begin(), s_.shown.coords.end(), motion_.row(frame).begin());
     motion_.root[static_cast<std::size_t>(frame)] = s_.shown.root;
     motion_.frame_count = frame + 1;
   }
 
+  // Tells the queue what happened in this frame; it hears of it in the next one.
+  void signal() {
+    for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
+      const PlannedInterrupt& interrupt = timeline_.interrupts[i];
+      if (!PlayQueue::knows(interrupt.when.event)) s_.signals[i] = happened(interrupt);
+    }
+  }
+
+  bool happened(const PlannedInterrupt& interrupt) const {
+    const auto told = [&](bool Feedback::*what) { return s_.feedback[static_cast<std::size_t>(interrupt.part)].*what; };
+    switch (interrupt.when.event) {
+      case Event::contact: return told(&Feedback::contact);
+      case Event::aim_reached: return told(&Feedback::aim_reached);
+      case Event::impact:
+        return std::any_of(s_.feedback.begin(), s_.feedback.end(), [](const Feedback& f) { return f.impact; });
+      default: return false;
+    }
+  }
+
   void move_part(std::size_t p) {
     GenerateScratch::Stack& stack = s_.stacks[p];
-    const Hold ik_before = stack.ik;
-    take_over(stack.ik, Layer::ik, p, s_.plain, s_.from_ik);
-    if (ik_before.action >= 0 && stack.ik.action < 0 && !(planned(ik_before).blend_out > 0.0)) settle(p, stack.overwrite);
-    take_over(stack.overwrite, Layer::overwrite, p, s_.base, s_.from_overwrite);
+    const Hold ik = winner(stack.ik, Layer::ik, p);
+    // One that starts in this frame has moved nothing yet: what had the layer ends as if nobody came.
+    const bool follows = stack.ik.action >= 0 && ik.action >= 0 && ik.since < frame_;
+    if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows && !(planned(stack.ik).blend_out > 0.0))
+      settle(p, stack.overwrite);
+    take_over(stack.overwrite, winner(stack.overwrite, Layer::overwrite, p), p, s_.base, s_.from_overwrite);
     if (stack.overwrite.action >= 0) move(p, stack.overwrite, s_.from_overwrite, s_.from_overwrite, s_.base);
+    take_over(stack.ik, ik, p, follows ? s_.plain : s_.base, s_.from_ik);
     if (stack.ik.action >= 0) {
       move(p, stack.ik, s_.from_ik, s_.base, s_.plain);
       fade(p, stack.ik);
@@ -138,8 +163,7 @@ class Generation {
   }
 
   // Gives the layer to whom it belongs now; a new one starts from the present posture.
-  void take_over(Hold& hold, Layer layer, std::size_t p, const Posture& present, Posture& from) {
-    Hold next = winner(hold, layer, p);
+  void take_over(Hold& hold, Hold next, std::size_t p, const Posture& present, Posture& from) {
     if (next.action == hold.action && next.run == hold.run) {
       if (hold.action >= 0) motion_.spans[static_cast<std::size_t>(hold.span)].last_frame = frame_;
       return;
@@ -181,7 +205,7 @@ class Generation {
     const Part& part = character_.parts()[p];
     if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
     const ActionTime time = time_of(action, content_frame);
-    action.def->rule({character_, part, action.params, s_.world, time}, s_.target);
+    action.def->rule({character_, part, action.params, s_.world, time, stage_.start, s_.feedback[p]}, s_.target);
   }
 
   // out = from `from` towards what the rule makes of `beneath`.

@@ -28,6 +28,7 @@ struct GenerateScratch {
   PlayQueue queue;
   std::vector<char> signals;        // of the interrupts
   std::vector<Stack> stacks;        // of the parts
+  std::vector<Feedback> feedback;   // of the parts, in this frame
   std::vector<int> additive_spans;  // by action: its entry in Motion::spans, or -1
   Posture base;                     // what the overwrite layer has made
   Posture plain;                    // with ik, without additives: what was seen last, but for these

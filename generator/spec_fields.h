@@ -65,13 +65,11 @@ void fields(V& v, const SequenceDesc*) {
   v.field("clips", &SequenceDesc::clips, {.max_count = 256}, "Clips on one time line.");
 }
 
-inline constexpr std::string_view kEventNames[] = {"frame",  "clip_ended",    "sequence_ended", "contact", "aim_reached",
-                                                   "impact", "near_obstacle", "ground_steeper"};
 inline constexpr std::string_view kEnterNames[] = {"front", "after_clip", "after_sequence", "end"};
 
 template <class V>
 void fields(V& v, const ConditionDesc*) {
-  v.field("event", &ConditionDesc::event, {.names = kEventNames, .required = true}, "What it waits for.");
+  v.field("event", &ConditionDesc::event, {.names = event_names(), .required = true}, "What it waits for.");
   v.field("frame", &ConditionDesc::frame, kFrames, "frame: of the motion.");
   v.field("name", &ConditionDesc::name, kLabel, "clip_ended, sequence_ended, near_obstacle: whose.");
   v.field("slot", &ConditionDesc::slot, {.may_be_empty = true}, "contact, aim_reached: of this slot's part.");

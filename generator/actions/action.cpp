@@ -29,9 +29,6 @@ const ActionDef* find_action(std::string_view name) {
   return nullptr;
 }
 
-namespace {
-
-// The part that carries this one; the root part for itself.
 int carrier_of(const Character& character, int part) {
   const Part& own = character.parts()[static_cast<std::size_t>(part)];
   if (own.joint_count == 0 || part == 0) return 0;
@@ -39,7 +36,34 @@ int carrier_of(const Character& character, int part) {
   return character.joints()[static_cast<std::size_t>(joint)].part;
 }
 
+namespace {
+
+// Whether the part, or one on the way down to it, is carried by `carrier` or is it.
+bool hangs_on(const Character& character, int part, int carrier) {
+  while (part > carrier) part = carrier_of(character, part);
+  return part == carrier;
+}
+
+// Visits the points of attached objects that a part may hold: (name, socket index).
+template <class Visit>
+void for_object_points(const Character& character, const Part& part, Visit visit) {
+  constexpr std::string_view kObject = "object:";
+  const int own = static_cast<int>(&part - character.parts().data());
+  for (std::size_t s = 0; s < character.sockets().size(); ++s) {
+    const Socket& socket = character.sockets()[s];
+    const int carrying = character.joints()[static_cast<std::size_t>(socket.joint)].part;
+    if (socket.name.starts_with(kObject) && !hangs_on(character, carrying, own))
+      visit(socket.name.substr(socket.name.find('/') + 1), static_cast<int>(s));
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> object_points(const Character& character, const Part& part) {
+  std::vector<std::string> names;
+  for_object_points(character, part, [&](const std::string& name, int) { names.push_back(name); });
+  return names;
+}
 
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part) {
   std::vector<int> moved = {named_part};
@@ -77,6 +101,22 @@ std::string names_of(const std::vector<ParamDef>& defs) {
   return text.empty() ? "none" : text;
 }
 
+Result<Done> append_point(const Character& character, const Part& part, const ParamDef& def, const ParamValue& value,
+                          std::vector<double>& bound) {
+  if (!std::holds_alternative<std::string>(value)) return param_issue("wrong_type", def.name, "expected a name");
+  int found = -1;
+  std::string names;
+  for_object_points(character, part, [&](const std::string& name, int socket) {
+    if (name == std::get<std::string>(value)) found = socket;
+    names += (names.empty() ? "" : ", ") + name;
+  });
+  if (found < 0)
+    return param_issue("unknown_point", def.name,
+                       "found \"" + std::get<std::string>(value) + "\", allowed are " + names);
+  bound.push_back(found);
+  return Done{};
+}
+
 Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<double>& bound) {
   const bool right =
       def.type == ParamType::number ? std::holds_alternative<double>(value) : std::holds_alternative<Vec3>(value);
@@ -109,10 +149,12 @@ Result<std::vector<double>> bind_params(const ActionDef& action, const Character
     const auto given = values.find(def.name);
     if (given == values.end() && def.optional) {
       bound.insert(bound.end(), def.type == ParamType::number ? 1 : 3, std::numeric_limits<double>::quiet_NaN());
-    } else if (const Result<Done> done = append(def, given == values.end() ? def.preset : given->second, bound);
-               !done) {
-      return done.issue();
+      continue;
     }
+    const ParamValue& value = given == values.end() ? def.preset : given->second;
+    const Result<Done> done = def.type == ParamType::object_point ? append_point(character, part, def, value, bound)
+                                                                  : append(def, value, bound);
+    if (!done) return done.issue();
   }
   return bound;
 }

@@ -29,13 +29,18 @@ enum class Spread {
   legs,  // it must be the root part: and all legs and feet
 };
 
-enum class ParamType { number, vector };
+enum class ParamType {
+  number,
+  vector,
+  object_point,  // the name of a point of an attached object: the rule sees the index of its socket
+};
 
 // How the fuzzer chooses values; people may write any value within low and high.
 enum class Domain {
   uniform,       // anywhere in [low, high]
   joint_range,   // within the limits of the joint that the parameter is named after
   within_reach,  // a point that the part's reach chain can just about reach
+  around,        // a point some metres around the character
 };
 
 struct ParamDef {
@@ -48,6 +53,13 @@ struct ParamDef {
   Domain domain = Domain::uniform;
   std::string help;
   bool operator==(const ParamDef&) const = default;
+};
+
+// What a rule has to say to those who wait for it, beside the posture (events of interrupts).
+struct Feedback {
+  bool contact = false;
+  bool aim_reached = false;
+  bool impact = false;
 };
 
 // Where an action stands at a frame, in time of its content.
@@ -65,6 +77,8 @@ struct RuleInput {
   std::span<const double> params;  // in the order of ActionDef::params; a vector takes three
   std::span<Rigid> world;
   const ActionTime& time;
+  const Rigid& world_from_start;  // where the character stood at first
+  Feedback& feedback;
 };
 
 struct ActionDef {
@@ -85,10 +99,16 @@ struct ActionDef {
 std::span<const ActionDef> all_actions();
 const ActionDef* find_action(std::string_view name);  // nullptr where there is none
 
+// The part that carries this one; the root part for itself.
+int carrier_of(const Character& character, int part);
+
+// Points of attached objects that others than this part carry: "foregrip", "muzzle".
+std::vector<std::string> object_points(const Character& character, const Part& part);
+
 // The parts that one use moves, carriers first.
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);
 
-// Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range;
+// Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range, .unknown_point;
 // pointers relative to the use ("/params/elbow_deg").
 Result<std::vector<double>> bind_params(const ActionDef& action, const Character& character, const Part& part,
                                         const std::map<std::string, ParamValue>& values);

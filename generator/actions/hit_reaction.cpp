@@ -3,6 +3,7 @@
 #include "generator/actions/action.h"
 #include "generator/actions/pulse.h"
 #include "generator/core/detmath.h"
+#include "generator/motion/turn.h"
 
 namespace contort {
 
@@ -27,15 +28,10 @@ void hit_reaction_rule(const RuleInput& in, Posture& posture) {
   const Vec3 axis_world = glm::cross(Vec3(0.0, 1.0, 0.0), away_world);
   const double angle_rad = in.params[1] * kRadPerDeg * pulse(in.time.progress) / in.part.joint_count;
   for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
-    const Joint& joint = in.character.joints()[static_cast<std::size_t>(j)];
-    const Vec3 axis = glm::conjugate(in.world[static_cast<std::size_t>(j)].q) * axis_world;
-    double* q = posture.coords.data() + joint.coord;
-    if (joint.kind == JointKind::hinge) q[0] += angle_rad * glm::dot(axis, joint.axis);
-    if (joint.kind == JointKind::ball) {
-      const Quat turned = Quat(q[0], q[1], q[2], q[3]) * axis_angle(axis, angle_rad);
-      q[0] = turned.w, q[1] = turned.x, q[2] = turned.y, q[3] = turned.z;
-    }
+    const auto at = static_cast<std::size_t>(j);
+    turn_joint(in.character.joints()[at], in.world[at].q, axis_world, angle_rad, posture);
   }
+  in.feedback.impact = true;
 }
 
 }  // namespace contort

@@ -87,7 +87,7 @@ bool turn_joint(const Joint& joint, const Rigid& world_from_joint, const Vec3& f
   }
   const double step = turn_towards(world_from_joint.q * joint.axis, facing, wanted);
   q[0] += step;
-  return std::fabs(step) > 1e-9;
+  return std::fabs(step) > 1e-13;
 }
 
 }  // namespace
@@ -139,7 +139,8 @@ void face_direction(const Character& character, const FacingChain& chain, std::s
     for (std::size_t i = chain.joints.size(); i-- > 0;) {
       const int j = chain.joints[i];
       const Vec3 facing = world_from_socket(character, world, chain.socket).q * Vec3(0, 0, 1);
-      if (glm::dot(facing, direction_world) > 1.0 - 1e-14) return;
+      const Vec3 apart = glm::cross(facing, direction_world);
+      if (glm::dot(apart, apart) < 1e-24 && glm::dot(facing, direction_world) > 0.0) return;
       moved |= turn_joint(joint_at(character, j), world[static_cast<std::size_t>(j)], facing, direction_world, row);
       forward_kinematics(character, row, j, last, world);
     }

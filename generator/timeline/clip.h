@@ -2,7 +2,9 @@
 // Spec.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "generator/actions/action_use.h"
@@ -29,6 +31,8 @@ struct SequenceDesc {
 
 // What an interrupt waits for; docs/timeline.md says what each event means.
 enum class Event { frame, clip_ended, sequence_ended, contact, aim_reached, impact, near_obstacle, ground_steeper };
+std::span<const std::string_view> event_names();  // in the order of the enum
+inline std::string_view event_name(Event event) { return event_names()[static_cast<std::size_t>(event)]; }
 
 struct ConditionDesc {
   Event event = Event::frame;

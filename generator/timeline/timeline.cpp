@@ -76,6 +76,7 @@ class Layout {
       if (Result<Done> done = check_names(input_.interrupts[i], "/interrupts/" + std::to_string(i)); !done)
         return done.issue();
     list_by_part();
+    if (Result<Done> done = order_parts(); !done) return done.issue();
     return std::move(out_);
   }
 
@@ -213,7 +214,42 @@ class Layout {
       out_.of_part[static_cast<std::size_t>(action.sequence) * parts + static_cast<std::size_t>(action.part)].push_back(
           static_cast<int>(i));
     }
-    for (std::size_t p = 0; p < parts; ++p) out_.part_order.push_back(static_cast<int>(p));
+  }
+
+  // The part whose motion an action looks at before it moves its own, or -1.
+  int looks_at(const PlannedAction& action) const {
+    std::size_t at = 0;
+    for (const ParamDef& def : action.def->params(character_, character_.parts()[static_cast<std::size_t>(action.named)])) {
+      if (def.type == ParamType::object_point) {
+        const Socket& socket = character_.sockets()[static_cast<std::size_t>(action.params[at])];
+        return character_.joints()[static_cast<std::size_t>(socket.joint)].part;
+      }
+      at += def.type == ParamType::vector ? 3 : 1;
+    }
+    return -1;
+  }
+
+  // Carriers first, and what is looked at before who looks; among those that may come next, in the order of slots.
+  Result<Done> order_parts() {
+    const std::size_t parts = character_.parts().size();
+    std::vector<std::vector<int>> before(parts);
+    for (std::size_t p = 1; p < parts; ++p) before[p].push_back(carrier_of(character_, static_cast<int>(p)));
+    for (const PlannedAction& action : out_.actions)
+      if (const int seen = looks_at(action); seen >= 0) before[static_cast<std::size_t>(action.part)].push_back(seen);
+    std::vector<char> placed(parts, 0);
+    const auto ready = [&](std::size_t p) {
+      return placed[p] == 0 && std::all_of(before[p].begin(), before[p].end(),
+                                           [&](int b) { return placed[static_cast<std::size_t>(b)] != 0; });
+    };
+    while (out_.part_order.size() < parts) {
+      std::size_t next = 0;
+      while (next < parts && !ready(next)) ++next;
+      if (next == parts)
+        return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
+      placed[next] = 1;
+      out_.part_order.push_back(static_cast<int>(next));
+    }
+    return Done{};
   }
 
   const TimelineInput& input_;
@@ -221,9 +257,9 @@ class Layout {
   Timeline out_;
 };
 
-// 0 before `from`, 1 after `from + length`, eased between; at once where the length is 0.
+// 0 up to `from`, 1 after `from + length`, eased between; at once where the length is 0.
 double ramp(double frame, double from, double length) {
-  if (!(length > 0.0)) return frame >= from ? 1.0 : 0.0;
+  if (!(length > 0.0)) return frame > from ? 1.0 : 0.0;
   return ease(std::clamp((frame - from) / length, 0.0, 1.0));
 }
 

@@ -75,8 +75,8 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // A change here means that (seed, index) of every stored case names another spec from now on: change kDrawStream in
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
-  const std::array<std::string, 3> pinned = {"4898c3b1cb3a71c416fd6a94fe492fbd", "089b86b926844b3a67ebec712b52b931",
-                                             "c165ea8254bd017c5cfcf3e6c3d9a5a3"};
+  const std::array<std::string, 3> pinned = {"b0db266906c8ae799afd7dd6bd3a6804", "ae579e8c0b99894fda6f5c02d7e412d2",
+                                             "1afbe2c504d19ceae21bc5236a4424f0"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }
@@ -136,6 +136,7 @@ TEST(Draw, PosesStayWithinTheRangesOfTheirJoints) {
   double least = 1.0;
   for (int i = 0; i < 300; ++i) {
     Spec spec = draw(9, i);
+    spec.interrupts.clear();
     for (SequenceDesc& sequence : spec.sequences)
       for (ClipDesc& clip : sequence.clips)
         std::erase_if(clip.actions, [](const ActionUse& use) { return use.action != "pose"; });

@@ -89,7 +89,7 @@ RC_GTEST_PROP(Edits, DefaultsAreReachedByApplyingAllEdits, ()) {
 TEST(Edits, KindsGoFromCoarseToFine) {
   std::vector<std::string> names;
   for (const UnitKind& kind : unit_kinds()) names.push_back(kind.name);
-  const std::vector<std::string> expected = {"sequences", "clips", "actions", "attachments", "swaps", "params"};
+  const std::vector<std::string> expected = {"interrupts", "sequences", "clips", "actions", "attachments", "swaps", "params"};
   EXPECT_EQ(names, expected);
 }
 

@@ -1,0 +1,13 @@
+// Turning one joint about an axis in the world, as far as its own axes allow.
+#pragma once
+
+#include "generator/character/character.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+// A ball turns by the whole angle, a hinge by its share: the angle times the cosine between the axes; travels not at all.
+void turn_joint(const Joint& joint, const Quat& world_from_joint, const Vec3& axis_world, double angle_rad,
+                Posture& posture);
+
+}  // namespace contort

@@ -1,0 +1,122 @@
+// What single actions promise, measured on the motion.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generator/generate.h"
+#include "generator/motion/kinematics.h"
+#include "tests/generator/scenes_of_one.h"
+
+namespace contort {
+namespace {
+
+using testing::sequence;
+using testing::use;
+
+// A character, and a motion of it with the world transforms of one frame.
+class Played {
+ public:
+  Played(const CharacterChoice& choice, std::vector<ActionUse> actions, int hold = 0) {
+    Spec spec;
+    spec.character = choice;
+    spec.sequences = {sequence(std::move(actions))};
+    spec.hold_frames = hold;
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    if (!stage) throw std::logic_error(to_line(stage.issue()));
+    character = stage->character;
+    motion = generate(*stage);
+    world_.resize(character->joints().size());
+  }
+  Rigid socket(const std::string& name, int frame) {
+    forward_kinematics(*character, motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world_);
+    return world_from_socket(*character, world_, character->find_socket(name));
+  }
+  double coord(const std::string& joint, int frame) const {
+    return testing::coord(motion, frame, *character, joint);
+  }
+  std::shared_ptr<const Character> character;
+  Motion motion;
+
+ private:
+  std::vector<Rigid> world_;
+};
+
+const CharacterChoice kRifleman{"human", {}, {{"rifle", "hand_right", "grip"}}};
+
+TEST(Actions, WeaponHoldKeepsTheHandOnTheObjectWhileItsCarrierMoves) {
+  Played played(kRifleman, {use("reach", "arm_right", 0, 40, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
+                            use("pose", "torso", 0, 60, {{"lumbar_rot_deg", 20.0}}),
+                            use("weapon_hold", "arm_left", 30, 60, {})});
+  for (int f = 31; f <= 90; ++f) {
+    const Vec3 gap_m = played.socket("hand_left/grip", f).p_m - played.socket("object:rifle/foregrip", f).p_m;
+    EXPECT_LT(testing::length(gap_m), 1e-3) << f;
+  }
+}
+
+TEST(Actions, WeaponHoldFollowsAnArmThatComesLaterInTheOrderOfSlots) {
+  // The left arm comes before the right one; the rifle is in the right hand and moves in every frame.
+  Played played(kRifleman, {use("reach", "arm_right", 0, 60, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
+                            use("weapon_hold", "arm_left", 0, 60, {})});
+  for (int f = 40; f <= 60; ++f) {
+    const Vec3 gap_m = played.socket("hand_left/grip", f).p_m - played.socket("object:rifle/foregrip", f).p_m;
+    EXPECT_LT(testing::length(gap_m), 1e-3) << f;
+  }
+}
+
+TEST(Actions, TwoArmsCannotEachHoldWhatTheOtherCarries) {
+  Spec spec;
+  spec.character = kRifleman;
+  spec.sequences = {sequence({use("weapon_hold", "arm_right", 0, 30, {})})};
+  EXPECT_EQ(build_stage(spec, stock_library()).issue().code, "spec.unsupported_action") << "its own hand carries it";
+  spec.sequences = {sequence({use("weapon_hold", "arm_left", 0, 30, {{"point", std::string("trigger")}})})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_FALSE(stage.ok());
+  EXPECT_EQ(stage.issue().code, "spec.unknown_point");
+  EXPECT_EQ(stage.issue().pointer, "/sequences/0/clips/0/actions/0/params/point");
+}
+
+TEST(Actions, RecoilLiftsTheArmAndLeavesNothing) {
+  Played played({}, {use("pose", "arm_left", 0, 10, {{"shoulder_deg", Vec3(-80, 0, 0)}, {"elbow_deg", 20.0}}),
+                     use("recoil", "arm_left", 20, 20, {{"rise_deg", 10.0}, {"bend_deg", 12.0}})}, 5);
+  const double before_m = played.socket("arm_left/wrist", 20).p_m.y;
+  EXPECT_GT(played.socket("arm_left/wrist", 25).p_m.y, before_m + 0.05);
+  EXPECT_NEAR(played.coord("arm_left/elbow", 25), 32 * kRadPerDeg, 1e-12);
+  for (int f = 40; f < 46; ++f) EXPECT_EQ(played.coord("arm_left/elbow", f), 20 * kRadPerDeg);
+}
+
+TEST(Actions, ExtendMovesTravelsAndNothingElse) {
+  const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  Played played(mech, {use("extend", "arm_left", 0, 20, {{"share", 0.5}})});
+  const Joint& travel = testing::joint(*played.character, "arm_left/extend");
+  EXPECT_DOUBLE_EQ(played.coord("arm_left/extend", 20), 0.5 * (travel.low + travel.high));
+  EXPECT_EQ(played.coord("arm_left/elbow", 20), 0.0);
+}
+
+TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
+  const Vec3 point_m(0.8, 1.5, 1.0);
+  Played played({}, {use("look_at", "head", 0, 60, {{"target_m", point_m}}),
+                     use("pose", "torso", 0, 60, {{"lumbar_rot_deg", 30.0}, {"lumbar_flex_deg", 20.0}})});
+  const std::string eyes = played.character->sockets()[static_cast<std::size_t>(
+      played.character->parts()[static_cast<std::size_t>(played.character->find_part("head"))].facing.front().socket)].name;
+  for (int f = 1; f <= 60; ++f) {
+    const Rigid world_from_eyes = played.socket(eyes, f);
+    const Vec3 towards = unit_or(point_m - world_from_eyes.p_m, Vec3(0.0));
+    const double cosine = glm::dot(world_from_eyes.q * Vec3(0, 0, 1), towards);
+    EXPECT_GT(cosine, std::cos(0.1 * kRadPerDeg)) << f;
+  }
+}
+
+TEST(Actions, AnImpactFiresItsInterrupt) {
+  Spec spec;
+  spec.sequences = {sequence({use("hit_reaction", "torso", 10, 30, {})})};
+  InterruptDesc on_impact;
+  on_impact.when.event = Event::impact;
+  on_impact.sequence = sequence({use("pose", "arm_left", 0, 10, {{"elbow_deg", 40.0}})});
+  spec.interrupts = {on_impact};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  EXPECT_EQ(generate(*stage).queue, (std::vector<QueueSpan>{{0, 11, 0, 0}, {11, 21, 1, 0}, {21, 50, 0, 11}}));
+}
+
+}  // namespace
+}  // namespace contort
