@@ -37,8 +37,20 @@ Json list_parts(const Library& library) {
   return out;
 }
 
+std::string type_text(const ParamDef& def) {
+  switch (def.type) {
+    case ParamType::number: return "number";
+    case ParamType::vector: return "three numbers";
+    case ParamType::object_point: return "name";
+    case ParamType::choice: break;
+  }
+  std::string words;
+  for (const std::string& word : def.choices) words += (words.empty() ? "" : " or ") + word;
+  return words;
+}
+
 Json param_json(const ParamDef& def) {
-  return {{"name", def.name},         {"type", def.type == ParamType::number ? "number" : "three numbers"},
+  return {{"name", def.name},         {"type", type_text(def)},
           {"low", def.low},           {"high", def.high},
           {"optional", def.optional}, {"help", def.help}};
 }

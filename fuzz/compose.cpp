@@ -103,8 +103,7 @@ ParamValue draw_around(Values& values) {
 }
 
 ParamValue draw_uniform(const ParamDef& def, Values& values) {
-  // Shares of 1 in hundredths, all else in whole units.
-  const double steps = def.high - def.low <= 2.0 ? 100.0 : 1.0;
+  const double steps = steps_per_unit(def.name);
   const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), steps, def.low, def.high); };
   if (def.type == ParamType::number) return one();
   const double x = one(), y = one(), z = one();
@@ -113,6 +112,7 @@ ParamValue draw_uniform(const ParamDef& def, Values& values) {
 
 ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
                       Values& values) {
+  if (def.type == ParamType::choice) return def.choices[values.next() < 0.5 ? 0 : def.choices.size() - 1];
   if (def.type == ParamType::object_point) {
     const std::vector<std::string> names = object_points(character, part);
     return names[std::min(names.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
@@ -212,6 +212,37 @@ SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Character& 
   return sequence;
 }
 
+// Half of the grounds are level; the others a slope, a flight of steps, or a rough field of 7 x 7 heights.
+Ground compose_ground(const std::array<int, kRawGround>& raw) {
+  const double heading_deg = 15.0 * between(raw[1], -12, 12);
+  const std::size_t kind = pick(raw[0], 6);
+  if (kind == 0) return SlopeGround{static_cast<double>(between(raw[2], 1, 25)), heading_deg};
+  if (kind == 1)
+    return StepsGround{heading_deg, 0.05 * between(raw[2], 4, 40), 0.02 * between(raw[3], 12, 30),
+                       0.01 * between(raw[4], 4, 22), between(raw[5], 1, 8)};
+  if (kind != 2) return PlaneGround{};
+  HeightGround field;
+  field.columns = field.rows = 7;
+  field.heights_m.clear();
+  for (std::size_t i = 0; i < 49; ++i)  // two of the raw numbers make one height
+    field.heights_m.push_back(contort::on_lattice(
+        1e-2 * ((raw[2 + i % 7] / 100 + raw[9 + i / 7 % 7] / 100) % 13 - 6), 100.0));
+  return field;
+}
+
+// Every third spec has a wall beside or before the character.
+EnvironmentDesc compose_environment(const RawSpec& raw) {
+  EnvironmentDesc environment;
+  environment.ground = compose_ground(raw.ground);
+  if (raw.obstacle >= kLattice / 3) return environment;
+  const double distance_m = 0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150);
+  Box wall;
+  wall.center_m = Vec3(raw.obstacle % 2 == 0 ? distance_m : -distance_m, 1.0, 1.0);
+  wall.half_m = Vec3(0.1, 1.0, 2.0);
+  environment.obstacles = {{"wall", wall}};
+  return environment;
+}
+
 // One of the sequences of the queue, which then has a name.
 SequenceDesc& named_sequence(Spec& spec, int raw) {
   const std::size_t index = pick(raw, spec.sequences.size());
@@ -222,7 +253,8 @@ SequenceDesc& named_sequence(Spec& spec, int raw) {
 
 ConditionDesc compose_condition(const RawInterrupt& raw, Spec& spec) {
   ConditionDesc when;
-  constexpr Event kEvents[] = {Event::frame, Event::frame, Event::clip_ended, Event::sequence_ended, Event::impact};
+  constexpr Event kEvents[] = {Event::frame,         Event::frame,  Event::clip_ended,
+                               Event::sequence_ended, Event::impact, Event::ground_steeper};
   when.event = kEvents[pick(raw.event, std::size(kEvents))];
   if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
   if (when.event == Event::sequence_ended) when.name = named_sequence(spec, raw.what).name;
@@ -251,6 +283,7 @@ Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, con
   Spec spec;
   spec.character = compose_character(raw, characters[pick(raw.character, characters.size())], library);
   compose_attachments(raw, library, spec.character);
+  spec.environment = compose_environment(raw);
   spec.hold_frames = between(raw.hold, 0, 10);
   const Result<Character> character = build_character(spec.character, library);
   if (!character) return spec;  // the caller's build says why
@@ -259,7 +292,7 @@ Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, con
     if (SequenceDesc sequence = compose_sequence(clips, *character, parts); !sequence.clips.empty())
       spec.sequences.push_back(std::move(sequence));
   // Every third spec is interrupted, once or twice.
-  if (raw.start < kLattice / 3 && !spec.sequences.empty())
+  if (raw.interrupted < kLattice / 3 && !spec.sequences.empty())
     for (const RawInterrupt& interrupt : raw.interrupts)
       spec.interrupts.push_back(compose_interrupt(interrupt, *character, parts, spec));
   return spec;

@@ -42,10 +42,14 @@ struct RawInterrupt {
   std::vector<RawClip> clips;
 };
 
+inline constexpr std::size_t kRawGround = 16;
+
 struct RawSpec {
   int character = 0;
   int hold = 0;
-  int start = 0;
+  int interrupted = 0;
+  int obstacle = 0;
+  std::array<int, kRawGround> ground{};
   std::array<int, kRawParts> parts{};
   std::array<int, kRawObjects> objects{};
   std::vector<std::vector<RawClip>> sequences;

@@ -63,7 +63,8 @@ rc::Gen<RawInterrupt> raw_interrupt() {
 rc::Gen<RawSpec> raw_spec() {
   return rc::gen::build<RawSpec>(
       rc::gen::set(&RawSpec::character, lattice()), rc::gen::set(&RawSpec::hold, lattice()),
-      rc::gen::set(&RawSpec::start, lattice()),
+      rc::gen::set(&RawSpec::interrupted, lattice()), rc::gen::set(&RawSpec::obstacle, lattice()),
+      rc::gen::set(&RawSpec::ground, rc::gen::container<std::array<int, kRawGround>>(lattice())),
       rc::gen::set(&RawSpec::parts, rc::gen::container<std::array<int, kRawParts>>(lattice())),
       rc::gen::set(&RawSpec::objects, rc::gen::container<std::array<int, kRawObjects>>(lattice())),
       rc::gen::set(&RawSpec::sequences, list_up_to(2, list_up_to(3, raw_clip()))),

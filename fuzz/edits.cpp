@@ -1,5 +1,7 @@
 #include "fuzz/edits.h"
 
+#include "generator/actions/action.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -116,18 +118,16 @@ void for_places(const Spec& spec, Visit visit) {
       for (std::size_t a = 0; a < sequence_at(spec, s).clips[c].actions.size(); ++a) visit(s, c, a);
 }
 
-// Whole degrees, or centimetres for a name that ends in _m.
-double steps_of(const std::string& name) { return name.ends_with("_m") || name == "share" ? 100.0 : 1.0; }
 
 void add_param_numbers(const Spec& spec, std::size_t s, std::size_t c, std::size_t a, std::vector<NumberRef>& out) {
   for (const auto& [name, value] : sequence_at(spec, s).clips[c].actions[a].params) {
     const std::string key = name;
     if (std::holds_alternative<double>(value))
       out.push_back({[=](Spec& x) -> double& { return std::get<double>(action_at(x, s, c, a).params.at(key)); }, 0.0,
-                     steps_of(key)});
+                     steps_per_unit(key)});
     for (int i = 0; std::holds_alternative<Vec3>(value) && i < 3; ++i)
       out.push_back({[=](Spec& x) -> double& { return std::get<Vec3>(action_at(x, s, c, a).params.at(key))[i]; }, 0.0,
-                     steps_of(key)});
+                     steps_per_unit(key)});
   }
 }
 
@@ -144,6 +144,9 @@ std::vector<Edit> default_edits(const Spec& spec) {
   edits.push_back([](Spec& x) { x.hold_frames = plain_spec.hold_frames; });
   edits.push_back([](Spec& x) { x.rate_hz = plain_spec.rate_hz; });
   edits.push_back([](Spec& x) { x.start = plain_spec.start; });
+  edits.push_back([](Spec& x) { x.environment = plain_spec.environment; });
+  edits.push_back([](Spec& x) { x.environment.ground = plain_spec.environment.ground; });
+  edits.push_back([](Spec& x) { x.environment.obstacles.clear(); });
   for (std::size_t i = 0; i < spec.interrupts.size(); ++i) {
     edits.push_back([=](Spec& x) { x.interrupts[i].enter = Enter::front; });
     edits.push_back([=](Spec& x) { x.interrupts[i].resume = true; });

@@ -151,6 +151,9 @@ class Run {
     ++result_.tested["character " + spec.character.name];
     for (const auto& [slot, part] : spec.character.parts) ++result_.tested["part " + part];
     for (const AttachmentDesc& attachment : spec.character.attachments) ++result_.tested["object " + attachment.object];
+    static constexpr const char* kGrounds[] = {"plane", "slope", "steps", "heights"};
+    ++result_.tested[std::string("ground ") + kGrounds[spec.environment.ground.index()]];
+    if (!spec.environment.obstacles.empty()) ++result_.tested["obstacle"];
     for (const SequenceDesc& sequence : spec.sequences) count_tested(sequence);
     for (const InterruptDesc& interrupt : spec.interrupts) {
       ++result_.tested["interrupt on " + std::string(event_name(interrupt.when.event))];

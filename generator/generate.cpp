@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "generator/actions/hand.h"
+#include "generator/core/detmath.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/kinematics.h"
 
@@ -43,9 +45,27 @@ class Generation {
     s_.feedback.assign(character_.parts().size(), {});
     s_.additive_spans.assign(timeline_.actions.size(), -1);
     s_.world.resize(character_.joints().size());
+    s_.bodies.assign(static_cast<std::size_t>(timeline_.use_count), {});
     s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
     s_.base.root = stage_.start * character_.rest_root();
+    stand_up();
     s_.plain = s_.from_overwrite = s_.from_ik = s_.target = s_.shown = s_.base;
+  }
+
+  // At rest on level ground; elsewhere hips and feet fit themselves to what is beneath.
+  void stand_up() {
+    const Vec3& at = stage_.start.p_m;
+    if (stage_.environment.is_level() || stage_.legs.empty()) {
+      s_.base.root.p_m.y += stage_.environment.height_at(at.x, at.z);
+      return;
+    }
+    Gait gait;
+    gait.begin(character_, stage_.legs, stage_.environment, stage_.start);
+    const GaitFrame frame = gait.stand(0.0);
+    s_.base.root = frame.root;
+    forward_kinematics(character_, s_.base.root, s_.base.coords, s_.world);
+    for (std::size_t i = 0; i < stage_.legs.size(); ++i)
+      place_foot(character_, stage_.legs[i], s_.world, frame.feet[i].world_from_sole, s_.base.coords);
   }
 
   // The queue ran dry hold_frames ago.
@@ -81,6 +101,15 @@ class Generation {
       case Event::aim_reached: return told(&Feedback::aim_reached);
       case Event::impact:
         return std::any_of(s_.feedback.begin(), s_.feedback.end(), [](const Feedback& f) { return f.impact; });
+      case Event::near_obstacle: {
+        const Surface surface = stage_.environment.nearest_obstacle(s_.shown.root.p_m);
+        return surface.obstacle >= 0 && surface.distance_m <= interrupt.when.distance_m &&
+               (interrupt.obstacle < 0 || interrupt.obstacle == surface.obstacle);
+      }
+      case Event::ground_steeper: {
+        const Vec3 normal = stage_.environment.normal_at(s_.shown.root.p_m.x, s_.shown.root.p_m.z);
+        return normal.y < det::cos(interrupt.when.slope_deg * kRadPerDeg);
+      }
       default: return false;
     }
   }
@@ -178,6 +207,7 @@ class Generation {
     hold.came = std::max(action.start, static_cast<double>(run_of(hold).first_content));
     hold.eased = action.def->timing == Timing::goal ? blended_in(action, hold.came, content(hold) - 1) : 0.0;
     hold.span = add_span(action);
+    hold.frame = frame_;
   }
 
   int add_span(const PlannedAction& action) {
@@ -195,23 +225,29 @@ class Generation {
 
   // ---- what it does
 
-  ActionTime time_of(const PlannedAction& action, int content_frame) const {
+  ActionTime time_of(const PlannedAction& action, double came, int content_frame) const {
     const double duration_s = (action.end - action.start) / action.scale / stage_.rate_hz;
     const double u = progress(action, content_frame);
-    return {u, u * duration_s, duration_s};
+    const double missed_s =
+        std::min(duration_s, action.speed * (came - action.start) / action.scale / stage_.rate_hz);
+    return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s};
   }
 
-  void apply(const PlannedAction& action, std::size_t p, int content_frame) {
+  void apply(const PlannedAction& action, std::size_t p, const Posture& from, double came, int took_over,
+             int content_frame) {
     const Part& part = character_.parts()[p];
     if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
-    const ActionTime time = time_of(action, content_frame);
-    action.def->rule({character_, part, action.params, s_.world, time, stage_.start, s_.feedback[p]}, s_.target);
+    const ActionTime time = time_of(action, came, content_frame);
+    action.def->rule({character_, part, action.params, s_.world, time, stage_.start, stage_.environment, stage_.legs,
+                      action.rest_grip_m, from, frame_, took_over, s_.bodies[static_cast<std::size_t>(action.use)],
+                      s_.feedback[p]},
+                     s_.target);
   }
 
   // out = from `from` towards what the rule makes of `beneath`.
   void move(std::size_t p, const Hold& hold, const Posture& from, const Posture& beneath, Posture& out) {
     copy_part(character_, p, beneath, s_.target);
-    apply(planned(hold), p, content(hold));
+    apply(planned(hold), p, from, hold.came, hold.frame, content(hold));
     const double left = 1.0 - hold.eased;
     const double eased = blended_in(planned(hold), hold.came, content(hold));
     const double weight = left > 1e-9 ? (eased - hold.eased) / left : 1.0;
@@ -228,7 +264,7 @@ class Generation {
       const int now = content(s_.queue.history()[static_cast<std::size_t>(run)], frame_);
       mark_additive(a, action);
       copy_part(character_, p, s_.shown, s_.target);
-      apply(action, p, now);
+      apply(action, p, s_.shown, action.start, frame_, now);
       const double weight = blended_in(action, action.start, now) * not_blended_out(action, now);
       blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
     });

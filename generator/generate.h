@@ -14,6 +14,7 @@ struct GenerateScratch {
   // the frame before, so that what is left of its way is covered in what is left of its time.
   struct Hold {
     int action = -1;  // index into Timeline::actions; -1: nobody
+    int frame = -1;   // in which it took over
     int run = -1;     // index into the queue's history
     double eased = 0.0;
     double came = 0.0;  // when it took over, in frames of its sequence
@@ -26,6 +27,7 @@ struct GenerateScratch {
     Hold ik;
   };
   PlayQueue queue;
+  std::vector<WholeBody> bodies;    // by use of an action
   std::vector<char> signals;        // of the interrupts
   std::vector<Stack> stacks;        // of the parts
   std::vector<Feedback> feedback;   // of the parts, in this frame

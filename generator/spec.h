@@ -9,6 +9,7 @@
 #include "generator/character/desc.h"
 #include "generator/core/result.h"
 #include "generator/timeline/clip.h"
+#include "generator/world/environment_desc.h"
 
 namespace contort {
 
@@ -21,6 +22,7 @@ struct StartDesc {
 
 struct Spec {
   CharacterChoice character;
+  EnvironmentDesc environment;
   StartDesc start;
   double rate_hz = 60.0;                // [1, 1000] frames per second
   int hold_frames = 0;                  // [0, 6000] frames after the last sequence

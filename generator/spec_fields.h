@@ -4,6 +4,7 @@
 #include "generator/character/desc.h"
 #include "generator/core/json_fields.h"
 #include "generator/spec.h"
+#include "generator/world/environment_fields.h"
 
 namespace contort {
 
@@ -112,6 +113,7 @@ void fields(V& v, const Spec*) {
   v.field("character", &Spec::character, {.required = true}, "Who moves.");
   v.field("rate_hz", &Spec::rate_hz, {.low = 1, .high = 1000}, "Frames per second.");
   v.field("hold_frames", &Spec::hold_frames, {.low = 0, .high = 6000}, "Frames after the last sequence.");
+  v.field("environment", &Spec::environment, {}, "Ground and obstacles.");
   v.field("start", &Spec::start, {}, "Where the character stands at first.");
   v.field("sequences", &Spec::sequences, {.max_count = 64}, "Played one after another.");
   v.field("interrupts", &Spec::interrupts, {.max_count = 64}, "Sequences that wait for a condition.");

@@ -15,10 +15,18 @@ Result<Stage> build_stage(const Spec& spec, const Library& library) {
 Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character) {
   Result<Timeline> timeline = lay_out({spec.sequences, spec.interrupts, *character});
   if (!timeline) return timeline.issue();
+  Result<Environment> environment = build_environment(spec.environment);
+  if (!environment) {
+    Issue issue = environment.issue();
+    issue.pointer = "/environment" + issue.pointer;
+    return issue;
+  }
   Stage stage;
+  stage.environment = std::move(environment).value();
+  stage.legs = find_legs(*character);
   stage.timeline = std::move(timeline).value();
   stage.rate_hz = spec.rate_hz;
-  stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), spec.start.position_m};
+  stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), Vec3(spec.start.position_m.x, 0.0, spec.start.position_m.z)};
   stage.hold_frames = spec.hold_frames;
   // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
   stage.most_frames =
@@ -26,6 +34,14 @@ Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> cha
   if (stage.most_frames > kMaxFrames + 1)
     return Issue{"spec.too_long", "/hold_frames",
                  "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
+  for (std::size_t i = 0; i < stage.timeline.interrupts.size(); ++i) {
+    PlannedInterrupt& interrupt = stage.timeline.interrupts[i];
+    if (interrupt.when.event != Event::near_obstacle || interrupt.when.name.empty()) continue;
+    interrupt.obstacle = stage.environment.find_obstacle(interrupt.when.name);
+    if (interrupt.obstacle < 0)
+      return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
+                   "found \"" + interrupt.when.name + "\", which no obstacle is called"};
+  }
   stage.character = std::move(character);
   return stage;
 }

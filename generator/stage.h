@@ -4,21 +4,25 @@
 #include <memory>
 
 #include "generator/character/character.h"
+#include "generator/motion/legs.h"
 #include "generator/spec.h"
 #include "generator/timeline/timeline.h"
+#include "generator/world/environment.h"
 
 namespace contort {
 
 struct Stage {
   std::shared_ptr<const Character> character;
   Timeline timeline;
+  Environment environment;
+  std::vector<Leg> legs;
   double rate_hz = 60.0;
   Rigid start;          // where the character stands in frame 0: a turn about +Y and a place
   int hold_frames = 0;  // after the queue has run dry
   int most_frames = 1;  // >= 1; fewer where an interrupt never fires or drops what it cuts
 };
 
-// Codes "spec.*" and "character.*" with pointers into the spec.
+// Codes "spec.*", "environment.*" and "character.*" with pointers into the spec.
 Result<Stage> build_stage(const Spec& spec, const Library& library);
 
 // The same with a character that was built from spec.character before; many specs can share one.

@@ -23,6 +23,11 @@ std::span<const ActionDef> all_actions() {
   return actions;
 }
 
+double steps_per_unit(std::string_view param_name) {
+  if (param_name.ends_with("_m_s")) return 10.0;
+  return param_name.ends_with("_m") || param_name == "share" ? 100.0 : 1.0;
+}
+
 const ActionDef* find_action(std::string_view name) {
   for (const ActionDef& action : all_actions())
     if (action.name == name) return &action;
@@ -68,6 +73,13 @@ std::vector<std::string> object_points(const Character& character, const Part& p
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part) {
   std::vector<int> moved = {named_part};
   if (action.spread == Spread::own) return moved;
+  if (action.spread == Spread::legs) {
+    for (const Leg& leg : find_legs(character)) {
+      moved.push_back(leg.part);
+      if (leg.foot_part != leg.part) moved.push_back(leg.foot_part);
+    }
+    return moved;
+  }
   for (int p = named_part + 1; p < static_cast<int>(character.parts().size()); ++p)
     if (carrier_of(character, p) == moved.back()) moved.push_back(p);
   return moved;
@@ -117,7 +129,20 @@ Result<Done> append_point(const Character& character, const Part& part, const Pa
   return Done{};
 }
 
+Result<Done> append_choice(const ParamDef& def, const ParamValue& value, std::vector<double>& bound) {
+  if (!std::holds_alternative<std::string>(value)) return param_issue("wrong_type", def.name, "expected a word");
+  const auto found = std::find(def.choices.begin(), def.choices.end(), std::get<std::string>(value));
+  std::string words;
+  for (const std::string& word : def.choices) words += (words.empty() ? "" : ", ") + word;
+  if (found == def.choices.end())
+    return param_issue("out_of_range", def.name,
+                       "found \"" + std::get<std::string>(value) + "\", allowed are " + words);
+  bound.push_back(static_cast<double>(found - def.choices.begin()));
+  return Done{};
+}
+
 Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<double>& bound) {
+  if (def.type == ParamType::choice) return append_choice(def, value, bound);
   const bool right =
       def.type == ParamType::number ? std::holds_alternative<double>(value) : std::holds_alternative<Vec3>(value);
   if (!right)

@@ -11,7 +11,9 @@
 #include "generator/actions/action_use.h"
 #include "generator/character/character.h"
 #include "generator/core/result.h"
+#include "generator/motion/gait.h"
 #include "generator/motion/motion.h"
+#include "generator/world/environment.h"
 
 namespace contort {
 
@@ -32,6 +34,7 @@ enum class Spread {
 enum class ParamType {
   number,
   vector,
+  choice,        // one of a few words: the rule sees its index
   object_point,  // the name of a point of an attached object: the rule sees the index of its socket
 };
 
@@ -49,6 +52,7 @@ struct ParamDef {
   double low = 0.0;
   double high = 0.0;
   ParamValue preset = 0.0;  // the value where a spec gives none
+  std::vector<std::string> choices{};  // of a choice
   bool optional = false;    // no value at all is allowed: the rule sees NaN
   Domain domain = Domain::uniform;
   std::string help;
@@ -67,6 +71,17 @@ struct ActionTime {
   double progress = 0.0;    // of its period, [0, 1]
   double time_s = 0.0;      // since its start
   double duration_s = 0.0;  // of its period
+  double since_s = 0.0;     // since it took the part; later than its start where it was cut and went on
+  double left_s = 0.0;      // from then to its end
+};
+
+// What one use of an action that moves legs remembers from frame to frame.
+struct WholeBody {
+  Gait gait;
+  GaitFrame frame;
+  int begun = -1;    // frame in which the root was taken
+  int made_in = -1;  // frame of `frame`
+  std::array<bool, kMaxLegs> lands{};
 };
 
 // What a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the part's own
@@ -78,8 +93,19 @@ struct RuleInput {
   std::span<Rigid> world;
   const ActionTime& time;
   const Rigid& world_from_start;  // where the character stood at first
+  const Environment& environment;
+  std::span<const Leg> legs;
+  Vec3 rest_grip_m;  // of the named part, in the character's frame; arms only
+  const Posture& from;  // where it took its part over; the part's own coordinates only
+  int frame;
+  int took_over;  // frame in which it took the part
+  WholeBody& body;
   Feedback& feedback;
 };
+
+// The lattice on which the fuzzer draws and shrinks a parameter, by its unit: whole degrees, centimetres, 0.1 m/s,
+// hundredths of a share.
+double steps_per_unit(std::string_view param_name);
 
 struct ActionDef {
   std::string_view name;

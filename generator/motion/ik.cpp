@@ -129,16 +129,21 @@ void reach_for(const Character& character, const ReachChain& chain, std::span<co
 
 void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
                     const Vec3& direction_world, std::span<double> row) {
+  turn_axis_to(character, chain.joints, chain.socket, Vec3(0, 0, 1), world, direction_world, row);
+}
+
+void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
+                  std::span<Rigid> world, const Vec3& direction_world, std::span<double> row) {
   constexpr int kMaxSweeps = 12;
-  for (const int j : chain.joints) set_to_rest(joint_at(character, j), row);
-  const int first = chain.joints.front();
-  const int last = std::max(chain.joints.back(), character.sockets()[static_cast<std::size_t>(chain.socket)].joint) + 1;
+  for (const int j : joints) set_to_rest(joint_at(character, j), row);
+  const int first = joints.front();
+  const int last = std::max(joints.back(), character.sockets()[static_cast<std::size_t>(socket)].joint) + 1;
   forward_kinematics(character, row, first, last, world);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     bool moved = false;
-    for (std::size_t i = chain.joints.size(); i-- > 0;) {
-      const int j = chain.joints[i];
-      const Vec3 facing = world_from_socket(character, world, chain.socket).q * Vec3(0, 0, 1);
+    for (std::size_t i = joints.size(); i-- > 0;) {
+      const int j = joints[i];
+      const Vec3 facing = world_from_socket(character, world, socket).q * socket_axis;
       const Vec3 apart = glm::cross(facing, direction_world);
       if (glm::dot(apart, apart) < 1e-24 && glm::dot(facing, direction_world) > 0.0) return;
       moved |= turn_joint(joint_at(character, j), world[static_cast<std::size_t>(j)], facing, direction_world, row);

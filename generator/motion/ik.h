@@ -21,6 +21,10 @@ void reach_for(const Character& character, const ReachChain& chain, std::span<co
 void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
                     const Vec3& direction_world, std::span<double> row);
 
+// The same for any joints and any axis of a socket.
+void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
+                  std::span<Rigid> world, const Vec3& direction_world, std::span<double> row);
+
 // The coordinates of three successive hinges with axes at right angles that give the rotation (Euler angles about the
 // hinges' own axes; the middle one in [-pi/2, pi/2]).
 Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation);

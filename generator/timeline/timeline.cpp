@@ -1,5 +1,7 @@
 #include "generator/timeline/timeline.h"
 
+#include "generator/actions/hand.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -143,6 +145,7 @@ class Layout {
     Result<std::vector<double>> params = bind_params(*planned.def, character_, part, use.params);
     if (!params) return params.issue();
     planned.params = std::move(params).value();
+    if (!part.reach.empty()) planned.rest_grip_m = rest_grip_m(character_, part);
     return check_blends(use, *planned.def);
   }
 

@@ -75,8 +75,8 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // A change here means that (seed, index) of every stored case names another spec from now on: change kDrawStream in
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
-  const std::array<std::string, 3> pinned = {"b0db266906c8ae799afd7dd6bd3a6804", "ae579e8c0b99894fda6f5c02d7e412d2",
-                                             "1afbe2c504d19ceae21bc5236a4424f0"};
+  const std::array<std::string, 3> pinned = {"e1f9438c063f2d67395cc48137d326c9", "3361fe195204b097bf14d7a444698925",
+                                             "7d5913ff505becd683a5d71a591ce1ab"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }
@@ -137,6 +137,7 @@ TEST(Draw, PosesStayWithinTheRangesOfTheirJoints) {
   for (int i = 0; i < 300; ++i) {
     Spec spec = draw(9, i);
     spec.interrupts.clear();
+    spec.environment = {};  // feet on a slope bend without any pose
     for (SequenceDesc& sequence : spec.sequences)
       for (ClipDesc& clip : sequence.clips)
         std::erase_if(clip.actions, [](const ActionUse& use) { return use.action != "pose"; });

@@ -46,7 +46,7 @@ inline Stage stage_of(std::vector<SequenceDesc> sequences, int hold_frames = 0,
   spec.hold_frames = hold_frames;
   const Result<Stage> stage = build_stage(spec, std::move(character));
   if (!stage) ADD_FAILURE() << to_line(stage.issue());
-  return stage ? *stage : Stage{shared_human(), {}, 60.0, {}, 0, 1};
+  return stage ? *stage : Stage{};
 }
 
 inline double coord(const Motion& motion, int frame, const Character& character, std::string_view joint_name) {

@@ -1,0 +1,20 @@
+// What actions of hands share.
+#pragma once
+
+#include "generator/actions/action.h"
+
+namespace contort {
+
+// The grip of an arm: its own, or that of the part that hangs on it; else the tip of its reach chain.
+int grip_of(const Character& character, const Part& arm);
+
+// Where it is in the rest pose, in the character's frame.
+Vec3 rest_grip_m(const Character& character, const Part& arm);
+
+void rest_part(const Character& character, const Part& part, Posture& posture);
+
+// Brings the grip of an arm to a point with the hand's joints at rest. For the hand, which is moved after the arm: rest.
+// Answers how far the grip is from the point.
+double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture);
+
+}  // namespace contort

@@ -1,0 +1,129 @@
+// walk, run, crouch and squat: the root, all legs and all feet in one course (motion/gait.h).
+#include <algorithm>
+
+#include "generator/actions/action.h"
+#include "generator/core/detmath.h"
+
+namespace contort {
+
+namespace {
+
+ParamDef number(const char* name, double low, double high, double preset, const char* help) {
+  ParamDef def;
+  def.name = name;
+  def.low = low, def.high = high;
+  def.preset = preset;
+  def.help = help;
+  return def;
+}
+
+ParamDef lead() {
+  ParamDef def;
+  def.name = "lead";
+  def.type = ParamType::choice;
+  def.choices = {"left", "right"};
+  def.preset = std::string("left");
+  def.help = "The side whose foot stands when it begins.";
+  return def;
+}
+
+std::vector<ParamDef> params_of_gait(double fastest_m_s, double preset_m_s) {
+  return {lead(), number("speed_m_s", 0.0, fastest_m_s, preset_m_s, "Of the way between start and stop."),
+          number("heading_deg", -180.0, 180.0, 0.0,
+                 "Where it goes, from where the character faces; 90 is to its left. It keeps facing the same way.")};
+}
+
+std::vector<ParamDef> params_of_bend() {
+  return {number("share", 0.0, 0.6, 0.3, "How far the hips go down, as a share of the legs' length.")};
+}
+
+bool is_root_with_legs(const Character& character, const Part& part) {
+  if (&part != character.parts().data()) return false;
+  return std::any_of(character.sockets().begin(), character.sockets().end(), [](const Socket& socket) {
+    return std::string_view(socket.name).ends_with("/sole");
+  });
+}
+
+// A turn about +Y and a place on the plane: where the character stands.
+Rigid standing_place(const Character& character, const Rigid& world_from_root) {
+  const Rigid world_from_character = world_from_root * inverse(character.rest_root());
+  const Vec3 forward = world_from_character.q * Vec3(0, 0, 1);
+  const Vec3& at = world_from_character.p_m;
+  return {axis_angle(Vec3(0, 1, 0), det::atan2(forward.x, forward.z)), Vec3(at.x, 0.0, at.z)};
+}
+
+bool is_root(const RuleInput& in) { return &in.part == in.character.parts().data(); }
+
+// The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
+template <class Make>
+const GaitFrame& frame_of(const RuleInput& in, Make make) {
+  WholeBody& body = in.body;
+  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) {
+    const Rigid& world_from_root = is_root(in) ? in.from.root : in.world[0];
+    body.gait.begin(in.character, in.legs, in.environment, standing_place(in.character, world_from_root));
+    body.begun = in.took_over;
+  }
+  if (body.made_in == in.frame) return body.frame;
+  const GaitFrame before = body.frame;
+  body.frame = make(body.gait);
+  for (std::size_t i = 0; i < in.legs.size(); ++i)
+    body.lands[i] = body.made_in >= 0 && body.frame.feet[i].stands && !before.feet[i].stands;
+  body.made_in = in.frame;
+  return body.frame;
+}
+
+template <class Make>
+void follow(const RuleInput& in, Posture& posture, Make make) {
+  const GaitFrame& frame = frame_of(in, make);
+  const int part = static_cast<int>(&in.part - in.character.parts().data());
+  if (part == 0) posture.root = frame.root;
+  for (std::size_t i = 0; i < in.legs.size(); ++i) {
+    const Leg& leg = in.legs[i];
+    const Rigid& sole = frame.feet[i].world_from_sole;
+    if (leg.part == part) place_foot(in.character, leg, in.world, sole, posture.coords);
+    if (leg.foot_part == part && leg.part != part)
+      level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
+    if (leg.part == part || leg.foot_part == part) in.feedback.contact = in.body.lands[i];
+  }
+}
+
+void go(const RuleInput& in, GaitParams params, Posture& posture) {
+  params.lead = static_cast<int>(in.params[0]);
+  params.heading_rad = in.params[2] * kRadPerDeg;
+  follow(in, posture, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
+}
+
+void bend(const RuleInput& in, double share, Posture& posture) {
+  follow(in, posture, [&](Gait& gait) { return gait.stand(share * in.params[0]); });
+}
+
+double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+
+}  // namespace
+
+std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
+bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
+void walk_rule(const RuleInput& in, Posture& posture) {
+  go(in, walk_params(in.legs, in.params[1]), posture);
+}
+
+std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
+bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
+void run_rule(const RuleInput& in, Posture& posture) {
+  go(in, run_params(in.legs, in.params[1]), posture);
+}
+
+std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }
+bool crouch_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
+void crouch_rule(const RuleInput& in, Posture& posture) {
+  bend(in, ease_jerk(in.time.progress), posture);
+}
+
+std::vector<ParamDef> squat_params(const Character&, const Part&) { return params_of_bend(); }
+bool squat_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
+void squat_rule(const RuleInput& in, Posture& posture) {
+  const double u = in.time.progress;
+  bend(in, ease_jerk(u < 0.5 ? 2.0 * u : 2.0 - 2.0 * u), posture);
+}
+
+}  // namespace contort

@@ -1,0 +1,48 @@
+// The joints that point something: from a part's first joint out to the socket whose +Z is aimed, which may be the
+// part's own ("hand_right/grip") or an attached object's ("object:rifle/muzzle").
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+inline constexpr int kMaxAimJoints = 16;
+inline constexpr int kMaxAimCoords = 4 * kMaxAimJoints;
+
+struct AimChain {
+  std::vector<int> joints;  // From the body outward, each below the one before it; at most kMaxAimJoints.
+  int socket = 0;           // Of the character. Its +Z is the aim direction, its origin the aim point.
+  bool operator==(const AimChain&) const = default;
+};
+
+// The part's joints, and those of the parts that hang on it, that carry the socket. No joints where the part does not
+// carry the socket. Of more than kMaxAimJoints the outermost stay.
+AimChain aim_chain_for(const Character& character, int part, int socket);
+
+// The chain with which a torso or head faces a direction, cut in the same way.
+AimChain aim_chain_for(const FacingChain& chain);
+
+// A chain taken out of its character: all that a table depends on. Two arms with equal geometry share a table.
+struct AimGeometry {
+  // Without names and character-wide indices. parent_from_joint is given in the joint before it in the chain (the
+  // first: in the chain's base, the parent of its first joint), joints in between at rest; coord counts from the
+  // chain's first coordinate.
+  std::vector<Joint> joints;
+  Rigid last_from_socket;
+  int coord_count = 0;
+};
+
+// Asserts that the chain has 1 to kMaxAimJoints joints.
+AimGeometry aim_geometry(const Character& character, const AimChain& chain);
+
+// Over everything in it, bit by bit.
+std::uint64_t geometry_hash(const AimGeometry& geometry);
+
+// base_from_socket at the chain's coordinates.
+Rigid base_from_socket(const AimGeometry& geometry, std::span<const double> coords);
+
+}  // namespace contort

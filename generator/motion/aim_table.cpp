@@ -1,0 +1,281 @@
+#include "generator/motion/aim_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "generator/core/assert.h"
+#include "generator/core/detmath.h"
+#include "generator/core/hash.h"
+#include "generator/motion/joint_clamp.h"
+
+namespace contort {
+
+namespace {
+
+// Postures of one cell that are nearer than this in every joint are one posture.
+constexpr double kDifferent_rad = 20.0 * kRadPerDeg;
+// Postures within this in every joint can be averaged: the way between them stays where they point.
+constexpr double kNear_rad = 45.0 * kRadPerDeg;
+
+struct State {
+  int cell = 0;
+  double least_margin = 0.0;  // of the joint that is nearest to its limit
+  double mean_margin = 0.0;
+  int number = 0;
+};
+
+// Coordinates of the n-th state: the outermost joint's places change fastest.
+void state_coords(const AimGeometry& geometry, const AimSteps& steps, int number, std::span<double> coords) {
+  for (std::size_t i = geometry.joints.size(); i-- > 0;) {
+    const auto size = static_cast<std::size_t>(coord_size(geometry.joints[i].kind));
+    const auto places = static_cast<int>(steps.places[i].size() / size);
+    const double* place = steps.places[i].data() + static_cast<std::size_t>(number % places) * size;
+    std::copy(place, place + size, coords.begin() + geometry.joints[i].coord);
+    number /= places;
+  }
+}
+
+State judged(const AimGeometry& geometry, int number, std::span<const double> coords) {
+  State state{aim_cell(base_from_socket(geometry, coords).q * Vec3(0, 0, 1)), 1.0, 0.0, number};
+  for (const Joint& joint : geometry.joints) {
+    if (joint.kind == JointKind::prismatic) continue;
+    const double margin = normalised_margin(joint, coords.data() + joint.coord);
+    state.least_margin = std::min(state.least_margin, margin);
+    state.mean_margin += margin / static_cast<double>(geometry.joints.size());
+  }
+  return state;
+}
+
+// Best of a cell first. Numbers differ, so the order is total.
+bool before(const State& a, const State& b) {
+  if (a.cell != b.cell) return a.cell < b.cell;
+  if (a.least_margin != b.least_margin) return a.least_margin > b.least_margin;
+  if (a.mean_margin != b.mean_margin) return a.mean_margin > b.mean_margin;
+  return a.number < b.number;
+}
+
+std::vector<State> all_states(const AimGeometry& geometry, const AimSteps& steps) {
+  std::vector<State> states;
+  states.reserve(static_cast<std::size_t>(steps.state_count));
+  std::vector<double> coords(static_cast<std::size_t>(geometry.coord_count));
+  for (int number = 0; number < steps.state_count; ++number) {
+    state_coords(geometry, steps, number, coords);
+    states.push_back(judged(geometry, number, coords));
+  }
+  std::ranges::sort(states, before);
+  return states;
+}
+
+// Whether the posture differs from all of the cell's, which are the last ones of `kept`.
+bool differs(const AimGeometry& geometry, std::span<const double> coords, std::span<const double> kept) {
+  const std::size_t size = coords.size();
+  for (std::size_t at = 0; at < kept.size(); at += size)
+    if (posture_difference_rad(geometry, coords, kept.subspan(at, size)) < kDifferent_rad) return false;
+  return true;
+}
+
+double rotation_difference_rad(const double* a, const double* b) {
+  return rotation_angle(glm::conjugate(Quat(a[0], a[1], a[2], a[3])) * Quat(b[0], b[1], b[2], b[3]));
+}
+
+// Adds weight * posture to the sum, balls with the sign of `anchor`'s.
+void add_weighted(const AimGeometry& geometry, std::span<const double> posture, double weight,
+                  std::span<const double> anchor, std::span<double> sum) {
+  for (const Joint& joint : geometry.joints) {
+    const auto first = static_cast<std::size_t>(joint.coord);
+    const auto size = static_cast<std::size_t>(coord_size(joint.kind));
+    double dot = 0.0;
+    for (std::size_t i = first; i < first + size; ++i) dot += posture[i] * anchor[i];
+    const double sign = size == 4 && dot < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = first; i < first + size; ++i) sum[i] += sign * weight * posture[i];
+  }
+}
+
+// Makes the sum a posture: balls to unit length, and all into range, which the set of a ball's rotations needs because
+// it is not convex.
+void finish_mean(const AimGeometry& geometry, double weight, std::span<double> sum) {
+  for (const Joint& joint : geometry.joints) {
+    double* q = sum.data() + joint.coord;
+    if (joint.kind == JointKind::ball) {
+      const Quat mean = glm::normalize(Quat(q[0], q[1], q[2], q[3]));
+      q[0] = mean.w, q[1] = mean.x, q[2] = mean.y, q[3] = mean.z;
+    } else {
+      q[0] /= weight;
+    }
+    clamp_to_range(joint, q);
+  }
+}
+
+double squared(const Vec3& v) { return glm::dot(v, v); }
+
+}  // namespace
+
+int aim_cell(const Vec3& direction) {
+  const Vec3 size = glm::abs(direction);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int face = 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
+  const auto slot = [&](int other) {
+    const double across_rad = det::atan2(direction[other], size[axis]);  // in [-pi/4, pi/4]
+    const double share = (across_rad + kPi / 4.0) / (kPi / 2.0);
+    return std::clamp(static_cast<int>(share * kAimCellsPerEdge), 0, kAimCellsPerEdge - 1);
+  };
+  return (face * kAimCellsPerEdge + slot((axis + 1) % 3)) * kAimCellsPerEdge + slot((axis + 2) % 3);
+}
+
+double posture_difference_rad(const AimGeometry& geometry, std::span<const double> a, std::span<const double> b) {
+  double greatest = 0.0;
+  for (const Joint& joint : geometry.joints) {
+    const double* qa = a.data() + joint.coord;
+    const double* qb = b.data() + joint.coord;
+    if (joint.kind == JointKind::ball) greatest = std::max(greatest, rotation_difference_rad(qa, qb));
+    if (joint.kind == JointKind::hinge) greatest = std::max(greatest, std::fabs(qa[0] - qb[0]));
+  }
+  return greatest;
+}
+
+std::uint64_t AimTable::key_of(const AimGeometry& geometry, const AimTableOptions& options) {
+  Hash64 hash;
+  hash.add(geometry_hash(geometry));
+  hash.add(options.joint_step_deg);
+  hash.add(static_cast<std::uint64_t>(options.max_states));
+  hash.add(static_cast<std::uint64_t>(options.per_cell));
+  return hash.value();
+}
+
+AimTable AimTable::build(const AimGeometry& geometry, const AimTableOptions& options) {
+  CONTORT_ASSERT(options.joint_step_deg >= 0.5 && options.max_states >= 1 && options.per_cell >= 1);
+  const AimSteps steps = aim_steps(geometry, options);
+  const auto size = static_cast<std::size_t>(geometry.coord_count);
+  std::vector<double> kept;
+  std::vector<double> coords(size);
+  std::size_t cell_begin = 0;  // in `kept`
+  int cell = -1;
+  for (const State& state : all_states(geometry, steps)) {
+    if (state.cell != cell) cell_begin = kept.size();
+    cell = state.cell;
+    if (kept.size() - cell_begin >= size * static_cast<std::size_t>(options.per_cell)) continue;
+    state_coords(geometry, steps, state.number, coords);
+    if (differs(geometry, coords, std::span(kept).subspan(cell_begin)))
+      kept.insert(kept.end(), coords.begin(), coords.end());
+  }
+  return of_postures(geometry, options, kept);
+}
+
+AimTable AimTable::of_postures(AimGeometry geometry, const AimTableOptions& options, std::span<const double> coords) {
+  AimTable table;
+  table.geometry_ = std::move(geometry);
+  table.options_ = options;
+  table.coords_.assign(coords.begin(), coords.end());
+  table.arrange();
+  return table;
+}
+
+std::span<const double> AimTable::coords(int posture) const {
+  const auto size = static_cast<std::size_t>(geometry_.coord_count);
+  return std::span(coords_).subspan(static_cast<std::size_t>(posture) * size, size);
+}
+
+// Puts the postures into the tree's order. Postures are compared by all that they are, so that the order in which they
+// came does not show.
+void AimTable::arrange() {
+  const auto size = static_cast<std::size_t>(geometry_.coord_count);
+  const std::size_t count = coords_.size() / size;
+  const std::vector<double> given = std::move(coords_);
+  std::vector<Rigid> placed(count);
+  std::vector<Vec3> facing(count);
+  const auto posture = [&](int i) { return std::span(given).subspan(static_cast<std::size_t>(i) * size, size); };
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  for (const int i : order) {
+    placed[static_cast<std::size_t>(i)] = base_from_socket(geometry_, posture(i));
+    facing[static_cast<std::size_t>(i)] = placed[static_cast<std::size_t>(i)].q * Vec3(0, 0, 1);
+  }
+  const auto divide = [&](const auto& self, int begin, int end, int axis) -> void {
+    if (end - begin < 2) return;
+    const int middle = begin + (end - begin) / 2;
+    std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](int a, int b) {
+      const double along_a = facing[static_cast<std::size_t>(a)][axis];
+      const double along_b = facing[static_cast<std::size_t>(b)][axis];
+      if (along_a != along_b) return along_a < along_b;
+      return std::ranges::lexicographical_compare(posture(a), posture(b));
+    });
+    self(self, begin, middle, (axis + 1) % 3);
+    self(self, middle + 1, end, (axis + 1) % 3);
+  };
+  divide(divide, 0, static_cast<int>(count), 0);
+  for (const int i : order) {
+    directions_.push_back(facing[static_cast<std::size_t>(i)]);
+    points_m_.push_back(placed[static_cast<std::size_t>(i)].p_m);
+    coords_.insert(coords_.end(), posture(i).begin(), posture(i).end());
+  }
+}
+
+struct AimTable::Search {
+  const Vec3& wanted;
+  std::span<AimHit> hits;
+  std::size_t found = 0;
+
+  bool better(const AimHit& a, const AimHit& b) const {
+    return a.chord != b.chord ? a.chord < b.chord : a.posture < b.posture;
+  }
+  bool can_use(double chord) const { return found < hits.size() || chord <= hits.back().chord; }
+  void offer(const AimHit& hit) {
+    if (found == hits.size() && !better(hit, hits.back())) return;
+    std::size_t at = found < hits.size() ? found++ : found - 1;
+    for (; at > 0 && better(hit, hits[at - 1]); --at) hits[at] = hits[at - 1];
+    hits[at] = hit;
+  }
+};
+
+void AimTable::search(Search& search, int begin, int end, int axis) const {
+  if (begin >= end) return;
+  const int middle = begin + (end - begin) / 2;
+  const Vec3& here = direction(middle);
+  search.offer({middle, squared(here - search.wanted)});
+  const double beyond = search.wanted[axis] - here[axis];
+  const int next = (axis + 1) % 3;
+  const bool low_first = beyond < 0.0;
+  this->search(search, low_first ? begin : middle + 1, low_first ? middle : end, next);
+  if (search.can_use(beyond * beyond))
+    this->search(search, low_first ? middle + 1 : begin, low_first ? end : middle, next);
+}
+
+int AimTable::nearest(const Vec3& direction, std::span<AimHit> hits) const {
+  if (hits.empty()) return 0;
+  Search state{direction, hits};
+  search(state, 0, posture_count(), 0);
+  return static_cast<int>(state.found);
+}
+
+int AimTable::nearest_to_point(const Vec3& target_m, std::span<AimHit> hits) const {
+  if (hits.empty()) return 0;
+  Search state{target_m, hits};
+  for (int i = 0; i < posture_count(); ++i)
+    state.offer({i, squared(direction(i) - unit_or(target_m - point_m(i), -direction(i)))});
+  return static_cast<int>(state.found);
+}
+
+void AimTable::interpolated(const Vec3& direction, std::span<double> coords) const {
+  std::array<AimHit, 8> hits;
+  const int found = nearest(direction, hits);
+  const std::span<const double> anchor = this->coords(hits[0].posture);
+  std::array<double, kMaxAimCoords> sum{};
+  double weights = 0.0;
+  for (int i = 0; i < found; ++i) {
+    const AimHit& hit = hits[static_cast<std::size_t>(i)];
+    const std::span<const double> near = this->coords(hit.posture);
+    if (posture_difference_rad(geometry_, anchor, near) > kNear_rad) continue;
+    const double weight = 1.0 / (hit.chord + 1e-6);  // 1e-6: a milliradian, so that an exact hit takes nearly all
+    add_weighted(geometry_, near, weight, anchor, sum);
+    weights += weight;
+  }
+  const std::span<double> mean = std::span(sum).first(anchor.size());
+  finish_mean(geometry_, weights, mean);
+  const Vec3 facing = base_from_socket(geometry_, mean).q * Vec3(0, 0, 1);
+  const bool nearer = squared(facing - direction) < hits[0].chord;
+  for (std::size_t i = 0; i < anchor.size(); ++i) coords[i] = nearer ? mean[i] : anchor[i];
+}
+
+}  // namespace contort

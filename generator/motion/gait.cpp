@@ -1,0 +1,293 @@
+#include "generator/motion/gait.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/core/detmath.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kLongestTilt_rad = 25.0 * kRadPerDeg;  // of a sole: about what ankles can do
+constexpr double kStretch = 0.99;                       // of a leg's length: a knee never snaps straight
+constexpr double kClearance_m = 0.015;                  // of a swinging foot
+
+double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+
+// Swing, horizontally: in its inner part, so that the foot leaves and meets the ground vertically.
+double swing_share(double swing) { return ease_jerk(std::clamp((swing - 0.1) / 0.8, 0.0, 1.0)); }
+double swing_bump(double swing) {
+  const double left = swing * (1.0 - swing);
+  return 16.0 * left * left;
+}
+
+double least_length_m(std::span<const Leg> legs) {
+  double least = 1e9;
+  for (const Leg& leg : legs) least = std::min(least, leg.length_m);
+  return legs.empty() ? 1.0 : least;
+}
+
+// Points under a foot, in its sole's frame: a grid over the footprint.
+constexpr int kAcross = 3;
+constexpr int kLong = 7;
+Vec3 footprint_point(const Leg& leg, int across, int lengthwise) {
+  const double u = static_cast<double>(across) / (kAcross - 1);
+  const double w = static_cast<double>(lengthwise) / (kLong - 1);
+  return {leg.low_m.x + u * (leg.high_m.x - leg.low_m.x), 0.0, leg.low_m.z + w * (leg.high_m.z - leg.low_m.z)};
+}
+
+// The ground under a footprint at a place, as a plane h + x·a + z·b through its points, and what sticks out of it.
+struct Footing {
+  double height_m = 0.0;
+  double slope_x = 0.0;
+  double slope_z = 0.0;
+  double unevenness_m = 0.0;
+};
+
+Footing footing_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
+  double heights[kAcross][kLong];
+  Vec3 middle(0.0);
+  double mean = 0.0;
+  for (int i = 0; i < kAcross; ++i)
+    for (int j = 0; j < kLong; ++j) {
+      const Vec3 point = footprint_point(leg, i, j);
+      const Vec3 at = world_from_sole * point;
+      heights[i][j] = environment.height_at(at.x, at.z);
+      mean += heights[i][j] / (kAcross * kLong);
+      middle += point / static_cast<double>(kAcross * kLong);
+    }
+  double xx = 1e-12, zz = 1e-12, xh = 0.0, zh = 0.0;
+  for (int i = 0; i < kAcross; ++i)
+    for (int j = 0; j < kLong; ++j) {
+      const Vec3 point = footprint_point(leg, i, j) - middle;
+      xx += point.x * point.x, zz += point.z * point.z;
+      xh += point.x * (heights[i][j] - mean), zh += point.z * (heights[i][j] - mean);
+    }
+  Footing footing;
+  const double steepest = det::sin(kLongestTilt_rad) / det::cos(kLongestTilt_rad);
+  footing.slope_x = std::clamp(xh / xx, -steepest, steepest);
+  footing.slope_z = std::clamp(zh / zz, -steepest, steepest);
+  // The plane is laid on the highest points, so that nothing is below the ground.
+  double highest = -1e9, lowest = 1e9;
+  for (int i = 0; i < kAcross; ++i)
+    for (int j = 0; j < kLong; ++j) {
+      const Vec3 point = footprint_point(leg, i, j);
+      const double over = heights[i][j] - footing.slope_x * point.x - footing.slope_z * point.z;
+      highest = std::max(highest, over), lowest = std::min(lowest, over);
+    }
+  footing.height_m = highest;
+  footing.unevenness_m = highest - lowest;
+  return footing;
+}
+
+GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double stride_per_leg) {
+  GaitParams params;
+  const double length_m = least_length_m(legs);
+  params.speed_m_s = speed_m_s;
+  const double root_of_froude = speed_m_s / std::sqrt(kGravity_m_s2 * length_m);
+  // Strides grow with the square root of dimensionless speed (Alexander 1989: stride / leg about 2.3 Fr^0.3).
+  const double stride_m = stride_per_leg * length_m * std::sqrt(std::max(root_of_froude, 0.04));
+  params.cycle_s = stride_m / std::max(speed_m_s, 0.05);
+  params.lift_m = 0.08 * length_m;
+  params.lower_m = 0.03 * length_m;
+  return params;
+}
+
+}  // namespace
+
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s) {
+  GaitParams params = params_for(legs, speed_m_s, 1.5);
+  params.duty = legs.size() > 2 ? 0.75 : 0.62;
+  return params;
+}
+
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s) {
+  GaitParams params = params_for(legs, speed_m_s, 1.7);
+  params.trot = true;
+  params.duty = legs.size() > 2 ? 0.45 : 0.4;
+  params.lift_m *= 1.5;
+  params.lower_m *= 1.5;
+  params.bounce_m = 0.03 * least_length_m(legs);
+  return params;
+}
+
+void Gait::begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
+                 const Rigid& world_from_start) {
+  character_ = &character, legs_ = legs, environment_ = &environment;
+  world_from_start_ = world_from_start;
+  leg_length_m_ = least_length_m(legs);
+  rows_ = 1;
+  for (const Leg& leg : legs) rows_ = std::max(rows_, leg.row + 1);
+  steps_.fill({});
+}
+
+double Gait::phase(const GaitParams& params, const Leg& leg) const {
+  const int side = leg.side == params.lead ? 0 : 1;
+  if (params.trot) return 0.5 * ((side + leg.row) % 2);
+  return 0.5 * side + 0.5 * leg.row / rows_;
+}
+
+Gait::Cycle Gait::cycle_of(const GaitParams& params, const Leg& leg, double time_s) const {
+  const double cycles = time_s / params.cycle_s + phase(params, leg);
+  const double whole = std::floor(cycles + 1e-9);
+  const double within = std::max(0.0, cycles - whole);
+  const double swing = (within - params.duty) / (1.0 - params.duty);
+  return {static_cast<int>(whole), std::clamp(swing, 0.0, 1.0)};
+}
+
+// Speed rises and falls along 3u^2 - 2u^3. It ends a cycle early, so that every foot has the time to come home.
+double Gait::travelled_m(const GaitParams& params, double time_s, double duration_s) const {
+  const double moving_s = std::max(duration_s - params.cycle_s, 0.5 * duration_s);
+  const double ramp_s = std::min(0.6 * params.cycle_s, 0.5 * moving_s);
+  const auto ramped = [&](double t) {  // the integral of the rising speed
+    const double u = std::clamp(t / ramp_s, 0.0, 1.0);
+    return ramp_s * (u * u * u - 0.5 * u * u * u * u) + std::max(0.0, t - ramp_s);
+  };
+  if (!(ramp_s > 0.0)) return 0.0;
+  const double t = std::clamp(time_s, 0.0, moving_s);
+  if (t <= moving_s - ramp_s) return params.speed_m_s * ramped(t);
+  const double whole = ramped(moving_s - ramp_s) + ramped(ramp_s);
+  return params.speed_m_s * (whole - ramped(moving_s - t));
+}
+
+Vec3 Gait::travel(const GaitParams& params, double distance_m) const {
+  const det::SinCos heading = det::sincos(params.heading_rad);
+  return world_from_start_.q * (distance_m * Vec3(heading.sin, 0.0, heading.cos));
+}
+
+// Puts a foot on the ground near a place: among a few places along the way the most even one, the nearer the better.
+Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const {
+  constexpr double kStep_m = 0.02;
+  constexpr int kSteps = 12;
+  constexpr double kFarther = 0.02;  // unevenness that one metre of detour is worth
+  Footing best;
+  Vec3 best_at = home_m;
+  double best_cost = 1e9;
+  for (int n = 0; n <= 2 * kSteps; ++n) {
+    const int steps = n % 2 == 0 ? -n / 2 : (n + 1) / 2;  // 0, 1, -1, 2, -2 …
+    const Vec3 at = home_m + steps * kStep_m * direction;
+    const Footing footing = footing_at(*environment_, leg, {world_from_start_.q, at});
+    const double cost = footing.unevenness_m + kFarther * kStep_m * std::abs(steps);
+    if (cost < best_cost - 1e-9) best = footing, best_at = at, best_cost = cost;
+    if (environment_->is_level()) break;
+  }
+  best_at.y = best.height_m;
+  // Pitch about the sole's x, then roll about its z, as small rotations of one vector.
+  const Vec3 normal = unit_or(Vec3(-best.slope_x, 1.0, -best.slope_z), Vec3(0, 1, 0));
+  return {world_from_start_.q * shortest_arc(Vec3(0, 1, 0), normal), best_at};
+}
+
+// A foot stands at home until its first swing begins, and is home again from the step on whose middle comes after the end.
+Rigid Gait::foothold(const GaitParams& params, const Leg& leg, int step, double duration_s) const {
+  const double lifted_s = (step - 1 + params.duty - phase(params, leg)) * params.cycle_s;
+  const double middle_s = (step + 0.5 * params.duty - phase(params, leg)) * params.cycle_s;
+  const double distance_m = lifted_s < 0.0 ? 0.0 : travelled_m(params, middle_s, duration_s);
+  const Vec3 home = world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z) + travel(params, distance_m);
+  return stand_at(leg, home, travel(params, 1.0));
+}
+
+// How high a swing must be lifted over its straight way so that toes, heel and middle clear the ground.
+double Gait::clear_bump(const Leg& leg, const Step& step, double lift_m) const {
+  constexpr int kSamples = 96;  // a centimetre of way each: no edge is stepped over unseen
+  const Vec3 way = step.to.p_m - step.from.p_m;
+  const double horizontal_m = std::sqrt(way.x * way.x + way.z * way.z);
+  double bump_m = lift_m * std::min(1.0, horizontal_m / 0.15);
+  if (environment_->is_level() || horizontal_m < 1e-6) return bump_m;
+  for (int n = 1; n < kSamples; ++n) {
+    const double swing = static_cast<double>(n) / kSamples;
+    if (swing < 0.15 || swing > 0.85) continue;  // nearly where it stands: a foot longer than its tread overhangs there
+    const double share = swing_share(swing);
+    const Rigid sole{slerp_short(step.from.q, step.to.q, share), step.from.p_m + share * way};
+    for (int i = 0; i < kAcross; i += 2)
+      for (int j = 0; j < kLong; j += 3) {
+        const Vec3 at = sole * footprint_point(leg, i, j);
+        const double missing_m = environment_->height_at(at.x, at.z) - at.y;
+        const double bump = swing_bump(swing);
+        if (missing_m > -kClearance_m * bump) bump_m = std::max(bump_m, missing_m / bump + kClearance_m);
+      }
+  }
+  return bump_m;
+}
+
+void Gait::take_step(const GaitParams& params, const Leg& leg, int number, double duration_s, Step& step) const {
+  if (step.number == number) return;
+  step.number = number;
+  step.from = foothold(params, leg, number, duration_s);
+  // A swing that began before the course did is not made: the foot stands where it is.
+  const bool swings = (number + params.duty - phase(params, leg)) * params.cycle_s >= 0.0;
+  step.to = swings ? foothold(params, leg, number + 1, duration_s) : step.from;
+  step.bump_m = clear_bump(leg, step, params.lift_m);
+}
+
+// Over the feet, upright or along their slope, and as low as the leg with the longest way needs.
+Rigid Gait::root_over(std::span<const Vec3> feet, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const {
+  const Rigid& rest = character_->rest_root();
+  double mean_y = 0.0, mean_z = 0.0, zz = 0.0, zy = 0.0;
+  const double count = std::max<double>(1.0, static_cast<double>(legs_.size()));
+  for (std::size_t i = 0; i < legs_.size(); ++i) mean_y += feet[i].y / count, mean_z += legs_[i].home_m.z / count;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    const double z = legs_[i].home_m.z - mean_z;
+    zz += z * z, zy += z * (feet[i].y - mean_y);
+  }
+  const double pitch_rad = rows_ > 1 ? -det::atan2(zy, zz) : 0.0;
+  const Quat tilt = axis_angle(Vec3(1, 0, 0), pitch_rad);
+  const Vec3 pivot(0.0, 0.0, mean_z);  // on the ground between the feet
+  Rigid root{world_from_start_.q * tilt * rest.q,
+             world_from_start_ * (pivot + tilt * (rest.p_m - pivot)) + travel_m};
+  root.p_m.y = (pivot + tilt * (rest.p_m - pivot)).y + mean_y - lower_m;
+  double too_high_m = 0.0;
+  const Rigid world_from_character = root * inverse(rest);
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    const Vec3 ankle = frame.feet[i].world_from_sole * legs_[i].sole_from_ankle;
+    const Vec3 hip = world_from_character * legs_[i].hip_m;
+    const double reach_m = kStretch * legs_[i].length_m;
+    const double across2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
+    const double up_m = std::sqrt(std::max(reach_m * reach_m - across2, 0.04 * reach_m * reach_m));
+    too_high_m = std::max(too_high_m, hip.y - ankle.y - up_m);
+  }
+  root.p_m.y -= too_high_m;
+  return root;
+}
+
+GaitFrame Gait::stand(double lower_share) {
+  GaitFrame frame;
+  std::array<Vec3, kMaxLegs> feet;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    constexpr int kHome = -1;  // no step of a course that begins at 0
+    if (steps_[i].number != kHome) {
+      const Vec3 home(legs_[i].home_m.x, 0.0, legs_[i].home_m.z);
+      steps_[i].from = stand_at(legs_[i], world_from_start_ * home, world_from_start_.q * Vec3(0, 0, 1));
+      steps_[i].number = kHome;
+    }
+    frame.feet[i].world_from_sole = steps_[i].from;
+    feet[i] = steps_[i].from.p_m;
+  }
+  frame.root = root_over(std::span(feet).first(legs_.size()), frame, Vec3(0.0), lower_share * leg_length_m_);
+  return frame;
+}
+
+GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
+  GaitFrame frame;
+  std::array<Vec3, kMaxLegs> feet;  // on their straight ways, without the lift
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    const Cycle cycle = cycle_of(params, legs_[i], time_s);
+    take_step(params, legs_[i], cycle.step, duration_s, steps_[i]);
+    const Step& step = steps_[i];
+    const double share = swing_share(cycle.swing);
+    feet[i] = step.from.p_m + share * (step.to.p_m - step.from.p_m);
+    frame.feet[i].world_from_sole = {slerp_short(step.from.q, step.to.q, share), feet[i]};
+    frame.feet[i].world_from_sole.p_m.y += step.bump_m * swing_bump(cycle.swing);
+    frame.feet[i].stands = cycle.swing == 0.0 || step.bump_m == 0.0;
+  }
+  const double in = ease_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
+  const double out = ease_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
+  const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
+  const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
+  frame.root = root_over(std::span(feet).first(legs_.size()), frame,
+                         travel(params, travelled_m(params, time_s, duration_s)), lower_m);
+  return frame;
+}
+
+}  // namespace contort

@@ -1,0 +1,84 @@
+// Gait: where root and feet are as functions of time, for any number of legs. A stance foot is fixed in the world; its
+// foothold is its home place carried along the path to the middle of that stance, put on the ground. docs/gait.md has
+// the equations.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "generator/motion/legs.h"
+#include "generator/world/environment.h"
+
+namespace contort {
+
+struct GaitParams {
+  double speed_m_s = 1.0;    // >= 0, of the root; 0 stands
+  double heading_rad = 0.0;  // of travel, from where the character faces; it keeps facing the same way
+  double cycle_s = 1.0;      // > 0, between two steps of one foot
+  double duty = 0.6;         // (0, 1): the share of the cycle in which a foot stands
+  int lead = 0;              // the side that stands when it begins: 0 left, 1 right
+  bool trot = false;         // run: legs cross-wise together; else rows one after another
+  double lift_m = 0.08;      // of a swinging foot, at least
+  double lower_m = 0.0;      // the root below its height at rest
+  double bounce_m = 0.0;     // up and down of the root, twice in a cycle
+};
+
+// Sensible parameters for a speed on these legs: longer legs step more slowly, as pendulums do (Froude number).
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s);
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s);
+
+struct FootTarget {
+  Rigid world_from_sole;
+  bool stands = true;
+};
+
+struct GaitFrame {
+  Rigid root;
+  std::array<FootTarget, kMaxLegs> feet;
+};
+
+// What is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
+class Gait {
+ public:
+  // From where the character stands: a turn about +Y and a place on the plane.
+  void begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
+             const Rigid& world_from_start);
+
+  // Standing with every foot at home, the hips lowered by a share of the shortest leg.
+  GaitFrame stand(double lower_share);
+
+  // At a time of a course of duration_s; it begins and ends standing, with every foot at home.
+  GaitFrame at(const GaitParams& params, double time_s, double duration_s);
+
+ private:
+  struct Step {
+    int number = -1000000;  // of the stance before the swing
+    Rigid from;             // world_from_sole
+    Rigid to;
+    double bump_m = 0.0;  // how high it is lifted over the straight way
+  };
+  struct Cycle {
+    int step = 0;        // stances since the beginning
+    double swing = 0.0;  // 0: stands; else how much of the swing is over, (0, 1)
+  };
+
+  double phase(const GaitParams& params, const Leg& leg) const;
+  Cycle cycle_of(const GaitParams& params, const Leg& leg, double time_s) const;
+  double travelled_m(const GaitParams& params, double time_s, double duration_s) const;
+  Vec3 travel(const GaitParams& params, double distance_m) const;
+  Rigid foothold(const GaitParams& params, const Leg& leg, int step, double duration_s) const;
+  Rigid stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const;
+  void take_step(const GaitParams& params, const Leg& leg, int number, double duration_s, Step& step) const;
+  double clear_bump(const Leg& leg, const Step& step, double lift_m) const;
+  Rigid root_over(std::span<const Vec3> feet, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const;
+
+  const Character* character_ = nullptr;
+  std::span<const Leg> legs_;
+  const Environment* environment_ = nullptr;
+  Rigid world_from_start_;
+  double leg_length_m_ = 1.0;  // of the shortest
+  int rows_ = 1;
+  std::array<Step, kMaxLegs> steps_;
+};
+
+}  // namespace contort

@@ -1,0 +1,32 @@
+// A joint's range, for rules that promise to stay inside it: clamping, and how far inside a posture is. Rules that do
+// not promise it do not clamp (docs/architecture.md); the check that judges ranges has its own arithmetic.
+#pragma once
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+// A ball's rotation in its limit frame: swing_center * swing * twist. The swing's rotation vector lies across the twist
+// axis; a and b are its components about swing_axis and about axis x swing_axis (Grassia, "Practical Parameterization
+// of Rotations Using the Exponential Map", 1998).
+struct SwingTwist {
+  double a_rad = 0.0;
+  double b_rad = 0.0;
+  double twist_rad = 0.0;  // in [-pi, pi]
+};
+
+// `coords` are the joint's own, as in a pose row: w, x, y, z.
+SwingTwist swing_twist_of(const Joint& ball, const double* coords);
+void set_swing_twist(const Joint& ball, const SwingTwist& at, double* coords);
+
+// Moves the joint's coordinates into its range, and leaves them as they are, bit by bit, where they are inside. Hinges
+// and travels go to the nearer end, exactly; a ball's swing goes straight back to its ellipse and its twist to the end
+// that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. What is not a
+// number goes to the middle of the range.
+void clamp_to_range(const Joint& joint, double* coords);
+
+// How far inside its range the joint is: 1 in the middle, 0 at a limit, below 0 outside. 1 for the root and for a joint
+// that cannot move.
+double normalised_margin(const Joint& joint, const double* coords);
+
+}  // namespace contort

@@ -1,0 +1,147 @@
+#include "generator/motion/legs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/core/detmath.h"
+#include "generator/motion/ik.h"
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+bool is_sole_of(const Character& character, const Socket& socket, int leg_part) {
+  if (!std::string_view(socket.name).ends_with("/sole") || socket.name.starts_with("object:")) return false;
+  const int part = character.joints()[static_cast<std::size_t>(socket.joint)].part;
+  if (part == leg_part) return true;
+  const Part& own = character.parts()[static_cast<std::size_t>(part)];
+  if (own.joint_count == 0 || part == 0) return false;
+  const int carrier = character.joints()[static_cast<std::size_t>(own.first_joint)].parent;
+  return character.joints()[static_cast<std::size_t>(carrier)].part == leg_part;
+}
+
+int find_sole(const Character& character, int leg_part) {
+  for (std::size_t s = 0; s < character.sockets().size(); ++s)
+    if (is_sole_of(character, character.sockets()[s], leg_part)) return static_cast<int>(s);
+  return -1;
+}
+
+// The joints from below the chain's tip down to the sole, hinges only.
+void find_ankles(const Character& character, const ReachChain& chain, Leg& leg) {
+  const int tip = character.sockets()[static_cast<std::size_t>(chain.tip)].joint;
+  std::vector<int> upward;
+  for (int j = character.sockets()[static_cast<std::size_t>(leg.sole)].joint; j > 0 && j != tip;
+       j = character.joints()[static_cast<std::size_t>(j)].parent)
+    if (character.joints()[static_cast<std::size_t>(j)].kind == JointKind::hinge) upward.push_back(j);
+  leg.ankle_count = static_cast<int>(std::min<std::size_t>(upward.size(), leg.ankles.size()));
+  std::copy_n(upward.rbegin(), leg.ankle_count, leg.ankles.begin());
+}
+
+void stretch_over(const Vec3& point_m, double radius_m, Leg& leg) {
+  for (const int i : {0, 2}) {
+    leg.low_m[i] = std::min(leg.low_m[i], point_m[i] - radius_m);
+    leg.high_m[i] = std::max(leg.high_m[i], point_m[i] + radius_m);
+  }
+}
+
+// Colliders reach over the ground with what is within 2 cm of the sole.
+void measure_footprint(const Character& character, Leg& leg) {
+  const Socket& sole = character.sockets()[static_cast<std::size_t>(leg.sole)];
+  const Rigid sole_from_joint = inverse(sole.joint_from_socket);
+  for (const Collider& collider : character.colliders()) {
+    const Box* box = std::get_if<Box>(&collider.shape);
+    if (collider.joint != sole.joint || box == nullptr) continue;
+    const Quat q = from_rotation_vector(box->rotation_deg * kRadPerDeg);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+      const Vec3 point = sole_from_joint * (box->center_m + q * (sign * box->half_m));
+      if (point.y < 0.02) stretch_over(point, 0.0, leg);
+    }
+  }
+}
+
+void measure(const Character& character, const ReachChain& chain, std::span<const Rigid> world, Leg& leg) {
+  const Rigid character_from_world = inverse(world[0] * inverse(character.rest_root()));
+  const Rigid world_from_sole = world_from_socket(character, world, leg.sole);
+  const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
+  const Vec3 knee = world[static_cast<std::size_t>(chain.middle)].p_m;
+  const Vec3 ankle = world_from_socket(character, world, chain.tip).p_m;
+  leg.home_m = character_from_world * world_from_sole.p_m;
+  leg.hip_m = character_from_world * hip;
+  leg.sole_from_ankle = inverse(world_from_sole) * ankle;
+  leg.length_m = length(knee - hip) + length(ankle - knee);
+  leg.side = leg.home_m.x >= 0.0 ? 0 : 1;
+  measure_footprint(character, leg);
+}
+
+void number_rows(std::vector<Leg>& legs) {
+  for (Leg& leg : legs) {
+    std::vector<double> behind;  // distinct rows farther back
+    for (const Leg& other : legs) {
+      const auto same = [&](double z) { return std::fabs(z - other.home_m.z) < 0.1; };
+      if (other.home_m.z < leg.home_m.z - 0.1 && std::none_of(behind.begin(), behind.end(), same))
+        behind.push_back(other.home_m.z);
+    }
+    leg.row = static_cast<int>(behind.size());
+  }
+}
+
+void place_part(const Character& character, int part, std::span<const double> row, std::span<Rigid> world) {
+  const Part& own = character.parts()[static_cast<std::size_t>(part)];
+  forward_kinematics(character, row, own.first_joint, own.first_joint + own.joint_count, world);
+}
+
+}  // namespace
+
+std::vector<Leg> find_legs(const Character& character) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  std::vector<Leg> legs;
+  for (std::size_t p = 0; p < character.parts().size() && legs.size() < kMaxLegs; ++p) {
+    const Part& part = character.parts()[p];
+    if (part.reach.empty()) continue;
+    Leg leg;
+    leg.part = static_cast<int>(p);
+    leg.sole = find_sole(character, leg.part);
+    if (leg.sole < 0) continue;
+    leg.foot_part = character.joints()[static_cast<std::size_t>(
+        character.sockets()[static_cast<std::size_t>(leg.sole)].joint)].part;
+    find_ankles(character, part.reach.front(), leg);
+    measure(character, part.reach.front(), world, leg);
+    legs.push_back(leg);
+  }
+  number_rows(legs);
+  return legs;
+}
+
+void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
+                std::span<double> row) {
+  if (leg.ankle_count == 0) return;
+  turn_axis_to(character, std::span(leg.ankles).first(static_cast<std::size_t>(leg.ankle_count)), leg.sole,
+               Vec3(0, 1, 0), world, up_world, row);
+}
+
+void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
+                std::span<double> row) {
+  constexpr int kPasses = 4;  // the leg turns the foot a little about the vertical; each pass takes that back
+  const ReachChain& chain = character.parts()[static_cast<std::size_t>(leg.part)].reach.front();
+  const Vec3 ankle = world_from_sole * leg.sole_from_ankle;
+  const Vec3 up = world_from_sole.q * Vec3(0, 1, 0);
+  const Vec3 toes = world_from_sole.q * Vec3(0, 0, 1);
+  double swivel_rad = 0.0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    reach_for(character, chain, world, ankle, swivel_rad, row);
+    place_part(character, leg.part, row, world);
+    place_part(character, leg.foot_part, row, world);
+    level_foot(character, leg, world, up, row);
+    place_part(character, leg.foot_part, row, world);
+    const Vec3 now = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
+    // The leg points down, so that a turn about it is one about the vertical the other way round.
+    swivel_rad -= det::atan2(glm::dot(up, glm::cross(now, toes)), glm::dot(now, toes));
+  }
+}
+
+}  // namespace contort

@@ -1,0 +1,44 @@
+// Legs: what stands on the ground. Found by structure, not by name: a part with a reach chain is a leg if it, or a part
+// that hangs on it, has a socket called "sole" (on the ground at rest, +Y up, +Z to the toes).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "generator/character/character.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+inline constexpr int kMaxLegs = 8;  // of one character; further ones do not walk
+
+struct Leg {
+  int part = 0;       // has the reach chain
+  int foot_part = 0;  // has the sole; may be the same
+  int sole = 0;       // socket
+  std::array<int, 3> ankles{};  // joints between the chain's tip and the sole
+  int ankle_count = 0;
+  Vec3 home_m{0.0};          // the sole at rest, in the character's frame (on the ground under the root)
+  Vec3 hip_m{0.0};           // the chain's first joint, there too
+  Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame
+  double length_m = 0.0;     // from hip to ankle, stretched
+  Vec3 low_m{0.0};           // the footprint: x and z of the colliders on the sole's joint, in the sole's frame
+  Vec3 high_m{0.0};
+  int row = 0;  // 0 is the rearmost pair
+  int side = 0;  // 0 left, 1 right
+};
+
+// In the order of slots. Legs whose feet are within 10 cm of each other along +Z are one row.
+std::vector<Leg> find_legs(const Character& character);
+
+// Turns the leg and its ankles so that the sole is where it should be, as nearly as its bones and hinges allow. `world`
+// must hold the carrier of the leg; its entries for leg and foot are scratch. Writes the coordinates of both parts.
+void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
+                std::span<double> row);
+
+// Only the ankles: the sole's +Y to a direction. `world` must hold the leg.
+void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
+                std::span<double> row);
+
+}  // namespace contort

@@ -1,0 +1,177 @@
+#include "generator/world/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "generator/core/detmath.h"
+
+namespace contort {
+
+namespace {
+
+// Along a heading: the coordinate of (x, z) in its direction.
+double along(double heading_deg, double x_m, double z_m) {
+  const det::SinCos heading = det::sincos(heading_deg * kRadPerDeg);
+  return x_m * heading.sin + z_m * heading.cos;
+}
+
+double tangent(double angle_deg) {
+  const det::SinCos angle = det::sincos(angle_deg * kRadPerDeg);
+  return angle.sin / angle.cos;
+}
+
+double height_of(const PlaneGround& ground, double, double) { return ground.height_m; }
+
+double height_of(const SlopeGround& ground, double x_m, double z_m) {
+  return along(ground.heading_deg, x_m, z_m) * tangent(ground.slope_deg);
+}
+
+double height_of(const StepsGround& ground, double x_m, double z_m) {
+  const double climbed = std::floor((along(ground.heading_deg, x_m, z_m) - ground.start_m) / ground.depth_m) + 1.0;
+  return ground.height_m * std::clamp(climbed, 0.0, static_cast<double>(ground.count));
+}
+
+// A cell of the grid and where in it the point is, in [0, 1].
+struct Cell {
+  int index = 0;
+  double share = 0.0;
+};
+
+Cell cell_of(double coordinate_m, double spacing_m, int count) {
+  const double at = std::clamp(coordinate_m / spacing_m + 0.5 * (count - 1), 0.0, static_cast<double>(count - 1));
+  const int index = std::min(static_cast<int>(at), std::max(0, count - 2));
+  return {index, at - index};
+}
+
+double height_of(const HeightGround& ground, double x_m, double z_m) {
+  const Cell column = cell_of(x_m, ground.spacing_m, ground.columns);
+  const Cell row = cell_of(z_m, ground.spacing_m, ground.rows);
+  const auto at = [&](int r, int c) {
+    return ground.heights_m[static_cast<std::size_t>(std::min(r, ground.rows - 1) * ground.columns +
+                                                     std::min(c, ground.columns - 1))];
+  };
+  const double near = at(row.index, column.index) * (1.0 - column.share) + at(row.index, column.index + 1) * column.share;
+  const double far =
+      at(row.index + 1, column.index) * (1.0 - column.share) + at(row.index + 1, column.index + 1) * column.share;
+  return near * (1.0 - row.share) + far * row.share;
+}
+
+double height_of(const Ground& ground, double x_m, double z_m) {
+  return std::visit([&](const auto& g) { return height_of(g, x_m, z_m); }, ground);
+}
+
+// In the environment's frame, pointing up.
+Vec3 normal_of(const Ground& ground, double x_m, double z_m) {
+  if (std::holds_alternative<PlaneGround>(ground) || std::holds_alternative<StepsGround>(ground)) return {0, 1, 0};
+  constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
+  const double dx = height_of(ground, x_m + kStep_m, z_m) - height_of(ground, x_m - kStep_m, z_m);
+  const double dz = height_of(ground, x_m, z_m + kStep_m) - height_of(ground, x_m, z_m - kStep_m);
+  return unit_or(Vec3(-dx, 2.0 * kStep_m, -dz), Vec3(0, 1, 0));
+}
+
+Surface from_centre(const Vec3& centre_m, double radius_m, const Vec3& point_m) {
+  const Vec3 apart = point_m - centre_m;
+  const Vec3 normal = unit_or(apart, Vec3(0, 1, 0));
+  return {centre_m + radius_m * normal, normal, std::sqrt(glm::dot(apart, apart)) - radius_m, -1};
+}
+
+Surface nearest(const Sphere& sphere, const Vec3& point_m) {
+  return from_centre(sphere.center_m, sphere.radius_m, point_m);
+}
+
+Surface nearest(const Capsule& capsule, const Vec3& point_m) {
+  const Vec3 axis = capsule.b_m - capsule.a_m;
+  const double length2 = glm::dot(axis, axis);
+  const double share = length2 > 0.0 ? std::clamp(glm::dot(point_m - capsule.a_m, axis) / length2, 0.0, 1.0) : 0.0;
+  return from_centre(capsule.a_m + share * axis, capsule.radius_m, point_m);
+}
+
+Surface nearest(const Box& box, const Vec3& point_m) {
+  const Quat q = from_rotation_vector(box.rotation_deg * kRadPerDeg);
+  const Vec3 local = glm::conjugate(q) * (point_m - box.center_m);
+  Vec3 on = local, normal(0.0);
+  double least = std::numeric_limits<double>::infinity();
+  int face = 0;
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {
+    on[i] = std::clamp(local[i], -box.half_m[i], box.half_m[i]);
+    inside = inside && on[i] == local[i];
+    const double room = box.half_m[i] - std::fabs(local[i]);
+    if (room < least) least = room, face = i;
+  }
+  if (inside) {
+    normal[face] = local[face] < 0.0 ? -1.0 : 1.0;
+    on[face] = normal[face] * box.half_m[face];
+    return {box.center_m + q * on, q * normal, -least, -1};
+  }
+  const Vec3 apart = local - on;
+  return {box.center_m + q * on, q * unit_or(apart, Vec3(0, 1, 0)), std::sqrt(glm::dot(apart, apart)), -1};
+}
+
+Result<Done> check_heights(const Ground& ground) {
+  const auto* grid = std::get_if<HeightGround>(&ground);
+  if (grid == nullptr) return Done{};
+  const std::size_t expected = static_cast<std::size_t>(grid->columns) * static_cast<std::size_t>(grid->rows);
+  if (grid->heights_m.size() == expected) return Done{};
+  return Issue{"environment.wrong_count", "/ground/heights_m",
+               "found " + std::to_string(grid->heights_m.size()) + " heights, expected columns times rows: " +
+                   std::to_string(expected)};
+}
+
+}  // namespace
+
+Environment::Environment(const EnvironmentDesc& desc)
+    : world_from_environment_{axis_angle(Vec3(0, 1, 0), desc.heading_deg * kRadPerDeg), desc.position_m},
+      ground_(desc.ground),
+      obstacles_(desc.obstacles),
+      level_(std::holds_alternative<PlaneGround>(desc.ground)) {}
+
+double Environment::height_at(double x_m, double z_m) const {
+  const Vec3 local = inverse(world_from_environment_) * Vec3(x_m, 0.0, z_m);
+  return height_of(ground_, local.x, local.z) + world_from_environment_.p_m.y;
+}
+
+Vec3 Environment::normal_at(double x_m, double z_m) const {
+  const Vec3 local = inverse(world_from_environment_) * Vec3(x_m, 0.0, z_m);
+  return world_from_environment_.q * normal_of(ground_, local.x, local.z);
+}
+
+Surface Environment::nearest_ground(const Vec3& point_m) const {
+  const Vec3 normal = normal_at(point_m.x, point_m.z);
+  const double above_m = point_m.y - height_at(point_m.x, point_m.z);
+  const double distance_m = above_m * normal.y;
+  return {point_m - distance_m * normal, normal, distance_m, -1};
+}
+
+Surface Environment::nearest_obstacle(const Vec3& point_m) const {
+  const Vec3 local = inverse(world_from_environment_) * point_m;
+  Surface best;
+  best.distance_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    Surface surface = std::visit([&](const auto& shape) { return nearest(shape, local); }, obstacles_[i].shape);
+    surface.obstacle = static_cast<int>(i);
+    if (surface.distance_m < best.distance_m) best = surface;
+  }
+  best.point_m = world_from_environment_ * best.point_m;
+  best.normal = world_from_environment_.q * best.normal;
+  return best;
+}
+
+int Environment::find_obstacle(std::string_view name) const {
+  for (std::size_t i = 0; i < obstacles_.size(); ++i)
+    if (obstacles_[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+Result<Environment> build_environment(const EnvironmentDesc& desc) {
+  if (Result<Done> done = check_heights(desc.ground); !done) return done.issue();
+  for (std::size_t i = 0; i < desc.obstacles.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (desc.obstacles[i].name == desc.obstacles[j].name)
+        return Issue{"environment.duplicate_name", "/obstacles/" + std::to_string(i) + "/name",
+                     "found \"" + desc.obstacles[i].name + "\" twice"};
+  return Environment(desc);
+}
+
+}  // namespace contort

@@ -1,0 +1,49 @@
+// The surroundings of a character: ground as a height over the plane, and solid obstacles. Queries are pure and do not
+// allocate. World coordinates in and out.
+#pragma once
+
+#include <span>
+
+#include "generator/core/result.h"
+#include "generator/world/environment_desc.h"
+
+namespace contort {
+
+// The nearest point of a surface, its outward normal there, and the signed distance of the query point: < 0 inside.
+struct Surface {
+  Vec3 point_m{0.0};
+  Vec3 normal{0.0, 1.0, 0.0};
+  double distance_m = 0.0;
+  int obstacle = -1;  // -1: the ground
+};
+
+class Environment {
+ public:
+  Environment() = default;  // a level plane at height 0
+
+  double height_at(double x_m, double z_m) const;
+  // Of the ground; on steps that of the tread. Unit.
+  Vec3 normal_at(double x_m, double z_m) const;
+  bool is_level() const { return level_; }
+
+  // Distance to the ground is along its normal under the point, exact for planes and slopes.
+  Surface nearest_ground(const Vec3& point_m) const;
+  // obstacle = -1 and an infinite distance where there are none.
+  Surface nearest_obstacle(const Vec3& point_m) const;
+
+  std::span<const ObstacleDesc> obstacles() const { return obstacles_; }
+  int find_obstacle(std::string_view name) const;  // -1 where there is none
+
+ private:
+  friend Result<Environment> build_environment(const EnvironmentDesc& desc);
+  explicit Environment(const EnvironmentDesc& desc);
+  Rigid world_from_environment_;
+  Ground ground_;
+  std::vector<ObstacleDesc> obstacles_;  // in the environment's frame
+  bool level_ = true;
+};
+
+// Codes environment.wrong_count (heights), .duplicate_name; pointers from the description's root.
+Result<Environment> build_environment(const EnvironmentDesc& desc);
+
+}  // namespace contort
