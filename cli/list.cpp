@@ -41,7 +41,8 @@ std::string type_text(const ParamDef& def) {
   switch (def.type) {
     case ParamType::number: return "number";
     case ParamType::vector: return "three numbers";
-    case ParamType::object_point: return "name";
+    case ParamType::object_point:
+    case ParamType::own_point: return "name";
     case ParamType::choice: break;
   }
   std::string words;

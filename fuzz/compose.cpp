@@ -113,8 +113,9 @@ ParamValue draw_uniform(const ParamDef& def, Values& values) {
 ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
                       Values& values) {
   if (def.type == ParamType::choice) return def.choices[values.next() < 0.5 ? 0 : def.choices.size() - 1];
-  if (def.type == ParamType::object_point) {
-    const std::vector<std::string> names = object_points(character, part);
+  if (def.type == ParamType::object_point || def.type == ParamType::own_point) {
+    const std::vector<std::string> names =
+        def.type == ParamType::own_point ? own_points(character, part) : object_points(character, part);
     return names[std::min(names.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
   }
   switch (def.domain) {
@@ -218,8 +219,8 @@ Ground compose_ground(const std::array<int, kRawGround>& raw) {
   const std::size_t kind = pick(raw[0], 6);
   if (kind == 0) return SlopeGround{static_cast<double>(between(raw[2], 1, 25)), heading_deg};
   if (kind == 1)
-    return StepsGround{heading_deg, 0.05 * between(raw[2], 4, 40), 0.02 * between(raw[3], 12, 30),
-                       0.01 * between(raw[4], 4, 22), between(raw[5], 1, 8)};
+    return StepsGround{heading_deg, between(raw[2], 4, 40) / 20.0, between(raw[3], 12, 30) / 50.0,
+                       between(raw[4], 4, 22) / 100.0, between(raw[5], 1, 8)};
   if (kind != 2) return PlaneGround{};
   HeightGround field;
   field.columns = field.rows = 7;
@@ -235,7 +236,7 @@ EnvironmentDesc compose_environment(const RawSpec& raw) {
   EnvironmentDesc environment;
   environment.ground = compose_ground(raw.ground);
   if (raw.obstacle >= kLattice / 3) return environment;
-  const double distance_m = 0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150);
+  const double distance_m = contort::on_lattice(0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150), 100.0);
   Box wall;
   wall.center_m = Vec3(raw.obstacle % 2 == 0 ? distance_m : -distance_m, 1.0, 1.0);
   wall.half_m = Vec3(0.1, 1.0, 2.0);

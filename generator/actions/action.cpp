@@ -49,25 +49,34 @@ bool hangs_on(const Character& character, int part, int carrier) {
   return part == carrier;
 }
 
-// Visits the points of attached objects that a part may hold: (name, socket index).
+// Visits the points of attached objects that others carry, or the grips and points that the part itself carries:
+// (name, socket index).
 template <class Visit>
-void for_object_points(const Character& character, const Part& part, Visit visit) {
-  constexpr std::string_view kObject = "object:";
+void for_points(const Character& character, const Part& part, ParamType type, Visit visit) {
   const int own = static_cast<int>(&part - character.parts().data());
   for (std::size_t s = 0; s < character.sockets().size(); ++s) {
     const Socket& socket = character.sockets()[s];
-    const int carrying = character.joints()[static_cast<std::size_t>(socket.joint)].part;
-    if (socket.name.starts_with(kObject) && !hangs_on(character, carrying, own))
-      visit(socket.name.substr(socket.name.find('/') + 1), static_cast<int>(s));
+    const std::string name = socket.name.substr(socket.name.find('/') + 1);
+    const bool of_object = socket.name.starts_with("object:");
+    const bool mine = hangs_on(character, character.joints()[static_cast<std::size_t>(socket.joint)].part, own);
+    if (type == ParamType::object_point ? of_object && !mine : mine && (of_object || name == "grip"))
+      visit(name, static_cast<int>(s));
   }
+}
+
+std::vector<std::string> points_of(const Character& character, const Part& part, ParamType type) {
+  std::vector<std::string> names;
+  for_points(character, part, type, [&](const std::string& name, int) { names.push_back(name); });
+  return names;
 }
 
 }  // namespace
 
 std::vector<std::string> object_points(const Character& character, const Part& part) {
-  std::vector<std::string> names;
-  for_object_points(character, part, [&](const std::string& name, int) { names.push_back(name); });
-  return names;
+  return points_of(character, part, ParamType::object_point);
+}
+std::vector<std::string> own_points(const Character& character, const Part& part) {
+  return points_of(character, part, ParamType::own_point);
 }
 
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part) {
@@ -118,7 +127,7 @@ Result<Done> append_point(const Character& character, const Part& part, const Pa
   if (!std::holds_alternative<std::string>(value)) return param_issue("wrong_type", def.name, "expected a name");
   int found = -1;
   std::string names;
-  for_object_points(character, part, [&](const std::string& name, int socket) {
+  for_points(character, part, def.type, [&](const std::string& name, int socket) {
     if (name == std::get<std::string>(value)) found = socket;
     names += (names.empty() ? "" : ", ") + name;
   });
@@ -177,7 +186,7 @@ Result<std::vector<double>> bind_params(const ActionDef& action, const Character
       continue;
     }
     const ParamValue& value = given == values.end() ? def.preset : given->second;
-    const Result<Done> done = def.type == ParamType::object_point ? append_point(character, part, def, value, bound)
+    const Result<Done> done = def.type == ParamType::object_point || def.type == ParamType::own_point ? append_point(character, part, def, value, bound)
                                                                   : append(def, value, bound);
     if (!done) return done.issue();
   }

@@ -2,7 +2,9 @@
 // command line, docs/actions.md, the fuzzer and the report take it from there.
 #pragma once
 
+#include <array>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 #include "generator/actions/action_use.h"
 #include "generator/character/character.h"
 #include "generator/core/result.h"
+#include "generator/motion/aim_ik.h"
 #include "generator/motion/gait.h"
 #include "generator/motion/motion.h"
 #include "generator/world/environment.h"
@@ -35,7 +38,8 @@ enum class ParamType {
   number,
   vector,
   choice,        // one of a few words: the rule sees its index
-  object_point,  // the name of a point of an attached object: the rule sees the index of its socket
+  object_point,  // the name of a point of an attached object that others carry: the rule sees the index of its socket
+  own_point,     // the same of a point that the part carries: "grip", "muzzle"
 };
 
 // How the fuzzer chooses values; people may write any value within low and high.
@@ -75,13 +79,21 @@ struct ActionTime {
   double left_s = 0.0;      // from then to its end
 };
 
-// What one use of an action that moves legs remembers from frame to frame.
+// What an action that aims knows from the start.
+struct AimPlan {
+  AimChain chain;
+  std::shared_ptr<const AimTable> table;
+};
+
+// What one use of an action that moves several parts remembers from frame to frame.
 struct WholeBody {
   Gait gait;
   GaitFrame frame;
   int begun = -1;    // frame in which the root was taken
   int made_in = -1;  // frame of `frame`
   std::array<bool, kMaxLegs> lands{};
+  std::array<double, kMaxAimCoords> first_aim{};  // of the chain
+  std::array<double, kMaxAimCoords> aimed{};
 };
 
 // What a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the part's own
@@ -95,7 +107,8 @@ struct RuleInput {
   const Rigid& world_from_start;  // where the character stood at first
   const Environment& environment;
   std::span<const Leg> legs;
-  Vec3 rest_grip_m;  // of the named part, in the character's frame; arms only
+  const AimPlan* aim;  // of actions with an own_point
+  Vec3 rest_grip_m;    // of the named part, in the character's frame; arms only
   const Posture& from;  // where it took its part over; the part's own coordinates only
   int frame;
   int took_over;  // frame in which it took the part
@@ -130,6 +143,9 @@ int carrier_of(const Character& character, int part);
 
 // Points of attached objects that others than this part carry: "foregrip", "muzzle".
 std::vector<std::string> object_points(const Character& character, const Part& part);
+
+// Points that this part or one that hangs on it carries.
+std::vector<std::string> own_points(const Character& character, const Part& part);
 
 // The parts that one use moves, carriers first.
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);

@@ -46,14 +46,18 @@ double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& po
     if (carrier_of(in.character, index_of(in.character, part)) == arm) rest_part(in.character, part, posture);
   const int grip = grip_of(in.character, in.part);
   const int last = in.character.sockets()[static_cast<std::size_t>(grip)].joint + 1;
-  Vec3 target = point_world_m, missing(0.0);
+  Vec3 target = point_world_m;
+  double missing_m = 1e9;
   for (int pass = 0; pass < kPasses; ++pass) {
     reach_for(in.character, in.part.reach.front(), in.world, target, 0.0, posture.coords);
     forward_kinematics(in.character, posture.coords, in.part.first_joint, last, in.world);
-    missing = point_world_m - world_from_socket(in.character, in.world, grip).p_m;
+    const Vec3 missing = point_world_m - world_from_socket(in.character, in.world, grip).p_m;
+    const double before_m = missing_m;
+    missing_m = std::sqrt(glm::dot(missing, missing));
+    if (missing_m > 0.5 * before_m) break;  // out of reach: going on would only wind the arm up
     target += missing;
   }
-  return std::sqrt(glm::dot(missing, missing));
+  return missing_m;
 }
 
 }  // namespace contort

@@ -1,6 +1,7 @@
 #include "generator/timeline/timeline.h"
 
 #include "generator/actions/hand.h"
+#include "generator/motion/aim_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +147,20 @@ class Layout {
     if (!params) return params.issue();
     planned.params = std::move(params).value();
     if (!part.reach.empty()) planned.rest_grip_m = rest_grip_m(character_, part);
+    plan_aim(planned);
     return check_blends(use, *planned.def);
+  }
+
+  // Tables are shared by the whole process: what is in one depends on the chain alone, whoever asks first.
+  void plan_aim(PlannedAction& planned) const {
+    static AimTables tables;
+    const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
+    const std::vector<ParamDef> defs = planned.def->params(character_, part);
+    if (defs.empty() || defs.front().type != ParamType::own_point) return;
+    AimPlan plan;
+    plan.chain = aim_chain_for(character_, planned.named, static_cast<int>(planned.params.front()));
+    plan.table = tables.get(character_, plan.chain);
+    planned.aim = std::make_shared<const AimPlan>(std::move(plan));
   }
 
   static Result<Done> check_blends(const ActionUse& use, const ActionDef& def) {

@@ -75,8 +75,8 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // A change here means that (seed, index) of every stored case names another spec from now on: change kDrawStream in
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
-  const std::array<std::string, 3> pinned = {"e1f9438c063f2d67395cc48137d326c9", "3361fe195204b097bf14d7a444698925",
-                                             "7d5913ff505becd683a5d71a591ce1ab"};
+  const std::array<std::string, 3> pinned = {"f178f8731512d3ec6e290d8fd1bce1ca", "185de533c62b400b61d50bc8b53f7f37",
+                                             "17bd49c3211fec8ab2d4539e7818753d"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }

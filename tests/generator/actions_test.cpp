@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "checks/evaluate.h"
 #include "generator/generate.h"
 #include "generator/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
@@ -104,6 +105,25 @@ TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
     const double cosine = glm::dot(world_from_eyes.q * Vec3(0, 0, 1), towards);
     EXPECT_GT(cosine, std::cos(0.1 * kRadPerDeg)) << f;
   }
+}
+
+// The rifle points at a fixed place while the body walks and turns under it.
+TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
+  const Vec3 target_m(-1.0, 1.4, 8.0);
+  Played played(kRifleman, {use("walk", "waist", 0, 200, {{"speed_m_s", 1.0}}),
+                            use("pose", "torso", 0, 200, {{"lumbar_rot_deg", 15.0}}),
+                            use("aim", "arm_right", 0, 200, {{"point", std::string("muzzle")}, {"target_m", target_m}})});
+  const Part& arm = played.character->parts()[static_cast<std::size_t>(played.character->find_part("arm_right"))];
+  ASSERT_GT(arm.joint_count, 0);
+  for (int f = 1; f <= 200; ++f) {
+    const Rigid world_from_muzzle = played.socket("object:rifle/muzzle", f);
+    const double cosine =
+        glm::dot(world_from_muzzle.q * Vec3(0, 0, 1), unit_or(target_m - world_from_muzzle.p_m, Vec3(0.0)));
+    ASSERT_GT(cosine, std::cos(0.1 * kRadPerDeg)) << f;
+  }
+  Evaluator evaluator;
+  for (const Finding& finding : evaluator.judge(*played.character, played.motion, "joint_range"))
+    EXPECT_EQ(finding.subject.find("arm_right"), std::string::npos) << finding.subject;
 }
 
 TEST(Actions, AnImpactFiresItsInterrupt) {

@@ -1,0 +1,78 @@
+// aim: a point of the arm, or of what it carries, is directed at a target while the body moves (P13). Its first posture
+// comes from the aim table; every frame goes on from that one, so that the arm follows without drifting.
+#include <algorithm>
+
+#include "generator/actions/action.h"
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+void place_chain(const RuleInput& in, const Posture& posture) {
+  const std::span<const int> joints = in.aim->chain.joints;
+  const int last = in.character.sockets()[static_cast<std::size_t>(in.aim->chain.socket)].joint;
+  forward_kinematics(in.character, posture.coords, joints.front(), std::max(joints.back(), last) + 1, in.world);
+}
+
+// The chain's coordinates, in the order of its joints.
+template <class Copy>
+void for_coords(const RuleInput& in, Copy copy) {
+  std::size_t at = 0;
+  for (const int j : in.aim->chain.joints) {
+    const Joint& joint = in.character.joints()[static_cast<std::size_t>(j)];
+    for (int c = 0; c < coord_size(joint.kind); ++c) copy(static_cast<std::size_t>(joint.coord + c), at++);
+  }
+}
+
+void solve(const RuleInput& in, Posture& posture) {
+  WholeBody& body = in.body;
+  const AimTarget target{AimTarget::Kind::point, in.world_from_start * Vec3(in.params[1], in.params[2], in.params[3])};
+  const auto from_table = [&] {
+    place_chain(in, posture);
+    return aim(in.character, in.aim->chain, *in.aim->table, in.world, target, posture.coords);
+  };
+  if (body.begun != in.took_over) {
+    from_table();
+    for_coords(in, [&](std::size_t coord, std::size_t at) { body.first_aim[at] = posture.coords[coord]; });
+    body.begun = in.took_over;
+  }
+  for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = body.first_aim[at]; });
+  place_chain(in, posture);
+  AimResult result = continue_aim(in.character, in.aim->chain, in.world, target, posture.coords);
+  if (!result.reached) result = from_table();
+  for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
+  in.feedback.aim_reached = result.reached;
+}
+
+}  // namespace
+
+std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
+  ParamDef point;
+  point.name = "point";
+  point.type = ParamType::own_point;
+  const std::vector<std::string> points = own_points(character, part);
+  const bool armed = std::find(points.begin(), points.end(), "muzzle") != points.end();
+  point.preset = armed ? std::string("muzzle") : points.empty() ? std::string("grip") : points.front();
+  point.help = "What is directed: the hand's grip, or a point of what it carries.";
+  ParamDef target;
+  target.name = "target_m";
+  target.type = ParamType::vector;
+  target.low = -1000.0, target.high = 1000.0;
+  target.preset = Vec3(0.0, 1.2, 5.0);
+  target.domain = Domain::around;
+  target.help = "The point, m, from where the character stood at first.";
+  return {point, target};
+}
+
+bool aim_supports(const Character& character, const Part& part) {
+  return part.kind == "arm" && part.joint_count > 0 && !own_points(character, part).empty();
+}
+
+void aim_rule(const RuleInput& in, Posture& posture) {
+  if (!in.part.reach.empty()) return solve(in, posture);
+  // The hand: solved with its arm, which comes before it.
+  for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = in.body.aimed[at]; });
+}
+
+}  // namespace contort
