@@ -59,6 +59,8 @@ BENCHMARK_CAPTURE(generate_scene, mech_rifle, "mech_rifle");
 BENCHMARK_CAPTURE(generate_scene, human_reaches, "human_reaches");
 BENCHMARK_CAPTURE(check_scene, mech_rifle, "mech_rifle");
 BENCHMARK_CAPTURE(check_scene, mech_swapped, "mech_swapped");
+BENCHMARK_CAPTURE(generate_scene, mech_walk_aim, "mech_walk_aim");
+BENCHMARK_CAPTURE(check_scene, mech_walk_aim, "mech_walk_aim");
 BENCHMARK_CAPTURE(check_scene, human_overlaps, "human_overlaps");
 BENCHMARK_CAPTURE(check_drawn, mech, "mech")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(check_drawn, human, "human")->Unit(benchmark::kMillisecond);

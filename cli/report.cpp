@@ -13,6 +13,7 @@
 #include "cli/render.h"
 #include "corpus/corpus.h"
 #include "fuzz/parallel.h"
+#include "generator/actions/action.h"
 #include "generator/core/files.h"
 #include "renders/report.h"
 
@@ -97,6 +98,34 @@ void add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
   for (const Issue& issue : damaged) context.fail(issue);
 }
 
+// For each slot the pairs, an action with itself too, of what its parts can do, in any character of the library.
+// What needs an attached object is known only where it occurred.
+std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
+  std::map<std::string, std::set<std::string>> actions;  // by slot, also of those that move the part from elsewhere
+  for (const auto& [name, desc] : library.characters) {
+    CharacterChoice choice{name, {}, {}};
+    const auto note = [&](const Character& character) {
+      for (std::size_t p = 0; p < character.parts().size(); ++p)
+        for (const ActionDef& action : all_actions())
+          if (action.supports(character, character.parts()[p]))
+            for (const int moved : parts_moved(action, character, static_cast<int>(p)))
+              actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+    };
+    for (const SlotDesc& slot : desc.slots)
+      for (const std::string& part : slot.parts) {
+        choice.parts = {{slot.name, part}};
+        if (const Result<Character> character = build_character(choice, library); character) note(*character);
+      }
+  }
+  std::set<std::string> pairs;
+  for (const auto& [slot, names] : actions)
+    for (auto a = names.begin(); a != names.end(); ++a)
+      for (auto b = a; b != names.end(); ++b) pairs.insert("pair " + *a + " + " + *b + " on " + slot);
+  for (const auto& [name, count] : model.tested)
+    if (name.rfind("pair ", 0) == 0) pairs.insert(name);
+  return static_cast<std::int64_t>(pairs.size());
+}
+
 // Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -131,7 +160,7 @@ Result<std::string> bucket_line(const std::string& bucket_folder,
   return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
 }
 
-void make_report(const ReportRequest& request, const Library&, Context& context) {
+void make_report(const ReportRequest& request, const Library& library, Context& context) {
   const Result<Corpus> corpus = Corpus::open(request.corpus);
   if (!corpus) return context.fail(corpus.issue());
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
@@ -142,6 +171,7 @@ void make_report(const ReportRequest& request, const Library&, Context& context)
   fill_rows(*corpus, model, pictures, request.folder, context);
   count_totals(model);
   add_runs(*corpus, model, context);
+  model.pairs_possible = pairs_possible(library, model);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);
   if (const int code = draw(pictures, context); code != 0) {

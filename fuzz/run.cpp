@@ -24,6 +24,7 @@ struct Outcome {
   bool built = false;
   Spec spec;
   int frames = 0;
+  std::set<std::string> pairs;  // of actions at the same time on one part
   std::vector<Case> failures;  // the deepest finding of each family, in order of first appearance
 };
 
@@ -57,6 +58,23 @@ std::vector<Case> failures_of(const Spec& spec, const Stage& stage, const Motion
     failure.expect.trace = whole.trace;
   }
   return failures;
+}
+
+// "pair pose + reach on arm_left" for actions that move one part at the same time.
+std::set<std::string> pairs_of(const Stage& stage) {
+  std::set<std::string> pairs;
+  const Timeline& timeline = stage.timeline;
+  for (std::size_t i = 0; i < timeline.of_part.size(); ++i) {
+    const Part& part = stage.character->parts()[i % stage.character->parts().size()];
+    for (const int a : timeline.of_part[i])
+      for (const int b : timeline.of_part[i]) {
+        const PlannedAction& x = timeline.actions[static_cast<std::size_t>(a)];
+        const PlannedAction& y = timeline.actions[static_cast<std::size_t>(b)];
+        if (a == b || x.def->name > y.def->name || x.first_frame > y.last_frame || y.first_frame > x.last_frame) continue;
+        pairs.insert("pair " + std::string(x.def->name) + " + " + std::string(y.def->name) + " on " + part.slot);
+      }
+  }
+  return pairs;
 }
 
 // Another seed or other characters are another run: what both found is counted twice, not once.
@@ -121,6 +139,7 @@ class Run {
     const Result<Stage> stage = build_stage(outcome.spec, library_);
     if (!stage) return outcome;
     outcome.built = true;
+    outcome.pairs = pairs_of(*stage);
     const Evaluation evaluation = evaluator.run(*stage);
     outcome.frames = evaluation.frame_count;
     outcome.failures = failures_of(outcome.spec, *stage, evaluator.motion(), evaluation);
@@ -135,6 +154,7 @@ class Run {
     if (!outcome.built) ++result_.discarded;
     if (!outcome.failures.empty()) ++totals.failing;
     count_tested(outcome.spec);
+    for (const std::string& pair : outcome.pairs) ++result_.tested[pair];
     for (Case& failure : outcome.failures) {
       const std::int64_t seen = ++result_.families[family_of(failure)];
       if (seen <= config_.shrinks_per_family) candidates.push_back(std::move(failure));
@@ -144,7 +164,11 @@ class Run {
 
   void count_tested(const SequenceDesc& sequence) {
     for (const ClipDesc& clip : sequence.clips)
-      for (const ActionUse& use : clip.actions) ++result_.tested["action " + use.action + " on " + use.slot];
+      for (const ActionUse& use : clip.actions) {
+        const ActionDef* action = find_action(use.action);
+        const std::string layer(action != nullptr ? layer_name(action->layer) : "");
+        ++result_.tested["action " + use.action + " (" + layer + ") on " + use.slot];
+      }
   }
 
   void count_tested(const Spec& spec) {

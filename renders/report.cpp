@@ -42,6 +42,7 @@ std::string report_json(const ReportModel& model) {
   Json json = {{"format", "contort.report/1"}, {"title", model.title},       {"cases", model.cases},
                {"frames", model.frames},       {"findings", model.findings}, {"families", model.families},
                {"buckets", model.buckets},     {"elapsed", model.elapsed},   {"rows", Json::array()},
+               {"pairs_possible", model.pairs_possible},
                {"tested", Json::array()}};
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});

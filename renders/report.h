@@ -42,6 +42,7 @@ struct ReportModel {
   std::int64_t buckets = 0;
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
+  std::int64_t pairs_possible = 0;  // of actions on one part, with the characters of the library
   std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often
 };
 

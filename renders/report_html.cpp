@@ -229,12 +229,21 @@ std::string bar_html(std::int64_t count, std::int64_t largest) {
          attribute("width", width) + "/></svg>";
 }
 
+std::string pairs_html(const ReportModel& model) {
+  if (model.pairs_possible == 0) return "";
+  std::int64_t seen = 0;
+  for (const auto& [name, count] : model.tested) seen += name.rfind("pair ", 0) == 0 && count > 0;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * static_cast<double>(seen) / static_cast<double>(model.pairs_possible));
+  return "<p>Pairs of actions at the same time on one part: " + html_text(count_text(seen)) + " of " +
+         html_text(count_text(model.pairs_possible)) + " occurred (" + share + ").</p>\n";
+}
+
 std::string tested_html(const ReportModel& model) {
   if (model.tested.empty()) return "";
   std::int64_t largest = 0;
   for (const auto& [name, count] : model.tested) largest = std::max(largest, count);
-  std::string out =
-      "<section id='tested'>\n<h2>What was tested</h2>\n<table>\n<thead><tr><th scope='col'>part of a case</th>"
+  std::string out = "<section id='tested'>\n<h2>What was tested</h2>\n" + pairs_html(model) + "<table>\n<thead><tr><th scope='col'>part of a case</th>"
       "<th scope='col'>times</th><th></th></tr></thead>\n<tbody>\n";
   for (const auto& [name, count] : model.tested)
     out += (count == 0 ? "<tr class='never'><th scope='row'>" : "<tr><th scope='row'>") + html_text(name) +

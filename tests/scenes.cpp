@@ -36,6 +36,24 @@ constexpr NamedScene kScenes[] = {
       {"action":"reach","slot":"leg_right","duration_frames":40,"params":{"target_m":[-0.3,0.5,0.4],"swivel_deg":-15}}]},
       {"start_frame":40,"actions":[
       {"action":"direction","slot":"head","duration_frames":40,"speed":2,"params":{"azimuth_deg":-120}}]}]}]})"},
+    {"mech_walk_aim", R"({"format":"contort.spec/1","character":{"name":"mech","attachments":[
+      {"object":"rifle","slot":"arm_right","socket":"grip"}]},"sequences":[{"clips":[{"actions":[
+      {"action":"walk","slot":"waist","duration_frames":240,"params":{"speed_m_s":1.1,"heading_deg":15}},
+      {"action":"aim","slot":"arm_right","duration_frames":240,"blend_in_frames":20,"params":{"target_m":[-1,1.5,6]}},
+      {"action":"recoil","slot":"arm_right","start_frame":60,"duration_frames":90}]}]}]})"},
+    {"human_interrupted", R"({"format":"contort.spec/1","character":{"name":"human","attachments":[
+      {"object":"rifle","slot":"hand_right","socket":"grip"}]},"environment":{"heading_deg":20,
+      "ground":{"type":"steps","start_m":0.6,"depth_m":0.4,"height_m":0.12,"count":4},
+      "obstacles":[{"name":"wall","shape":{"type":"box","center_m":[0.6,1,1],"half_m":[0.1,1,3]}}]},
+      "start":{"position_m":[0.2,0,0.1],"heading_deg":20},"sequences":[{"clips":[{"name":"climb","actions":[
+      {"action":"walk","slot":"waist","duration_frames":150,"params":{"speed_m_s":0.8,"lead":"right"}},
+      {"action":"look_at","slot":"head","duration_frames":150,"blend_in_frames":12,"params":{"target_m":[1,1,4]}},
+      {"action":"weapon_hold","slot":"arm_left","start_frame":20,"duration_frames":80,"blend_in_frames":15,"blend_out_frames":9}]}]}],
+      "interrupts":[{"when":{"event":"contact","slot":"foot_left"},"enter":"after_clip","sequence":{"clips":[{"actions":[
+      {"action":"squat","slot":"waist","duration_frames":50,"params":{"share":0.25}},
+      {"action":"hit_reaction","slot":"torso","start_frame":5,"duration_frames":30,"params":{"azimuth_deg":70}}]}]}},
+      {"when":{"event":"impact"},"sequence":{"clips":[{"actions":[
+      {"action":"touch","slot":"arm_left","duration_frames":40,"blend_in_frames":10,"params":{"within_m":2}}]}]}}]})"},
 };
 
 }  // namespace
