@@ -20,6 +20,7 @@ using json_fields::Json;
 struct Options {
   std::vector<std::string> paths;
   bool json = false;
+  std::string level;
 };
 
 std::string explain(const Case& stored, const Replay& result) {
@@ -61,6 +62,12 @@ int exit_code_of(Verdict verdict) {
 void run(const Options& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
+  Level level;
+  if (!options.level.empty()) {
+    const Result<Level> parsed = parse_level(options.level);
+    if (!parsed) return context.fail(parsed.issue());
+    level = *parsed;
+  }
   const Result<std::vector<std::string>> paths = expand_cases(options.paths);
   if (!paths) return context.fail(paths.issue());
   std::map<Verdict, int> counts;
@@ -73,7 +80,7 @@ void run(const Options& options, Context& context) {
       ++counts[Verdict::refused];
       continue;
     }
-    const Replay result = replay(*stored, *library, evaluator);
+    const Replay result = replay(*stored, *library, evaluator, level);
     ++counts[result.verdict];
     if (context.exit_code != kBadInput) context.exit_code = std::max(context.exit_code, exit_code_of(result.verdict));
     if (options.json)
@@ -97,11 +104,14 @@ void add_replay(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with what they say");
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
+  command->add_option("--level", options->level,
+                      "Only a sequence, a clip or a part of each case: sequence:2, clip:2/1, part:arm_right");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
       "Verdicts: same (equal motion, equal finding), same family, different, passes, refused.\n"
       "Exit code 1 while a case still fails, 0 when all pass.\n"
-      "Example: contort replay contort-out/corpus");
+      "Example: contort replay contort-out/corpus\n"
+      "         contort replay CASE --level part:arm_right");
   command->callback([options, &context] { run(*options, context); });
 }
 

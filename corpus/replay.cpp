@@ -32,9 +32,9 @@ bool as_expected(const Expectation& stored, const Expectation& now) {
 
 }  // namespace
 
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator) {
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level) {
   Replay result;
-  const Result<Stage> stage = build_stage(stored.spec, library);
+  const Result<Stage> stage = build_stage_at(stored.spec, library, level);
   if (!stage) {
     result.issue = stage.issue();
     return result;

@@ -5,6 +5,7 @@
 
 #include "corpus/case.h"
 #include "generator/character/library.h"
+#include "generator/level.h"
 
 namespace contort {
 
@@ -25,6 +26,7 @@ struct Replay {
   Issue issue;                     // for `refused`
 };
 
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator);
+// At a level below the whole the motion is another by nature: `same_family` is the best that it can be.
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level = {});
 
 }  // namespace contort

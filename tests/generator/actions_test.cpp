@@ -76,6 +76,22 @@ TEST(Actions, TwoArmsCannotEachHoldWhatTheOtherCarries) {
   EXPECT_EQ(stage.issue().pointer, "/sequences/0/clips/0/actions/0/params/point");
 }
 
+TEST(Actions, HoldingInACircleIsRefused) {
+  Library library = stock_library();
+  ObjectDesc second = library.objects.at("rifle");
+  second.name = "rifle_two";
+  library.objects["rifle_two"] = second;
+  library.characters.at("human").objects.push_back("rifle_two");
+  Spec spec;
+  spec.character = {"human", {}, {{"rifle", "hand_right", "grip"}, {"rifle_two", "hand_left", "grip"}}};
+  spec.sequences = {sequence({use("weapon_hold", "arm_left", 0, 30, {})})};
+  EXPECT_TRUE(build_stage(spec, library).ok());
+  spec.sequences[0].clips[0].actions.push_back(use("weapon_hold", "arm_right", 0, 30, {}));
+  const Result<Stage> stage = build_stage(spec, library);
+  ASSERT_FALSE(stage.ok());
+  EXPECT_EQ(stage.issue().code, "spec.circular_hold");
+}
+
 TEST(Actions, RecoilLiftsTheArmAndLeavesNothing) {
   Played played({}, {use("pose", "arm_left", 0, 10, {{"shoulder_deg", Vec3(-80, 0, 0)}, {"elbow_deg", 20.0}}),
                      use("recoil", "arm_left", 20, 20, {{"rise_deg", 10.0}, {"bend_deg", 12.0}})}, 5);
