@@ -6,6 +6,7 @@
 
 #include "checks/check.h"
 #include "cli/commands.h"
+#include "cli/variants.h"
 #include "corpus/case.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
@@ -61,16 +62,19 @@ Json list_actions(const Library& library) {
   Json out = Json::array();
   for (const ActionDef& action : all_actions()) {
     Json on = Json::object();
-    for (const auto& [name, desc] : library.characters)
-      if (const Result<Character> character = build_character({name, {}, {}}, library); character)
-        for (const Part& part : character->parts())
-          if (action.supports(*character, part) && !on.contains(part.name)) {
-            Json params = Json::array();
-            for (const ParamDef& def : action.params(*character, part)) params.push_back(param_json(def));
-            on[part.name] = params;
-          }
-    out.push_back(
-        {{"name", action.name}, {"layer", layer_name(action.layer)}, {"help", action.help}, {"params_on", on}});
+    for_variants(library, [&](const Character& character) {
+      for (const Part& part : character.parts()) {
+        if (!action.supports(character, part) || on.contains(part.name)) continue;
+        Json params = Json::array();
+        for (const ParamDef& def : action.params(character, part)) params.push_back(param_json(def));
+        on[part.name] = params;
+      }
+    });
+    out.push_back({{"name", action.name},
+                   {"layer", layer_name(action.layer)},
+                   {"timing", action.timing == Timing::goal ? "goal" : "course"},
+                   {"help", action.help},
+                   {"params_on", on}});
   }
   return out;
 }
@@ -97,6 +101,25 @@ void print_params(const Json& action) {
       std::printf("      %-22s %-13s %-14s %s\n", param["name"].get<std::string>().c_str(),
                   param["type"].get<std::string>().c_str(), range_text(param).c_str(),
                   param["help"].get<std::string>().c_str());
+  }
+}
+
+// docs/actions.md is this, and a test compares them.
+void print_markdown(const Json& list) {
+  std::printf("# Actions\n\nWritten by `contort list actions --markdown`. Layers and timings: `docs/timeline.md`.\n");
+  for (const Json& action : list) {
+    const auto text = [&](const char* key) { return action[key].get<std::string>(); };
+    std::printf("\n## %s\n\n%s Layer `%s`, a %s.\n", text("name").c_str(), text("help").c_str(), text("layer").c_str(),
+                text("timing").c_str());
+    if (action["params_on"].empty()) continue;
+    const auto first = action["params_on"].begin();
+    std::printf("\nOn `%s`:\n\n| parameter | type | range | meaning |\n|---|---|---|---|\n", first.key().c_str());
+    for (const Json& param : first.value()) {
+      const bool ranged = param["low"] != param["high"];
+      std::printf("| `%s` | %s | %s | %s |\n", param["name"].get<std::string>().c_str(),
+                  param["type"].get<std::string>().c_str(), ranged ? range_text(param).c_str() : "",
+                  param["help"].get<std::string>().c_str());
+    }
   }
 }
 
@@ -138,6 +161,7 @@ void add_list(CLI::App& app, Context& context) {
   struct Options {
     std::string what;
     bool json = false;
+    bool markdown = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("list", "List characters, parts, actions or checks");
@@ -145,12 +169,17 @@ void add_list(CLI::App& app, Context& context) {
       ->required()
       ->check(CLI::IsMember(listers()));
   command->add_flag("--json", options->json, "Print as JSON");
+  command->add_flag("--markdown", options->markdown, "Print actions as docs/actions.md")->excludes("--json");
   command->footer("Example: contort list actions");
   command->callback([options, &context] {
     const Library* library = context.load_library();
     if (library == nullptr) return;
     const Json list = listers().at(options->what)(*library);
-    if (options->json)
+    if (options->markdown && options->what != "actions")
+      context.fail({"usage", "", "--markdown is for actions"});
+    else if (options->markdown)
+      print_markdown(list);
+    else if (options->json)
       std::printf("%s\n", list.dump(2).c_str());
     else
       print_text(list);

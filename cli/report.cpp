@@ -11,6 +11,7 @@
 #include "cli/input.h"
 #include "cli/print.h"
 #include "cli/render.h"
+#include "cli/variants.h"
 #include "corpus/corpus.h"
 #include "fuzz/parallel.h"
 #include "generator/actions/action.h"
@@ -99,24 +100,15 @@ void add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
 }
 
 // For each slot the pairs, an action with itself too, of what its parts can do, in any character of the library.
-// What needs an attached object is known only where it occurred.
 std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
   std::map<std::string, std::set<std::string>> actions;  // by slot, also of those that move the part from elsewhere
-  for (const auto& [name, desc] : library.characters) {
-    CharacterChoice choice{name, {}, {}};
-    const auto note = [&](const Character& character) {
-      for (std::size_t p = 0; p < character.parts().size(); ++p)
-        for (const ActionDef& action : all_actions())
-          if (action.supports(character, character.parts()[p]))
-            for (const int moved : parts_moved(action, character, static_cast<int>(p)))
-              actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
-    };
-    for (const SlotDesc& slot : desc.slots)
-      for (const std::string& part : slot.parts) {
-        choice.parts = {{slot.name, part}};
-        if (const Result<Character> character = build_character(choice, library); character) note(*character);
-      }
-  }
+  for_variants(library, [&](const Character& character) {
+    for (std::size_t p = 0; p < character.parts().size(); ++p)
+      for (const ActionDef& action : all_actions())
+        if (action.supports(character, character.parts()[p]))
+          for (const int moved : parts_moved(action, character, static_cast<int>(p)))
+            actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+  });
   std::set<std::string> pairs;
   for (const auto& [slot, names] : actions)
     for (auto a = names.begin(); a != names.end(); ++a)

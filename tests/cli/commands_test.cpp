@@ -225,6 +225,16 @@ TEST_F(Commands, ReplayOfACaseThatPassesExitsWithZeroAndOneThatIsRefusedWithTwo)
   EXPECT_EQ(last_line(mixed.out), "RESULT cases=3 same=1 same_family=0 different=0 passes=1 refused=1");
 }
 
+TEST_F(Commands, ReplayOfALevelPlaysOnlyThat) {
+  const std::string path = file("elbow.json", print_case(elbow_case()));
+  EXPECT_EQ(contort_program({"replay", path, "--level", "clip:1/1"}).code, 1);
+  const Ran other = contort_program({"replay", path, "--level", "part:head"});
+  EXPECT_EQ(other.code, 0) << "the head has nothing to do with it: " << other.out;
+  const Ran bad = contort_program({"replay", path, "--level", "limb:arm"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("level.bad_name"), std::string::npos) << bad.err;
+}
+
 TEST_F(Commands, ADamagedBucketIsAnErrorOfReplay) {
   const std::string corpus = folder_ / "corpus";
   ASSERT_EQ(fuzz(corpus).code, 1);

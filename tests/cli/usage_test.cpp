@@ -155,6 +155,14 @@ TEST_F(Usage, NamesWithOddBytesDoNotBreakTheOneLine) {
   EXPECT_FALSE(nlohmann::json::parse(replayed.out, nullptr, false).is_discarded()) << replayed.out;
 }
 
+TEST_F(Usage, TheActionsPageIsWhatTheRegistrySays) {
+  const Ran ran = contort_program({"list", "actions", "--markdown"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.out, slurp(std::string(CONTORT_SOURCE_DIR) + "/docs/actions.md"))
+      << "contort list actions --markdown > docs/actions.md";
+  EXPECT_EQ(contort_program({"list", "checks", "--markdown"}).code, 2);
+}
+
 TEST_F(Usage, ListsSchemasAndTheVersionArePrinted) {
   for (const char* what : {"characters", "parts", "actions", "checks"}) {
     EXPECT_EQ(contort_program({"list", what}).code, 0);
