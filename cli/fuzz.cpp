@@ -126,14 +126,14 @@ int exit_code_of(const RunResult& result) {
 }
 
 void run(const Options& options, Context& context) {
+  std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
+  std::signal(SIGTERM, on_interrupt);
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<RunConfig> config = configure(options, *library);
   if (!config) return context.fail(config.issue());
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
   ProgressLine line(*config);
   const RunResult result = run_fuzz(
       *config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });

@@ -108,7 +108,7 @@ struct RuleInput {
   const Environment& environment;
   std::span<const Leg> legs;
   const AimPlan* aim;  // of actions with an own_point
-  Vec3 rest_grip_m;    // of the named part, in the character's frame; arms only
+  Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
   const Posture& from;  // where it took its part over; the part's own coordinates only
   int frame;
   int took_over;  // frame in which it took the part

@@ -8,8 +8,8 @@ namespace contort {
 // The grip of an arm: its own, or that of the part that hangs on it; else the tip of its reach chain.
 int grip_of(const Character& character, const Part& arm);
 
-// Where it is in the rest pose, in the character's frame.
-Vec3 rest_grip_m(const Character& character, const Part& arm);
+// Where it is easily: below the shoulder, as the arm hangs, at four fifths of its length. In the character's frame.
+Vec3 easy_grip_m(const Character& character, const Part& arm);
 
 void rest_part(const Character& character, const Part& part, Posture& posture);
 

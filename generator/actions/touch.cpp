@@ -23,9 +23,9 @@ bool touch_supports(const Character&, const Part& part) { return part.kind == "a
 
 void touch_rule(const RuleInput& in, Posture& posture) {
   constexpr double kTouch_m = 0.005;
-  // Seen from where the hand would hang, not from where it is: else the touch would follow itself along the wall.
+  // Seen from where the hand would be easily, not from where it is: else the touch would follow itself along the wall.
   const Rigid world_from_character = in.world[0] * inverse(in.character.rest_root());
-  const Surface surface = in.environment.nearest_obstacle(world_from_character * in.rest_grip_m);
+  const Surface surface = in.environment.nearest_obstacle(world_from_character * in.easy_grip_m);
   if (surface.obstacle < 0 || surface.distance_m > in.params[0]) return;
   const double missing_m = bring_grip_to(in, surface.point_m + in.params[1] * surface.normal, posture);
   in.feedback.contact = !in.part.reach.empty() && missing_m < kTouch_m;

@@ -221,8 +221,14 @@ void Gait::take_step(const GaitParams& params, const Leg& leg, int number, doubl
   step.bump_m = clear_bump(leg, step, params.lift_m);
 }
 
+// How much the leg of a runner holds the hips down: not while it swings, when its foot may trail.
+double hold_of(double swing) {
+  const double off = std::clamp(std::min(swing, 1.0 - swing) / 0.2, 0.0, 1.0);
+  return 1.0 - ease_jerk(off);
+}
+
 // Over the feet, upright or along their slope, and as low as the leg with the longest way needs.
-Rigid Gait::root_over(std::span<const Vec3> feet, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const {
+Rigid Gait::root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const {
   const Rigid& rest = character_->rest_root();
   double mean_y = 0.0, mean_z = 0.0, zz = 0.0, zy = 0.0;
   const double count = std::max<double>(1.0, static_cast<double>(legs_.size()));
@@ -245,7 +251,7 @@ Rigid Gait::root_over(std::span<const Vec3> feet, const GaitFrame& frame, const 
     const double reach_m = kStretch * legs_[i].length_m;
     const double across2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
     const double up_m = std::sqrt(std::max(reach_m * reach_m - across2, 0.04 * reach_m * reach_m));
-    too_high_m = std::max(too_high_m, hip.y - ankle.y - up_m);
+    too_high_m = std::max(too_high_m, holds[i] * (hip.y - ankle.y - up_m));
   }
   root.p_m.y -= too_high_m;
   return root;
@@ -264,17 +270,21 @@ GaitFrame Gait::stand(double lower_share) {
     frame.feet[i].world_from_sole = steps_[i].from;
     feet[i] = steps_[i].from.p_m;
   }
-  frame.root = root_over(std::span(feet).first(legs_.size()), frame, Vec3(0.0), lower_share * leg_length_m_);
+  std::array<double, kMaxLegs> holds;
+  holds.fill(1.0);
+  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0), lower_share * leg_length_m_);
   return frame;
 }
 
 GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
   GaitFrame frame;
   std::array<Vec3, kMaxLegs> feet;  // on their straight ways, without the lift
+  std::array<double, kMaxLegs> holds{};
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     const Cycle cycle = cycle_of(params, legs_[i], time_s);
     take_step(params, legs_[i], cycle.step, duration_s, steps_[i]);
     const Step& step = steps_[i];
+    holds[i] = params.trot ? hold_of(cycle.swing) : 1.0;
     const double share = swing_share(cycle.swing);
     feet[i] = step.from.p_m + share * (step.to.p_m - step.from.p_m);
     frame.feet[i].world_from_sole = {slerp_short(step.from.q, step.to.q, share), feet[i]};
@@ -285,7 +295,7 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
   const double out = ease_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
   const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
   const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
-  frame.root = root_over(std::span(feet).first(legs_.size()), frame,
+  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame,
                          travel(params, travelled_m(params, time_s, duration_s)), lower_m);
   return frame;
 }

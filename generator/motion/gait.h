@@ -70,7 +70,7 @@ class Gait {
   Rigid stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const;
   void take_step(const GaitParams& params, const Leg& leg, int number, double duration_s, Step& step) const;
   double clear_bump(const Leg& leg, const Step& step, double lift_m) const;
-  Rigid root_over(std::span<const Vec3> feet, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const;
+  Rigid root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const;
 
   const Character* character_ = nullptr;
   std::span<const Leg> legs_;

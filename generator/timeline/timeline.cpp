@@ -146,7 +146,7 @@ class Layout {
     Result<std::vector<double>> params = bind_params(*planned.def, character_, part, use.params);
     if (!params) return params.issue();
     planned.params = std::move(params).value();
-    if (!part.reach.empty()) planned.rest_grip_m = rest_grip_m(character_, part);
+    if (!part.reach.empty()) planned.easy_grip_m = easy_grip_m(character_, part);
     plan_aim(planned);
     return check_blends(use, *planned.def);
   }

@@ -33,7 +33,7 @@ struct PlannedAction {
   double blend_out = 0.0;
   std::vector<double> params;
   std::shared_ptr<const AimPlan> aim;  // where it has an own_point
-  Vec3 rest_grip_m{0.0};  // of the named part, if it is an arm: in the character's frame
+  Vec3 easy_grip_m{0.0};  // of the named part, if it is an arm: in the character's frame
 };
 
 struct Timeline {

@@ -142,6 +142,30 @@ TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
     EXPECT_EQ(finding.subject.find("arm_right"), std::string::npos) << finding.subject;
 }
 
+TEST(Actions, TouchFindsTheWallWhileWalkingAndTellsOfTheContact) {
+  Spec spec;
+  spec.environment.obstacles = {{"wall", Box{Vec3(0.55, 1.0, 4.0), Vec3(0.1, 1.0, 3.0), Vec3(0.0)}}};
+  spec.sequences = {sequence({use("walk", "waist", 0, 300, {{"speed_m_s", 0.8}}), use("touch", "arm_left", 60, 200, {})})};
+  InterruptDesc on_contact;
+  on_contact.when.event = Event::contact;
+  on_contact.when.slot = "arm_left";
+  on_contact.enter = Enter::end;
+  on_contact.sequence = sequence({use("squat", "waist", 0, 30, {})});
+  spec.interrupts = {on_contact};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage.ok());
+  const Motion motion = generate(*stage);
+  EXPECT_EQ(motion.queue.size(), 2U) << "no contact was told";
+  std::vector<Rigid> world(stage->character->joints().size());
+  int touching = 0;
+  for (int f = 150; f <= 250; ++f) {
+    forward_kinematics(*stage->character, motion.root[static_cast<std::size_t>(f)], motion.row(f), world);
+    const Vec3 grip = world_from_socket(*stage->character, world, stage->character->find_socket("hand_left/grip")).p_m;
+    touching += std::fabs(stage->environment.nearest_obstacle(grip).distance_m - 0.03) < 1e-3;
+  }
+  EXPECT_EQ(touching, 101);
+}
+
 TEST(Actions, AnImpactFiresItsInterrupt) {
   Spec spec;
   spec.sequences = {sequence({use("hit_reaction", "torso", 10, 30, {})})};
