@@ -27,6 +27,8 @@ Vec3 tip_in_middle(const Character& character, const ReachChain& chain, std::spa
   return point;
 }
 
+double wrapped(double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); }
+
 // How far v is outside [low, high].
 double outside(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
@@ -36,16 +38,12 @@ double bend_for_distance(const Vec3& elbow, const Vec3& tip, const Joint& hinge,
   const Vec3& a = hinge.axis;
   const Vec3 elbow_t = elbow - glm::dot(elbow, a) * a;
   const Vec3 tip_t = tip - glm::dot(tip, a) * a;
-  const double lever = std::sqrt(glm::dot(elbow_t, elbow_t) * glm::dot(tip_t, tip_t));
-  if (lever < 1e-12) return 0.0;
   const double along = glm::dot(elbow, a) * glm::dot(tip, a);
   const double wanted = distance_m * distance_m - glm::dot(elbow, elbow) - glm::dot(tip, tip);
-  const double open = det::acos((0.5 * wanted - along) / lever);
-  const double phase = det::atan2(glm::dot(a, glm::cross(elbow_t, tip_t)), glm::dot(elbow_t, tip_t));
-  const auto wrapped = [](double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); };
-  const double first = wrapped(open - phase);
-  const double second = wrapped(-open - phase);
-  return outside(first, hinge.low, hinge.high) <= outside(second, hinge.low, hinge.high) ? first : second;
+  const std::array<double, 2> angles =
+      solve_turn(glm::dot(elbow_t, tip_t), glm::dot(a, glm::cross(tip_t, elbow_t)), 0.5 * wanted - along);
+  const auto off = [&](double angle) { return outside(angle, hinge.low, hinge.high); };
+  return off(angles[0]) <= off(angles[1]) ? angles[0] : angles[1];
 }
 
 void set_upper(const Character& character, const ReachChain& chain, const Quat& rotation, std::span<double> row) {
@@ -91,6 +89,28 @@ bool turn_joint(const Joint& joint, const Rigid& world_from_joint, const Vec3& f
 }
 
 }  // namespace
+
+std::array<double, 2> solve_turn(double x, double y, double wanted) {
+  const double size = std::sqrt(x * x + y * y);
+  if (size < 1e-12) return {0.0, 0.0};
+  const double phase = det::atan2(y, x);
+  const double open = det::acos(wanted / size);
+  return {wrapped(phase + open), wrapped(phase - open)};
+}
+
+// The first hinge leaves what lies along its axis as it is, so that the second must bring that part of the direction:
+// along + in_plane cos(angle - phase) = wanted.
+std::array<double, 2> hinge_pair_angles(const HingePair& pair, const Vec3& axis, const Vec3& direction) {
+  const Vec3 first = glm::conjugate(pair.between) * pair.first_axis;
+  const Vec3& second = pair.second_axis;
+  const double along = glm::dot(first, second) * glm::dot(second, axis);
+  const double x = glm::dot(first, axis) - along;
+  const double y = glm::dot(first, glm::cross(second, axis));
+  const std::array<double, 2> turns = solve_turn(x, y, glm::dot(pair.first_axis, direction) - along);
+  const double turn = std::fabs(turns[0]) < std::fabs(turns[1]) ? turns[0] : turns[1];
+  const Vec3 turned = pair.between * (axis_angle(second, turn) * axis);
+  return {turn_towards(pair.first_axis, turned, direction), turn};
+}
 
 Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation) {
   // In the basis of the three axes the rotation is Rx(a) Ry(b) Rz(c). A left-handed basis turns the third one over.

@@ -2,6 +2,7 @@
 // the fault that the checks look for.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "generator/character/character.h"
@@ -24,6 +25,21 @@ void face_direction(const Character& character, const FacingChain& chain, std::s
 // The same for any joints and any axis of a socket.
 void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
                   std::span<Rigid> world, const Vec3& direction_world, std::span<double> row);
+
+// The two angles in [-pi, pi) with x cos(angle) + y sin(angle) = wanted, or, where there are none, nearest to it: what a
+// hinge must turn for a point or direction to have a wanted component. 0, 0 where no turn changes anything.
+std::array<double, 2> solve_turn(double x, double y, double wanted);
+
+// Two successive hinges, the second at rotation `between` in the first one's frame when that one is at rest.
+struct HingePair {
+  Vec3 first_axis;
+  Vec3 second_axis;
+  Quat between = kNoRotation;
+};
+
+// The two angles that turn `axis` (unit, in the second hinge's frame) to a direction in the frame in front of the first
+// hinge; of the two solutions the one with the smaller second angle. Where no angles do, the nearest.
+std::array<double, 2> hinge_pair_angles(const HingePair& pair, const Vec3& axis, const Vec3& direction);
 
 // The coordinates of three successive hinges with axes at right angles that give the rotation (Euler angles about the
 // hinges' own axes; the middle one in [-pi/2, pi/2]).

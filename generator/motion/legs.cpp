@@ -11,6 +11,10 @@ namespace contort {
 
 namespace {
 
+const Joint& joint_at(const Character& character, int index) {
+  return character.joints()[static_cast<std::size_t>(index)];
+}
+
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 bool is_sole_of(const Character& character, const Socket& socket, int leg_part) {
@@ -38,6 +42,8 @@ void find_ankles(const Character& character, const ReachChain& chain, Leg& leg) 
     if (character.joints()[static_cast<std::size_t>(j)].kind == JointKind::hinge) upward.push_back(j);
   leg.ankle_count = static_cast<int>(std::min<std::size_t>(upward.size(), leg.ankles.size()));
   std::copy_n(upward.rbegin(), leg.ankle_count, leg.ankles.begin());
+  leg.has_ankle_pair = leg.ankle_count == 2 && joint_at(character, leg.ankles[1]).parent == leg.ankles[0] &&
+                       character.sockets()[static_cast<std::size_t>(leg.sole)].joint == leg.ankles[1];
 }
 
 void stretch_over(const Vec3& point_m, double radius_m, Leg& leg) {
@@ -89,9 +95,29 @@ void number_rows(std::vector<Leg>& legs) {
   }
 }
 
-void place_part(const Character& character, int part, std::span<const double> row, std::span<Rigid> world) {
-  const Part& own = character.parts()[static_cast<std::size_t>(part)];
-  forward_kinematics(character, row, own.first_joint, own.first_joint + own.joint_count, world);
+// Everything of leg and foot that moves with a joint of theirs.
+void place_below(const Character& character, const Leg& leg, int first, std::span<const double> row,
+                 std::span<Rigid> world) {
+  const auto end_of = [&](int part) {
+    const Part& own = character.parts()[static_cast<std::size_t>(part)];
+    return own.first_joint + own.joint_count;
+  };
+  const int part = joint_at(character, first).part;
+  forward_kinematics(character, row, first, end_of(part), world);
+  if (part == leg.foot_part) return;
+  const int foot = character.parts()[static_cast<std::size_t>(leg.foot_part)].first_joint;
+  forward_kinematics(character, row, foot, end_of(leg.foot_part), world);
+}
+
+Quat world_from_ankle(const Joint& ankle, std::span<const Rigid> world) {
+  return world[static_cast<std::size_t>(ankle.parent)].q * ankle.parent_from_joint.q;
+}
+
+// The smaller angle about a unit axis that brings v to a right angle with d, or as near to one as it can.
+double turn_across(const Vec3& axis, const Vec3& v, const Vec3& d) {
+  const double along = glm::dot(axis, v) * glm::dot(axis, d);
+  const std::array<double, 2> angles = solve_turn(glm::dot(v, d) - along, glm::dot(glm::cross(axis, v), d), -along);
+  return std::fabs(angles[0]) < std::fabs(angles[1]) ? angles[0] : angles[1];
 }
 
 }  // namespace
@@ -119,28 +145,43 @@ std::vector<Leg> find_legs(const Character& character) {
 
 void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
                 std::span<double> row) {
-  if (leg.ankle_count == 0) return;
-  turn_axis_to(character, std::span(leg.ankles).first(static_cast<std::size_t>(leg.ankle_count)), leg.sole,
-               Vec3(0, 1, 0), world, up_world, row);
+  const auto ankles = std::span(leg.ankles).first(static_cast<std::size_t>(leg.ankle_count));
+  if (ankles.empty()) return;
+  if (!leg.has_ankle_pair) return turn_axis_to(character, ankles, leg.sole, Vec3(0, 1, 0), world, up_world, row);
+  const Joint& first = joint_at(character, ankles[0]);
+  const Joint& second = joint_at(character, ankles[1]);
+  const Vec3 up = character.sockets()[static_cast<std::size_t>(leg.sole)].joint_from_socket.q * Vec3(0, 1, 0);
+  const auto angles = hinge_pair_angles({first.axis, second.axis, second.parent_from_joint.q}, up,
+                                        glm::conjugate(world_from_ankle(first, world)) * up_world);
+  row[static_cast<std::size_t>(first.coord)] = angles[0];
+  row[static_cast<std::size_t>(second.coord)] = angles[1];
 }
 
 void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
                 std::span<double> row) {
-  constexpr int kPasses = 4;  // the leg turns the foot a little about the vertical; each pass takes that back
+  constexpr int kPasses = 6;  // the leg turns the foot a little about the vertical; each pass takes that back
   const ReachChain& chain = character.parts()[static_cast<std::size_t>(leg.part)].reach.front();
   const Vec3 ankle = world_from_sole * leg.sole_from_ankle;
   const Vec3 up = world_from_sole.q * Vec3(0, 1, 0);
   const Vec3 toes = world_from_sole.q * Vec3(0, 0, 1);
   double swivel_rad = 0.0;
+  reach_for(character, chain, world, ankle, swivel_rad, row);
+  place_below(character, leg, chain.upper, row, world);
+  if (leg.has_ankle_pair) {
+    const Joint& flex = joint_at(character, leg.ankles[0]);
+    const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
+    swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
+  }
   for (int pass = 0; pass < kPasses; ++pass) {
     reach_for(character, chain, world, ankle, swivel_rad, row);
-    place_part(character, leg.part, row, world);
-    place_part(character, leg.foot_part, row, world);
+    place_below(character, leg, chain.upper, row, world);
     level_foot(character, leg, world, up, row);
-    place_part(character, leg.foot_part, row, world);
+    if (leg.ankle_count > 0) place_below(character, leg, leg.ankles[0], row, world);
     const Vec3 now = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
     // The leg points down, so that a turn about it is one about the vertical the other way round.
-    swivel_rad -= det::atan2(glm::dot(up, glm::cross(now, toes)), glm::dot(now, toes));
+    const double off_rad = det::atan2(glm::dot(up, glm::cross(now, toes)), glm::dot(now, toes));
+    if (std::fabs(off_rad) < 1e-10) return;
+    swivel_rad -= off_rad;
   }
 }
 

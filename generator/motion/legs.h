@@ -19,6 +19,7 @@ struct Leg {
   int sole = 0;       // socket
   std::array<int, 3> ankles{};  // joints between the chain's tip and the sole
   int ankle_count = 0;
+  bool has_ankle_pair = false;  // two, one on the other: solved exactly
   Vec3 home_m{0.0};          // the sole at rest, in the character's frame (on the ground under the root)
   Vec3 hip_m{0.0};           // the chain's first joint, there too
   Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame

@@ -189,6 +189,28 @@ RC_GTEST_PROP(Ik, HingeAnglesRecomposeAnyRotation, ()) {
   RC_ASSERT(testing::difference(composed(x, y, z, angles), wanted) < 1e-9);
 }
 
+// Any two hinges, not only those at right angles.
+RC_GTEST_PROP(Ik, TwoHingesTurnAnAxisToEveryDirectionThatTheyCanReach, ()) {
+  const HingePair pair{any_quat() * Vec3(1, 0, 0), any_quat() * Vec3(0, 0, 1), any_quat()};
+  const Vec3 axis = any_quat() * Vec3(0, 1, 0);
+  const auto turned = [&](double first, double second) {
+    return axis_angle(pair.first_axis, first) * (pair.between * (axis_angle(pair.second_axis, second) * axis));
+  };
+  const double second = lattice_number(-3, 3);
+  const Vec3 direction = turned(lattice_number(-3, 3), second);
+  const auto angles = hinge_pair_angles(pair, axis, direction);
+  RC_ASSERT(length(turned(angles[0], angles[1]) - direction) < 1e-7);  // acos loses half of the digits at an end
+  RC_ASSERT(std::fabs(angles[1]) < std::fabs(second) + 1e-7);
+}
+
+TEST(Ik, TwoHingesComeAsNearAsTheyCan) {
+  const HingePair pair{Vec3(1, 0, 0), Vec3(0, 0, 1)};
+  const Vec3 axis = unit_or(Vec3(0.5, 0.0, 1.0), Vec3(0.0));  // leans: the second hinge brings it to x = +-0.447 only
+  const auto angles = hinge_pair_angles(pair, axis, Vec3(1, 0, 0));
+  const Vec3 turned = axis_angle(Vec3(1, 0, 0), angles[0]) * (axis_angle(Vec3(0, 0, 1), angles[1]) * axis);
+  EXPECT_NEAR(turned.x, axis.x, 1e-9);
+}
+
 // Angle between the direction and where the slot's part looks after face_direction.
 double facing_error(const Character& c, const std::string& slot, double azimuth_deg, double elevation_deg) {
   const FacingChain& chain = c.parts()[static_cast<std::size_t>(c.find_part(slot))].facing.at(0);
