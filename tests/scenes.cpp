@@ -54,6 +54,13 @@ constexpr NamedScene kScenes[] = {
       {"action":"hit_reaction","slot":"torso","start_frame":5,"duration_frames":30,"params":{"azimuth_deg":70}}]}]}},
       {"when":{"event":"impact"},"sequence":{"clips":[{"actions":[
       {"action":"touch","slot":"arm_left","duration_frames":40,"blend_in_frames":10,"params":{"within_m":2}}]}]}}]})"},
+    {"quadruped_slope", R"({"format":"contort.spec/1","character":{"name":"quadruped","parts":{"tail":"quad_tail_bushy"},
+      "attachments":[{"object":"backpack","slot":"trunk","socket":"back"}]},
+      "environment":{"ground":{"type":"slope","slope_deg":12}},"sequences":[{"clips":[{"actions":[
+      {"action":"walk","slot":"hips","duration_frames":200,"params":{"speed_m_s":0.8}},
+      {"action":"look_at","slot":"head","duration_frames":200,"blend_in_frames":15,"params":{"target_m":[2,0.5,4]}},
+      {"action":"aim","slot":"tail","duration_frames":120,"blend_in_frames":15,"params":{"target_m":[0,4,-4]}},
+      {"action":"hit_reaction","slot":"trunk","start_frame":90,"duration_frames":40,"params":{"azimuth_deg":90}}]}]}]})"},
 };
 
 }  // namespace

@@ -49,7 +49,10 @@ bool hangs_on(const Character& character, int part, int carrier) {
   return part == carrier;
 }
 
-// Visits the points of attached objects that others carry, or the grips and points that the part itself carries:
+bool faces(const Part& part, int socket) { return !part.facing.empty() && part.facing.front().socket == socket; }
+
+// Visits the points of attached objects that others carry, or what the part can point itself: its face, and the grips
+// and objects' points that it carries.
 // (name, socket index).
 template <class Visit>
 void for_points(const Character& character, const Part& part, ParamType type, Visit visit) {
@@ -59,7 +62,7 @@ void for_points(const Character& character, const Part& part, ParamType type, Vi
     const std::string name = socket.name.substr(socket.name.find('/') + 1);
     const bool of_object = socket.name.starts_with("object:");
     const bool mine = hangs_on(character, character.joints()[static_cast<std::size_t>(socket.joint)].part, own);
-    if (type == ParamType::object_point ? of_object && !mine : mine && (of_object || name == "grip"))
+    if (type == ParamType::object_point ? of_object && !mine : mine && (of_object || name == "grip" || faces(part, static_cast<int>(s))))
       visit(name, static_cast<int>(s));
   }
 }

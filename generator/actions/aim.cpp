@@ -1,8 +1,8 @@
-// aim: a point of the arm, or of what it carries, is directed at a target while the body moves (P13). Its first posture
+// aim: a point of an arm or a head, or of what it carries, is directed at a target while the body moves (P13). Its first posture
 // comes from the aim table; every frame goes on from that one, so that the arm follows without drifting.
 #include <algorithm>
 
-#include "generator/actions/action.h"
+#include "generator/actions/hand.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -45,6 +45,15 @@ void solve(const RuleInput& in, Posture& posture) {
   in.feedback.aim_reached = result.reached;
 }
 
+// The end of a limb that can face something: a head, a tail.
+bool is_head(const Character& character, const Part& part) {
+  if (part.facing.empty()) return false;
+  const int own = static_cast<int>(&part - character.parts().data());
+  for (int p = own + 1; p < static_cast<int>(character.parts().size()); ++p)
+    if (carrier_of(character, p) == own) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
@@ -54,7 +63,7 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
   const std::vector<std::string> points = own_points(character, part);
   const bool armed = std::find(points.begin(), points.end(), "muzzle") != points.end();
   point.preset = armed ? std::string("muzzle") : points.empty() ? std::string("grip") : points.front();
-  point.help = "What is directed: the hand's grip, or a point of what it carries.";
+  point.help = "What is directed: the grip of a hand, a face, or a point of what is carried.";
   ParamDef target;
   target.name = "target_m";
   target.type = ParamType::vector;
@@ -66,11 +75,11 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
 }
 
 bool aim_supports(const Character& character, const Part& part) {
-  return part.kind == "arm" && part.joint_count > 0 && !own_points(character, part).empty();
+  return (is_arm(character, part) || is_head(character, part)) && !own_points(character, part).empty();
 }
 
 void aim_rule(const RuleInput& in, Posture& posture) {
-  if (!in.part.reach.empty()) return solve(in, posture);
+  if (!in.part.reach.empty() || !in.part.facing.empty()) return solve(in, posture);
   // The hand: solved with its arm, which comes before it.
   for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = in.body.aimed[at]; });
 }

@@ -5,6 +5,7 @@
 
 #include "generator/motion/ik.h"
 #include "generator/motion/kinematics.h"
+#include "generator/motion/legs.h"
 
 namespace contort {
 
@@ -15,6 +16,10 @@ int index_of(const Character& character, const Part& part) {
 }
 
 }  // namespace
+
+bool is_arm(const Character& character, const Part& part) {
+  return !part.reach.empty() && find_sole(character, index_of(character, part)) < 0;
+}
 
 int grip_of(const Character& character, const Part& arm) {
   const int own = index_of(character, arm);

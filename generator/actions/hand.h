@@ -5,6 +5,9 @@
 
 namespace contort {
 
+// What reaches and does not stand: a part with a reach chain and without a sole.
+bool is_arm(const Character& character, const Part& part);
+
 // The grip of an arm: its own, or that of the part that hangs on it; else the tip of its reach chain.
 int grip_of(const Character& character, const Part& arm);
 

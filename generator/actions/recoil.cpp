@@ -1,5 +1,5 @@
 // recoil: the arm jerks up and its elbow gives, and both settle. Short on purpose: use it over aim or weapon_hold.
-#include "generator/actions/action.h"
+#include "generator/actions/hand.h"
 #include "generator/actions/pulse.h"
 #include "generator/motion/turn.h"
 
@@ -19,7 +19,7 @@ std::vector<ParamDef> recoil_params(const Character&, const Part&) {
   return {rise, bend};
 }
 
-bool recoil_supports(const Character&, const Part& part) { return part.kind == "arm" && !part.reach.empty(); }
+bool recoil_supports(const Character& character, const Part& part) { return is_arm(character, part); }
 
 void recoil_rule(const RuleInput& in, Posture& posture) {
   const ReachChain& chain = in.part.reach.front();

@@ -19,7 +19,7 @@ std::vector<ParamDef> touch_params(const Character&, const Part&) {
   return {within, gap};
 }
 
-bool touch_supports(const Character&, const Part& part) { return part.kind == "arm" && !part.reach.empty(); }
+bool touch_supports(const Character& character, const Part& part) { return is_arm(character, part); }
 
 void touch_rule(const RuleInput& in, Posture& posture) {
   constexpr double kTouch_m = 0.005;

@@ -15,7 +15,7 @@ std::vector<ParamDef> weapon_hold_params(const Character&, const Part&) {
 }
 
 bool weapon_hold_supports(const Character& character, const Part& part) {
-  return part.kind == "arm" && !part.reach.empty() && !object_points(character, part).empty();
+  return is_arm(character, part) && !object_points(character, part).empty();
 }
 
 void weapon_hold_rule(const RuleInput& in, Posture& posture) {

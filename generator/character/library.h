@@ -16,7 +16,7 @@ struct Library {
   std::map<std::string, CharacterDesc> characters;
 };
 
-// `human` and `mech`. Built once; always there, without any file.
+// `human`, `mech` and `quadruped`. Built once; always there, without any file.
 const Library& stock_library();
 
 // Adds every *.json of `folder` (parts, objects, characters, told apart by their "format") to `into`. A name that is

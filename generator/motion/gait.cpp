@@ -11,13 +11,15 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLongestTilt_rad = 25.0 * kRadPerDeg;  // of a sole: about what ankles can do
-constexpr double kStretch = 0.99;                       // of a leg's length: a knee never snaps straight
+constexpr double kBend = 0.01;                          // of a moving leg's length: a knee never snaps straight
 constexpr double kClearance_m = 0.015;                  // of a swinging foot
 
 double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
 
-// Swing, horizontally: in its inner part, so that the foot leaves and meets the ground vertically.
-double swing_share(double swing) { return ease_jerk(std::clamp((swing - 0.1) / 0.8, 0.0, 1.0)); }
+// Swing, horizontally: between two margins of its time, so that the foot leaves and meets the ground vertically.
+double swing_share(double swing, double margin) {
+  return ease_jerk(std::clamp((swing - margin) / (1.0 - 2.0 * margin), 0.0, 1.0));
+}
 double swing_bump(double swing) {
   const double left = swing * (1.0 - swing);
   return 16.0 * left * left;
@@ -95,11 +97,28 @@ GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double stride
   return params;
 }
 
+// How far the hips must be below their height at rest for every leg to bend a little still at the ends of its stance,
+// when its foot is half of the stance's way in front or behind. Near straight, a knee turns very fast for a small step.
+double lower_for(std::span<const Leg> legs, double stance_m) {
+  constexpr double kBent = 0.97;
+  double lower_m = 0.0;
+  for (const Leg& leg : legs) {
+    const double up_m = leg.hip_m.y - leg.sole_from_ankle.y;
+    const double along_m = std::fabs(leg.hip_m.z - leg.home_m.z - leg.sole_from_ankle.z) + 0.5 * stance_m;
+    const double reach_m = kBent * leg.length_m;
+    const double room = reach_m * reach_m - along_m * along_m;
+    lower_m = std::max(lower_m, up_m - std::sqrt(std::max(room, 0.5 * reach_m * reach_m)));
+  }
+  return lower_m;
+}
+
 }  // namespace
 
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s) {
-  GaitParams params = params_for(legs, speed_m_s, 1.5);
-  params.duty = legs.size() > 2 ? 0.75 : 0.62;
+  const bool many = legs.size() > 2;  // more legs bear, and each takes its time: dogs walk so (Hildebrand 1968)
+  GaitParams params = params_for(legs, speed_m_s, many ? 1.9 : 1.7);
+  params.duty = many ? 0.66 : 0.62;
+  if (many) params.lower_m = lower_for(legs, params.duty * params.cycle_s * speed_m_s);
   return params;
 }
 
@@ -137,19 +156,37 @@ Gait::Cycle Gait::cycle_of(const GaitParams& params, const Leg& leg, double time
   return {static_cast<int>(whole), std::clamp(swing, 0.0, 1.0)};
 }
 
-// Speed rises and falls along 3u^2 - 2u^3. It ends a cycle early, so that every foot has the time to come home.
-double Gait::travelled_m(const GaitParams& params, double time_s, double duration_s) const {
-  const double moving_s = std::max(duration_s - params.cycle_s, 0.5 * duration_s);
-  const double ramp_s = std::min(0.6 * params.cycle_s, 0.5 * moving_s);
-  const auto ramped = [&](double t) {  // the integral of the rising speed
-    const double u = std::clamp(t / ramp_s, 0.0, 1.0);
+// When a leg's first swing begins.
+double Gait::first_lift_s(const GaitParams& params, const Leg& leg) const {
+  const double cycles = params.duty - phase(params, leg);
+  return (cycles < 0.0 ? cycles + 1.0 : cycles) * params.cycle_s;
+}
+
+// It ends a cycle early, so that every foot has the time to come home. It begins so slowly that no foot is left behind
+// at home by more than half a stance before its first swing: a way of ramp u^3 with u = lift / ramp, at most.
+Gait::Pace Gait::pace_of(const GaitParams& params, double duration_s) const {
+  Pace pace{params.speed_m_s, std::max(duration_s - params.cycle_s, 0.5 * duration_s), 0.0, 0.0};
+  double lift_s = 0.0;
+  for (const Leg& leg : legs_) lift_s = std::max(lift_s, first_lift_s(params, leg));
+  const double half_stance_s = 0.5 * params.duty * params.cycle_s;
+  const double wanted_s = std::sqrt(lift_s * lift_s * lift_s / half_stance_s);
+  pace.up_s = std::min(std::max(wanted_s, 0.6 * params.cycle_s), 0.6 * pace.moving_s);
+  pace.down_s = std::min(0.6 * params.cycle_s, pace.moving_s - pace.up_s);
+  const double hurry = wanted_s / std::max(pace.up_s, 1e-9);  // above 1 on a way too short for the speed
+  if (hurry > 1.0) pace.speed_m_s /= hurry * hurry;
+  return pace;
+}
+
+// Speed rises and falls along 3u^2 - 2u^3.
+double Gait::travelled_m(const Pace& pace, double time_s) {
+  const auto ramped = [](double t, double ramp_s) {  // the integral of the rising speed
+    const double u = ramp_s > 0.0 ? std::clamp(t / ramp_s, 0.0, 1.0) : 1.0;
     return ramp_s * (u * u * u - 0.5 * u * u * u * u) + std::max(0.0, t - ramp_s);
   };
-  if (!(ramp_s > 0.0)) return 0.0;
-  const double t = std::clamp(time_s, 0.0, moving_s);
-  if (t <= moving_s - ramp_s) return params.speed_m_s * ramped(t);
-  const double whole = ramped(moving_s - ramp_s) + ramped(ramp_s);
-  return params.speed_m_s * (whole - ramped(moving_s - t));
+  const double t = std::clamp(time_s, 0.0, pace.moving_s);
+  if (t <= pace.moving_s - pace.down_s) return pace.speed_m_s * ramped(t, pace.up_s);
+  const double whole = ramped(pace.moving_s - pace.down_s, pace.up_s) + ramped(pace.down_s, pace.down_s);
+  return pace.speed_m_s * (whole - ramped(pace.moving_s - t, pace.down_s));
 }
 
 Vec3 Gait::travel(const GaitParams& params, double distance_m) const {
@@ -180,25 +217,24 @@ Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) 
 }
 
 // A foot stands at home until its first swing begins, and is home again from the step on whose middle comes after the end.
-Rigid Gait::foothold(const GaitParams& params, const Leg& leg, int step, double duration_s) const {
+Rigid Gait::foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const {
   const double lifted_s = (step - 1 + params.duty - phase(params, leg)) * params.cycle_s;
   const double middle_s = (step + 0.5 * params.duty - phase(params, leg)) * params.cycle_s;
-  const double distance_m = lifted_s < 0.0 ? 0.0 : travelled_m(params, middle_s, duration_s);
+  const double distance_m = lifted_s < 0.0 ? 0.0 : travelled_m(pace, middle_s);
   const Vec3 home = world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z) + travel(params, distance_m);
   return stand_at(leg, home, travel(params, 1.0));
 }
 
-// How high a swing must be lifted over its straight way so that toes, heel and middle clear the ground.
-double Gait::clear_bump(const Leg& leg, const Step& step, double lift_m) const {
+// How high a swing with these margins must be lifted over its straight way so that toes, heel and middle clear the
+// ground.
+double Gait::clear_bump(const Leg& leg, const Step& step, double margin) const {
   constexpr int kSamples = 96;  // a centimetre of way each: no edge is stepped over unseen
   const Vec3 way = step.to.p_m - step.from.p_m;
-  const double horizontal_m = std::sqrt(way.x * way.x + way.z * way.z);
-  double bump_m = lift_m * std::min(1.0, horizontal_m / 0.15);
-  if (environment_->is_level() || horizontal_m < 1e-6) return bump_m;
+  double bump_m = 0.0;
   for (int n = 1; n < kSamples; ++n) {
     const double swing = static_cast<double>(n) / kSamples;
-    if (swing < 0.15 || swing > 0.85) continue;  // nearly where it stands: a foot longer than its tread overhangs there
-    const double share = swing_share(swing);
+    const double share = swing_share(swing, margin);
+    if (share <= 0.0 || share >= 1.0) continue;
     const Rigid sole{slerp_short(step.from.q, step.to.q, share), step.from.p_m + share * way};
     for (int i = 0; i < kAcross; i += 2)
       for (int j = 0; j < kLong; j += 3) {
@@ -211,14 +247,33 @@ double Gait::clear_bump(const Leg& leg, const Step& step, double lift_m) const {
   return bump_m;
 }
 
-void Gait::take_step(const GaitParams& params, const Leg& leg, int number, double duration_s, Step& step) const {
+// The gentlest swing that clears the ground without being lifted much higher than needed: where a riser is near, the
+// foot goes up first and forward then.
+void Gait::choose_swing(const Leg& leg, double lift_m, Step& step) const {
+  constexpr double kMargins[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
+  const Vec3 way = step.to.p_m - step.from.p_m;
+  const double horizontal_m = std::sqrt(way.x * way.x + way.z * way.z);
+  const double least_m = lift_m * std::min(1.0, horizontal_m / 0.15);
+  step.margin = kMargins[0], step.bump_m = least_m;
+  if (environment_->is_level() || horizontal_m < 1e-6) return;
+  const double enough_m = 2.0 * lift_m + 0.5 * std::fabs(way.y);
+  step.bump_m = 1e9;
+  for (const double margin : kMargins) {
+    const double bump_m = std::max(least_m, clear_bump(leg, step, margin));
+    if (bump_m < step.bump_m) step.margin = margin, step.bump_m = bump_m;
+    if (step.bump_m <= enough_m) break;
+  }
+  step.bump_m = std::min(step.bump_m, 0.5 * leg.length_m);  // higher no leg gets
+}
+
+void Gait::take_step(const GaitParams& params, const Pace& pace, const Leg& leg, int number, Step& step) const {
   if (step.number == number) return;
   step.number = number;
-  step.from = foothold(params, leg, number, duration_s);
+  step.from = foothold(params, pace, leg, number);
   // A swing that began before the course did is not made: the foot stands where it is.
   const bool swings = (number + params.duty - phase(params, leg)) * params.cycle_s >= 0.0;
-  step.to = swings ? foothold(params, leg, number + 1, duration_s) : step.from;
-  step.bump_m = clear_bump(leg, step, params.lift_m);
+  step.to = swings ? foothold(params, pace, leg, number + 1) : step.from;
+  choose_swing(leg, params.lift_m, step);
 }
 
 // How much the leg of a runner holds the hips down: not while it swings, when its foot may trail.
@@ -228,7 +283,8 @@ double hold_of(double swing) {
 }
 
 // Over the feet, upright or along their slope, and as low as the leg with the longest way needs.
-Rigid Gait::root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const {
+Rigid Gait::root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame,
+                      const Vec3& travel_m, double lower_m, double bend) const {
   const Rigid& rest = character_->rest_root();
   double mean_y = 0.0, mean_z = 0.0, zz = 0.0, zy = 0.0;
   const double count = std::max<double>(1.0, static_cast<double>(legs_.size()));
@@ -248,7 +304,7 @@ Rigid Gait::root_over(std::span<const Vec3> feet, std::span<const double> holds,
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     const Vec3 ankle = frame.feet[i].world_from_sole * legs_[i].sole_from_ankle;
     const Vec3 hip = world_from_character * legs_[i].hip_m;
-    const double reach_m = kStretch * legs_[i].length_m;
+    const double reach_m = (1.0 - bend * kBend) * legs_[i].length_m;
     const double across2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
     const double up_m = std::sqrt(std::max(reach_m * reach_m - across2, 0.04 * reach_m * reach_m));
     too_high_m = std::max(too_high_m, holds[i] * (hip.y - ankle.y - up_m));
@@ -272,7 +328,8 @@ GaitFrame Gait::stand(double lower_share) {
   }
   std::array<double, kMaxLegs> holds;
   holds.fill(1.0);
-  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0), lower_share * leg_length_m_);
+  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0),
+                         lower_share * leg_length_m_, std::min(1.0, lower_share / 0.05));
   return frame;
 }
 
@@ -280,12 +337,13 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
   GaitFrame frame;
   std::array<Vec3, kMaxLegs> feet;  // on their straight ways, without the lift
   std::array<double, kMaxLegs> holds{};
+  const Pace pace = pace_of(params, duration_s);
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     const Cycle cycle = cycle_of(params, legs_[i], time_s);
-    take_step(params, legs_[i], cycle.step, duration_s, steps_[i]);
+    take_step(params, pace, legs_[i], cycle.step, steps_[i]);
     const Step& step = steps_[i];
     holds[i] = params.trot ? hold_of(cycle.swing) : 1.0;
-    const double share = swing_share(cycle.swing);
+    const double share = swing_share(cycle.swing, step.margin);
     feet[i] = step.from.p_m + share * (step.to.p_m - step.from.p_m);
     frame.feet[i].world_from_sole = {slerp_short(step.from.q, step.to.q, share), feet[i]};
     frame.feet[i].world_from_sole.p_m.y += step.bump_m * swing_bump(cycle.swing);
@@ -296,7 +354,7 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
   const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
   const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
   frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame,
-                         travel(params, travelled_m(params, time_s, duration_s)), lower_m);
+                         travel(params, travelled_m(pace, time_s)), lower_m, in * out);
   return frame;
 }
 

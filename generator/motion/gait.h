@@ -56,21 +56,34 @@ class Gait {
     Rigid from;             // world_from_sole
     Rigid to;
     double bump_m = 0.0;  // how high it is lifted over the straight way
+    double margin = 0.0;  // the share of the swing before it goes forward, and after
   };
   struct Cycle {
     int step = 0;        // stances since the beginning
     double swing = 0.0;  // 0: stands; else how much of the swing is over, (0, 1)
   };
 
+  // How the root's way rises and falls, for the whole course.
+  struct Pace {
+    double speed_m_s = 0.0;
+    double moving_s = 0.0;  // then it stands again
+    double up_s = 0.0;
+    double down_s = 0.0;
+  };
+
   double phase(const GaitParams& params, const Leg& leg) const;
+  double first_lift_s(const GaitParams& params, const Leg& leg) const;
+  Pace pace_of(const GaitParams& params, double duration_s) const;
   Cycle cycle_of(const GaitParams& params, const Leg& leg, double time_s) const;
-  double travelled_m(const GaitParams& params, double time_s, double duration_s) const;
   Vec3 travel(const GaitParams& params, double distance_m) const;
-  Rigid foothold(const GaitParams& params, const Leg& leg, int step, double duration_s) const;
+  Rigid foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const;
   Rigid stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const;
-  void take_step(const GaitParams& params, const Leg& leg, int number, double duration_s, Step& step) const;
-  double clear_bump(const Leg& leg, const Step& step, double lift_m) const;
-  Rigid root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame, const Vec3& travel_m, double lower_m) const;
+  void take_step(const GaitParams& params, const Pace& pace, const Leg& leg, int number, Step& step) const;
+  double clear_bump(const Leg& leg, const Step& step, double margin) const;
+  void choose_swing(const Leg& leg, double lift_m, Step& step) const;
+  static double travelled_m(const Pace& pace, double time_s);
+  Rigid root_over(std::span<const Vec3> feet, std::span<const double> holds, const GaitFrame& frame,
+                  const Vec3& travel_m, double lower_m, double bend) const;
 
   const Character* character_ = nullptr;
   std::span<const Leg> legs_;

@@ -94,7 +94,9 @@ std::array<double, 2> solve_turn(double x, double y, double wanted) {
   const double size = std::sqrt(x * x + y * y);
   if (size < 1e-12) return {0.0, 0.0};
   const double phase = det::atan2(y, x);
-  const double open = det::acos(wanted / size);
+  // Near its ends acos makes 1e-8 rad out of rounding: a leg that stands straight would shiver. There it is straight.
+  const double share = wanted / size;
+  const double open = std::fabs(share) > 1.0 - 1e-12 ? (share > 0.0 ? 0.0 : kPi) : det::acos(share);
   return {wrapped(phase + open), wrapped(phase - open)};
 }
 

@@ -27,12 +27,6 @@ bool is_sole_of(const Character& character, const Socket& socket, int leg_part) 
   return character.joints()[static_cast<std::size_t>(carrier)].part == leg_part;
 }
 
-int find_sole(const Character& character, int leg_part) {
-  for (std::size_t s = 0; s < character.sockets().size(); ++s)
-    if (is_sole_of(character, character.sockets()[s], leg_part)) return static_cast<int>(s);
-  return -1;
-}
-
 // The joints from below the chain's tip down to the sole, hinges only.
 void find_ankles(const Character& character, const ReachChain& chain, Leg& leg) {
   const int tip = character.sockets()[static_cast<std::size_t>(chain.tip)].joint;
@@ -121,6 +115,12 @@ double turn_across(const Vec3& axis, const Vec3& v, const Vec3& d) {
 }
 
 }  // namespace
+
+int find_sole(const Character& character, int leg_part) {
+  for (std::size_t s = 0; s < character.sockets().size(); ++s)
+    if (is_sole_of(character, character.sockets()[s], leg_part)) return static_cast<int>(s);
+  return -1;
+}
 
 std::vector<Leg> find_legs(const Character& character) {
   std::vector<Rigid> world(character.joints().size());

@@ -30,6 +30,9 @@ struct Leg {
   int side = 0;  // 0 left, 1 right
 };
 
+// The socket on which a leg stands, its own or that of a part that hangs on it; -1 where there is none.
+int find_sole(const Character& character, int leg_part);
+
 // In the order of slots. Legs whose feet are within 10 cm of each other along +Z are one row.
 std::vector<Leg> find_legs(const Character& character);
 

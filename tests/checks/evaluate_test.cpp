@@ -67,7 +67,7 @@ TEST(Manifest, EveryExemplarBelongsToACheck) {
 }
 
 TEST(Manifest, SubjectsOfACheckHaveDifferentNamesAndUnits) {
-  for (const char* name : {"human", "mech"}) {
+  for (const char* name : {"human", "mech", "quadruped"}) {
     const Result<Character> character = build_character({name, {}, {}}, stock_library());
     ASSERT_TRUE(character);
     for (const CheckDef& check : all_checks()) {
@@ -90,7 +90,7 @@ Stage staged(const Spec& spec) {
 std::vector<Stage> stages() {
   std::vector<Stage> all;
   for (const NamedScene& named : all_scenes()) all.push_back(staged(scene(named.name)));
-  for (int i = 0; i < 4; ++i) all.push_back(staged(draw_spec({{"human", "mech"}}, stock_library(), 11, i)));
+  for (int i = 0; i < 4; ++i) all.push_back(staged(draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, i)));
   return all;
 }
 

@@ -141,7 +141,7 @@ TEST(Generate, ChainsMayHangOnAJointOfTheirOwnPart) {
 }
 
 Stage drawn_stage(std::int64_t index, bool interrupted = true) {
-  Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 11, index);
+  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, index);
   if (!interrupted) spec.interrupts.clear();
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) ADD_FAILURE() << to_line(stage.issue());

@@ -95,7 +95,7 @@ RC_GTEST_PROP(Spec, PrintedSpecsReadBackTheSame, ()) {
 
 TEST(Spec, DrawnSpecsReadBackTheSameAndBuild) {
   for (std::int64_t i = 0; i < 200; ++i) {
-    const Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 7, i);
+    const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 7, i);
     const Result<Spec> back = parse_spec(print_spec(spec));
     ASSERT_TRUE(back.ok()) << i << to_line(back.issue());
     ASSERT_EQ(*back, spec) << i;

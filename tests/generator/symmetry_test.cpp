@@ -32,7 +32,7 @@ void remove(Spec& spec, const std::vector<std::string>& actions) {
 
 // Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is below.
 Spec drawn(std::int64_t index) {
-  Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 21, index);
+  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 21, index);
   remove(spec, {"aim"});
   return spec;
 }

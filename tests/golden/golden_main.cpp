@@ -54,7 +54,7 @@ void print_drawn(int jobs) {
   parallel_for(
       jobs, kCases,
       [&](int worker, int i) {
-        const Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 7, i);
+        const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 7, i);
         const Result<Stage> stage = build_stage(spec, stock_library());
         if (!stage) return;
         const Evaluation evaluation = evaluators[static_cast<std::size_t>(worker)].run(*stage);

@@ -48,6 +48,9 @@ inline constexpr AimSceneRow kAimScenes[] = {
     {"mech_extend_muzzle", "mech", "mech_arm_extend", true, "arm_right", "object:rifle/muzzle"},
     {"human_torso", "human", "", false, "torso", "torso/chest"},
     {"human_head", "human", "", false, "head", "head/face"},
+    {"quadruped_head", "quadruped", "", false, "head", "head/face"},
+    {"quadruped_tail", "quadruped", "", false, "tail", "tail/tip"},
+    {"quadruped_trunk", "quadruped", "", false, "trunk", "trunk/chest"},
 };
 
 inline CharacterChoice aim_choice(const AimSceneRow& row) {

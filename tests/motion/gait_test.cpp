@@ -129,9 +129,7 @@ class Walks : public ::testing::Test {
 };
 
 std::vector<std::string> walkers() {
-  std::vector<std::string> names = {"human", "mech", "reverse"};
-  if (stock_library().characters.contains("quadruped")) names.push_back("quadruped");
-  return names;
+  return {"human", "mech", "reverse", "quadruped"};
 }
 
 // Slide and penetration in all terrains; printed, because the numbers are what a change of the gait is judged by.

@@ -30,7 +30,7 @@ int main() {
   int failures = 0;
   long first_runs = 0;
   for (int i = 0; i < 200; ++i) {
-    const contort::Spec spec = contort::draw_spec({{"human", "mech"}}, library, 3, i);
+    const contort::Spec spec = contort::draw_spec({{"human", "mech", "quadruped"}}, library, 3, i);
     const auto stage = contort::build_stage(spec, library);
     if (!stage) return 1;
     const long before = allocations;
