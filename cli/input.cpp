@@ -23,6 +23,14 @@ Issue in_file(const std::string& path, Issue issue) {
 
 }  // namespace
 
+Result<Library> load_libraries(const std::vector<std::string>& folders) {
+  Library library = stock_library();
+  for (const std::string& folder : folders)
+    if (const Result<Done> loaded = load_folder(folder, library); !loaded) return loaded.issue();
+  if (const Result<Done> fit = check_actions(library); !fit) return fit.issue();
+  return library;
+}
+
 Result<SpecInput> read_spec_input(const std::string& path) {
   const Result<std::string> text = read_file(path, kMaxSpecBytes);
   if (!text) return text.issue();

@@ -6,10 +6,14 @@
 #include <vector>
 
 #include "corpus/case.h"
+#include "generator/character/library.h"
 #include "generator/core/result.h"
 #include "generator/spec.h"
 
 namespace contort::cli {
+
+// The stock library with everything of these folders.
+Result<Library> load_libraries(const std::vector<std::string>& folders);
 
 // A spec, or the spec of a case; told apart by "format".
 struct SpecInput {

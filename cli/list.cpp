@@ -57,25 +57,34 @@ Json param_json(const ParamDef& def) {
           {"optional", def.optional}, {"help", def.help}};
 }
 
-// An action's parameters can depend on the part: shown for the first part of each kind that it works on.
+Json params_json(const std::vector<ParamDef>& defs) {
+  Json params = Json::array();
+  for (const ParamDef& def : defs) params.push_back(param_json(def));
+  return params;
+}
+
+// An action's parameters can depend on the part: shown for each part that can do it. `desc` is nullptr for a built-in
+// action.
+Json list_action(const Library& library, std::string_view name, const ActionDesc* desc) {
+  Json out = {{"name", name}, {"params_on", Json::object()}};
+  for_variants(library, [&](const Character& character) {
+    for (const Part& part : character.parts()) {
+      const std::optional<Action> action = find_action(character, part, name);
+      if (!action || out["params_on"].contains(part.name)) continue;
+      if (desc == nullptr ? action->desc != nullptr : action->desc == nullptr || *action->desc != *desc) continue;
+      out["params_on"][part.name] = params_json(params_of(*action, character, part));
+      out["layer"] = layer_name(action->def->layer);
+      out["timing"] = action->def->timing == Timing::goal ? "goal" : "course";
+      out["help"] = action->help;
+    }
+  });
+  return out;
+}
+
 Json list_actions(const Library& library) {
   Json out = Json::array();
-  for (const ActionDef& action : all_actions()) {
-    Json on = Json::object();
-    for_variants(library, [&](const Character& character) {
-      for (const Part& part : character.parts()) {
-        if (!action.supports(character, part) || on.contains(part.name)) continue;
-        Json params = Json::array();
-        for (const ParamDef& def : action.params(character, part)) params.push_back(param_json(def));
-        on[part.name] = params;
-      }
-    });
-    out.push_back({{"name", action.name},
-                   {"layer", layer_name(action.layer)},
-                   {"timing", action.timing == Timing::goal ? "goal" : "course"},
-                   {"help", action.help},
-                   {"params_on", on}});
-  }
+  for (const ActionDef& action : all_actions()) out.push_back(list_action(library, action.name, nullptr));
+  for (const ActionDesc& desc : library.actions) out.push_back(list_action(library, desc.name, &desc));
   return out;
 }
 
@@ -151,7 +160,8 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
                                                                           {"case", case_schema},
                                                                           {"part", part_schema},
                                                                           {"object", object_schema},
-                                                                          {"character", character_schema}};
+                                                                          {"character", character_schema},
+                                                                          {"action", action_schema}};
   return all;
 }
 

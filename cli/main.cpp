@@ -5,19 +5,16 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/input.h"
 
 namespace contort::cli {
 
 const Library* Context::load_library() {
   if (library != nullptr) return library;
   if (library_folders.empty()) return library = &stock_library();
-  static Library merged = stock_library();
-  for (const std::string& folder : library_folders)
-    if (const Result<Done> loaded = load_folder(folder, merged); !loaded) {
-      fail(loaded.issue());
-      return nullptr;
-    }
-  return library = &merged;
+  static Result<Library> merged = load_libraries(library_folders);
+  if (!merged) return fail(merged.issue()), nullptr;
+  return library = &*merged;
 }
 
 void Context::fail(const Issue& issue, Exit code) {
@@ -31,7 +28,7 @@ int run(int argc, char** argv) {
   CLI::App app("Contort finds the motions that your animation generator should never produce.", "contort");
   Context context;
   app.add_option("--library", context.library_folders,
-                 "Folder with parts, objects and characters (*.json) of your own; may be repeated")
+                 "Folder with parts, objects, characters and actions (*.json) of your own; may be repeated")
       ->type_name("DIR");
   app.require_subcommand(1);
   app.fallthrough();

@@ -57,16 +57,15 @@ int code_of(const Issue& issue) {
 }
 
 int run(const Options& options) {
-  Library library = stock_library();
-  for (const std::string& folder : options.libraries)
-    if (const Result<Done> loaded = load_folder(folder, library); !loaded) return fail(loaded.issue(), kBadInput);
+  const Result<Library> library = load_libraries(options.libraries);
+  if (!library) return fail(library.issue(), kBadInput);
   Result<StripRenderer> renderer = StripRenderer::create();
   if (!renderer) return fail(renderer.issue(), kInternal);
   StripRenderer drawing = std::move(renderer).value();
   int code = kClean;
   for (std::size_t i = 0; i < options.files.size(); i += options.many ? 2 : 1) {
     const Result<StripDone> done =
-        draw(drawing, library, options, options.files[i], options.many ? options.files[i + 1] : options.output);
+        draw(drawing, *library, options, options.files[i], options.many ? options.files[i + 1] : options.output);
     if (!done)
       code = fail(done.issue(), code_of(done.issue()));
     else
@@ -80,7 +79,7 @@ int parse_and_run(int argc, char** argv) {
   Options options;
   app.add_option("FILE", options.files, "Case or spec; with --many: FILE PNG pairs")->required();
   app.add_option("-o,--output", options.output, "The picture");
-  app.add_option("--library", options.libraries, "Folder with parts, objects and characters; may be repeated")
+  app.add_option("--library", options.libraries, "Folder with parts, objects, characters and actions; may be repeated")
       ->expected(1);
   app.add_option("--tiles", options.tiles, "Frames on the strip")->check(CLI::Range(1, 64));
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");

@@ -104,10 +104,9 @@ std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
   std::map<std::string, std::set<std::string>> actions;  // by slot, also of those that move the part from elsewhere
   for_variants(library, [&](const Character& character) {
     for (std::size_t p = 0; p < character.parts().size(); ++p)
-      for (const ActionDef& action : all_actions())
-        if (action.supports(character, character.parts()[p]))
-          for (const int moved : parts_moved(action, character, static_cast<int>(p)))
-            actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+      for (const Action& action : actions_of(character, character.parts()[p]))
+        for (const int moved : parts_moved(*action.def, character, static_cast<int>(p)))
+          actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
   });
   std::set<std::string> pairs;
   for (const auto& [slot, names] : actions)

@@ -21,7 +21,7 @@ std::string_view verdict_name(Verdict verdict);
 struct Replay {
   Verdict verdict = Verdict::refused;
   int first_difference = -1;       // first frame that differs from the stored trace; -1 where none does
-  bool character_changed = false;  // the parts are not what they were when the case was stored
+  bool character_changed = false;  // the parts or their own actions are not what they were when the case was stored
   Expectation now;                 // of the expected family where it is found, else of the first finding
   Issue issue;                     // for `refused`
 };

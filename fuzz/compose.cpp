@@ -128,9 +128,11 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   return draw_uniform(def, values);
 }
 
-void draw_params(const Character& character, const Part& part, const ActionDef& action, Values values, ActionUse& use) {
-  const std::vector<ParamDef> defs = action.params(character, part);
+void draw_params(const Character& character, const Part& part, const Action& action, Values values, ActionUse& use) {
+  const std::vector<ParamDef> defs = params_of(action, character, part);
   for (std::size_t i = 0; i < defs.size(); ++i) {
+    // What makes an action of a file that action is changed in one of four.
+    if (action.desc != nullptr && action.desc->params.contains(defs[i].name) && values.next() < 0.75) continue;
     if (defs[i].optional && values.next() < 0.4) continue;
     use.params[defs[i].name] = draw_param(character, part, i, defs[i], values);
   }
@@ -139,25 +141,22 @@ void draw_params(const Character& character, const Part& part, const ActionDef& 
 std::vector<const Part*> movable_parts(const Character& character) {
   std::vector<const Part*> parts;
   for (const Part& part : character.parts())
-    if (std::any_of(all_actions().begin(), all_actions().end(), [&](const ActionDef& a) { return a.supports(character, part); }))
-      parts.push_back(&part);
+    if (!actions_of(character, part).empty()) parts.push_back(&part);
   return parts;
 }
 
 ActionUse compose_action(const RawAction& raw, const Character& character, const std::vector<const Part*>& parts) {
   const Part& part = *parts[pick(raw.slot, parts.size())];
-  std::vector<const ActionDef*> actions;
-  for (const ActionDef& action : all_actions())
-    if (action.supports(character, part)) actions.push_back(&action);
-  const ActionDef& action = *actions[pick(raw.action, actions.size())];
+  const std::vector<Action> actions = actions_of(character, part);
+  const Action& action = actions[pick(raw.action, actions.size())];
   ActionUse use;
   use.action = action.name;
   use.slot = part.slot;
   use.start_frame = between(raw.start, 0, 40);
   use.duration_frames = between(raw.duration, 6, 90);
   use.speed = speed_of(raw.speed);
-  if (action.timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in);
-  if (action.layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out);
+  if (action.def->timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in);
+  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out);
   draw_params(character, part, action, Values(raw.values), use);
   return use;
 }

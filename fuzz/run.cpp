@@ -24,7 +24,8 @@ struct Outcome {
   bool built = false;
   Spec spec;
   int frames = 0;
-  std::set<std::string> pairs;  // of actions at the same time on one part
+  std::vector<std::string> uses;  // of actions
+  std::set<std::string> pairs;    // of actions at the same time on one part
   std::vector<Case> failures;  // the deepest finding of each family, in order of first appearance
 };
 
@@ -60,6 +61,16 @@ std::vector<Case> failures_of(const Spec& spec, const Stage& stage, const Motion
   return failures;
 }
 
+// "action reach (ik) on arm_left", once for each use.
+std::vector<std::string> uses_of(const Stage& stage) {
+  std::vector<std::string> uses;
+  for (const PlannedAction& action : stage.timeline.actions)
+    if (action.part == action.named)
+      uses.push_back("action " + action.name + " (" + std::string(layer_name(action.def->layer)) + ") on " +
+                     stage.character->parts()[static_cast<std::size_t>(action.part)].slot);
+  return uses;
+}
+
 // "pair pose + reach on arm_left" for actions that move one part at the same time.
 std::set<std::string> pairs_of(const Stage& stage) {
   std::set<std::string> pairs;
@@ -70,8 +81,8 @@ std::set<std::string> pairs_of(const Stage& stage) {
       for (const int b : timeline.of_part[i]) {
         const PlannedAction& x = timeline.actions[static_cast<std::size_t>(a)];
         const PlannedAction& y = timeline.actions[static_cast<std::size_t>(b)];
-        if (a == b || x.def->name > y.def->name || x.first_frame > y.last_frame || y.first_frame > x.last_frame) continue;
-        pairs.insert("pair " + std::string(x.def->name) + " + " + std::string(y.def->name) + " on " + part.slot);
+        if (a == b || x.name > y.name || x.first_frame > y.last_frame || y.first_frame > x.last_frame) continue;
+        pairs.insert("pair " + x.name + " + " + y.name + " on " + part.slot);
       }
   }
   return pairs;
@@ -139,6 +150,7 @@ class Run {
     const Result<Stage> stage = build_stage(outcome.spec, library_);
     if (!stage) return outcome;
     outcome.built = true;
+    outcome.uses = uses_of(*stage);
     outcome.pairs = pairs_of(*stage);
     const Evaluation evaluation = evaluator.run(*stage);
     outcome.frames = evaluation.frame_count;
@@ -154,21 +166,13 @@ class Run {
     if (!outcome.built) ++result_.discarded;
     if (!outcome.failures.empty()) ++totals.failing;
     count_tested(outcome.spec);
+    for (const std::string& use : outcome.uses) ++result_.tested[use];
     for (const std::string& pair : outcome.pairs) ++result_.tested[pair];
     for (Case& failure : outcome.failures) {
       const std::int64_t seen = ++result_.families[family_of(failure)];
       if (seen <= config_.shrinks_per_family) candidates.push_back(std::move(failure));
     }
     totals.families = static_cast<int>(result_.families.size());
-  }
-
-  void count_tested(const SequenceDesc& sequence) {
-    for (const ClipDesc& clip : sequence.clips)
-      for (const ActionUse& use : clip.actions) {
-        const ActionDef* action = find_action(use.action);
-        const std::string layer(action != nullptr ? layer_name(action->layer) : "");
-        ++result_.tested["action " + use.action + " (" + layer + ") on " + use.slot];
-      }
   }
 
   void count_tested(const Spec& spec) {
@@ -178,11 +182,8 @@ class Run {
     static constexpr const char* kGrounds[] = {"plane", "slope", "steps", "heights"};
     ++result_.tested[std::string("ground ") + kGrounds[spec.environment.ground.index()]];
     if (!spec.environment.obstacles.empty()) ++result_.tested["obstacle"];
-    for (const SequenceDesc& sequence : spec.sequences) count_tested(sequence);
-    for (const InterruptDesc& interrupt : spec.interrupts) {
+    for (const InterruptDesc& interrupt : spec.interrupts)
       ++result_.tested["interrupt on " + std::string(event_name(interrupt.when.event))];
-      count_tested(interrupt.sequence);
-    }
   }
 
   // Written to disk first, then confirmed from there, then shrunk, then stored: a kill at any point loses nothing.

@@ -239,7 +239,7 @@ class Generation {
     if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
     const ActionTime time = time_of(action, came, content_frame);
     action.def->rule({character_, part, action.params, s_.world, time, stage_.start, stage_.environment, stage_.legs,
-                      action.aim.get(), action.easy_grip_m, from, frame_, took_over, s_.bodies[static_cast<std::size_t>(action.use)],
+                      action.aim.get(), action.keys.get(), action.easy_grip_m, from, frame_, took_over, s_.bodies[static_cast<std::size_t>(action.use)],
                       s_.feedback[p]},
                      s_.target);
   }

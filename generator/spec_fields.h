@@ -2,6 +2,7 @@
 #pragma once
 
 #include "generator/character/desc.h"
+#include "generator/character/param_fields.h"
 #include "generator/core/json_fields.h"
 #include "generator/spec.h"
 #include "generator/world/environment_fields.h"
@@ -12,31 +13,6 @@ inline const json_fields::Rule kFrames{.low = 0, .high = 36000};
 inline const json_fields::Rule kBlend{.low = 0, .high = 600};
 inline const json_fields::Rule kSpeed{.low = 0.1, .high = 10};
 inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
-
-namespace json_fields {
-
-// A parameter is written plainly: a number, three numbers, or a word. The action's declaration says which is right.
-template <>
-struct Codec<ParamValue> {
-  static void read(const Json& in, const Rule&, ParamValue& out, ReadContext& c) {
-    if (in.is_number())
-      Codec<double>::read(in, Rule{}, out.emplace<double>(), c);
-    else if (in.is_array())
-      Codec<Vec3>::read(in, Rule{}, out.emplace<Vec3>(), c);
-    else if (in.is_string())
-      Codec<std::string>::read(in, Rule{}, out.emplace<std::string>(), c);
-    else
-      c.fail("wrong_type", "found " + kind_of(in) + ", expected a number, three numbers, or a name");
-  }
-  static Json write(const ParamValue& v, const Rule& r) {
-    return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
-  }
-  static Json schema(const Rule& r) {
-    return {{"anyOf", Json::array({Codec<double>::schema(r), Codec<Vec3>::schema(r), Codec<std::string>::schema(r)})}};
-  }
-};
-
-}  // namespace json_fields
 
 template <class V>
 void fields(V& v, const ActionUse*) {

@@ -174,9 +174,14 @@ Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<do
 
 }  // namespace
 
-Result<std::vector<double>> bind_params(const ActionDef& action, const Character& character, const Part& part,
+Result<Done> check_value(const ParamDef& def, const ParamValue& value) {
+  std::vector<double> unused;
+  return append(def, value, unused);
+}
+
+Result<std::vector<double>> bind_params(const Action& action, const Character& character, const Part& part,
                                         const std::map<std::string, ParamValue>& values) {
-  const std::vector<ParamDef> defs = action.params(character, part);
+  const std::vector<ParamDef> defs = params_of(action, character, part);
   for (const auto& value : values)
     if (std::none_of(defs.begin(), defs.end(), [&](const ParamDef& def) { return def.name == value.first; }))
       return param_issue("unknown_param", value.first,

@@ -5,12 +5,14 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "generator/actions/action_use.h"
+#include "generator/actions/key_poses.h"
 #include "generator/character/character.h"
 #include "generator/core/result.h"
 #include "generator/motion/aim_ik.h"
@@ -50,6 +52,15 @@ enum class Domain {
   around,        // a point some metres around the character
 };
 
+// What becomes of a value on the other side of the character. Specs say what they mean; the files of actions are written
+// for the left side, as parts are.
+enum class Mirrored {
+  same,
+  opposite,  // an angle to the left is one to the right
+  point,     // x changes its sign
+  rotation,  // a rotation vector: y and z do
+};
+
 struct ParamDef {
   std::string name;  // ends in its unit: "azimuth_deg", "target_m"
   ParamType type = ParamType::number;
@@ -59,6 +70,7 @@ struct ParamDef {
   std::vector<std::string> choices{};  // of a choice
   bool optional = false;    // no value at all is allowed: the rule sees NaN
   Domain domain = Domain::uniform;
+  Mirrored mirrored = Mirrored::same;
   std::string help;
   bool operator==(const ParamDef&) const = default;
 };
@@ -108,6 +120,7 @@ struct RuleInput {
   const Environment& environment;
   std::span<const Leg> legs;
   const AimPlan* aim;  // of actions with an own_point
+  const KeyPlan* keys;  // of key poses from a file
   Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
   const Posture& from;  // where it took its part over; the part's own coordinates only
   int frame;
@@ -135,8 +148,38 @@ struct ActionDef {
   void (*rule)(const RuleInput&, Posture&);
 };
 
+// The built-in ones.
 std::span<const ActionDef> all_actions();
 const ActionDef* find_action(std::string_view name);  // nullptr where there is none
+
+// What a part can do: a built-in action, or one from a file (action_desc.h), which has a built-in one's rule. Valid as
+// long as the character is.
+struct Action {
+  std::string_view name;
+  std::string_view help;
+  const ActionDef* def = nullptr;
+  const ActionDesc* desc = nullptr;  // where it is from a file
+};
+
+// In the order of the registry, then of the files. Of several with one name the one that is for the part by name is
+// meant, else the one that is for its kind, else the built-in one.
+std::vector<Action> actions_of(const Character& character, const Part& part);
+
+// The action of that name, if the part can do it.
+std::optional<Action> find_action(const Character& character, const Part& part, std::string_view name);
+
+// Built-in ones and those of the character's files.
+bool is_action_name(const Character& character, std::string_view name);
+
+// The parameters on a part that can do it, with the file's values, mirrored on the right side, for presets.
+std::vector<ParamDef> params_of(const Action& action, const Character& character, const Part& part);
+
+ParamValue mirrored(Mirrored how, const ParamValue& value);
+
+// Whether each action of the library's files can be done by each part that it names, and by some part of each kind.
+// Codes action.unknown_action, .unsupported, .unknown_part, .stock_part, .duplicate_name, .fits_nothing, .unknown_param,
+// .wrong_type, .out_of_range, with pointers into the file.
+Result<Done> check_actions(const Library& library);
 
 // The part that carries this one; the root part for itself.
 int carrier_of(const Character& character, int part);
@@ -150,9 +193,12 @@ std::vector<std::string> own_points(const Character& character, const Part& part
 // The parts that one use moves, carriers first.
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);
 
+// Whether a number, vector or choice is allowed. Codes spec.wrong_type, .out_of_range.
+Result<Done> check_value(const ParamDef& def, const ParamValue& value);
+
 // Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range, .unknown_point;
 // pointers relative to the use ("/params/elbow_deg").
-Result<std::vector<double>> bind_params(const ActionDef& action, const Character& character, const Part& part,
+Result<std::vector<double>> bind_params(const Action& action, const Character& character, const Part& part,
                                         const std::map<std::string, ParamValue>& values);
 
 }  // namespace contort

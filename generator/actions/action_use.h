@@ -3,14 +3,10 @@
 
 #include <map>
 #include <string>
-#include <variant>
 
-#include "generator/core/math.h"
+#include "generator/character/action_desc.h"
 
 namespace contort {
-
-// Angles in degrees, lengths in metres, as the parameter's name says.
-using ParamValue = std::variant<double, Vec3, std::string>;
 
 // One registered action on one part. Frames count from the clip's start.
 struct ActionUse {

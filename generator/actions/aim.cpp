@@ -70,6 +70,7 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
   target.low = -1000.0, target.high = 1000.0;
   target.preset = Vec3(0.0, 1.2, 5.0);
   target.domain = Domain::around;
+  target.mirrored = Mirrored::point;
   target.help = "The point, m, from where the character stood at first.";
   return {point, target};
 }

@@ -9,6 +9,7 @@ std::vector<ParamDef> direction_params(const Character&, const Part&) {
   ParamDef azimuth;
   azimuth.name = "azimuth_deg";
   azimuth.low = -180.0, azimuth.high = 180.0;
+  azimuth.mirrored = Mirrored::opposite;
   azimuth.help = "0 is forward, 90 to the character's left.";
   ParamDef elevation;
   elevation.name = "elevation_deg";

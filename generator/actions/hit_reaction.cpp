@@ -11,6 +11,7 @@ std::vector<ParamDef> hit_reaction_params(const Character&, const Part&) {
   ParamDef azimuth;
   azimuth.name = "azimuth_deg";
   azimuth.low = -180.0, azimuth.high = 180.0;
+  azimuth.mirrored = Mirrored::opposite;
   azimuth.help = "Where the blow comes from: 0 is from the front, 90 from the character's left.";
   ParamDef strength;
   strength.name = "strength_deg";

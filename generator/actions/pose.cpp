@@ -25,6 +25,7 @@ ParamDef param_of(const Joint& joint) {
   if (joint.kind == JointKind::ball) {
     def.type = ParamType::vector;
     def.preset = Vec3(0.0);
+    def.mirrored = Mirrored::rotation;
   }
   return def;
 }

@@ -11,11 +11,13 @@ std::vector<ParamDef> reach_params(const Character&, const Part&) {
   target.low = -10.0, target.high = 10.0;
   target.preset = Vec3(0.0, 1.0, 0.5);
   target.domain = Domain::within_reach;
+  target.mirrored = Mirrored::point;
   target.help = "Where the tip goes, m, from the ground under the character.";
   ParamDef swivel;
   swivel.name = "swivel_deg";
   swivel.low = -180.0, swivel.high = 180.0;
   swivel.preset = 0.0;
+  swivel.mirrored = Mirrored::opposite;
   swivel.help = "Turns elbow or knee about the line to the target.";
   return {target, swivel};
 }

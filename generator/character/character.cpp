@@ -242,6 +242,9 @@ class CharacterBuilder {
     out_.mesh_ = std::move(assembly_.mesh);
     out_.sockets_ = std::move(assembly_.sockets);
     out_.coord_count_ = assembly_.coord_count;
+    for (const ActionDesc& action : library_.actions)
+      if (std::any_of(out_.parts_.begin(), out_.parts_.end(), [&](const Part& part) { return is_for(action, part); }))
+        out_.actions_.push_back(action);
     set_rest();
     set_hash();
   }
@@ -277,6 +280,7 @@ class CharacterBuilder {
       add_vec(hash, socket.joint_from_socket.p_m);
     }
     for (const Part& part : out_.parts_) add_chains(hash, part);
+    for (const ActionDesc& action : out_.actions_) hash.add(print_action(action));
     out_.hash_ = hash.value();
   }
 
@@ -301,6 +305,13 @@ int find_named(std::span<const T> items, std::string_view name) {
 }
 
 }  // namespace
+
+bool is_for(const ActionDesc& action, const Part& part) {
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return among(action.parts, part.name) || among(action.kinds, part.kind);
+}
 
 int Character::find_part(std::string_view slot) const {
   for (std::size_t i = 0; i < parts_.size(); ++i)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/character/action_desc.h"
 #include "generator/character/desc.h"
 #include "generator/character/library.h"
 #include "generator/core/result.h"
@@ -143,6 +144,9 @@ class Character {
   // World placement of the root at rest: upright at the origin with the lowest collider point at height 0.
   const Rigid& rest_root() const { return rest_root_; }
 
+  // Actions of files that are for one of the parts, in the library's order.
+  std::span<const ActionDesc> actions() const { return actions_; }
+
   // Over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
 
@@ -165,10 +169,14 @@ class Character {
   std::vector<ColliderPair> judged_colliders_;
   std::vector<JudgedPair> judged_pairs_;
   std::vector<double> rest_coords_;
+  std::vector<ActionDesc> actions_;
   int coord_count_ = 0;
   Rigid rest_root_;
   std::uint64_t hash_ = 0;
 };
+
+// Whether an action's file names the part or its kind.
+bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
 // .unknown_object, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root and those of check_part; pointers

@@ -1,5 +1,6 @@
 // The JSON form of the descriptions: field lists (limits, help), and the readers, writers and schemas made from them.
 #include "generator/character/library.h"
+#include "generator/character/param_fields.h"
 #include "generator/character/shape_fields.h"
 #include "generator/core/json_fields.h"
 
@@ -12,6 +13,8 @@ using json_fields::Text;
 
 constexpr std::string_view kJointTypes[] = {"hinge", "ball", "prismatic"};
 constexpr std::string_view kSides[] = {"center", "left", "right"};
+
+constexpr std::string_view kEases[] = {"smooth", "linear", "step"};
 
 const Rule kUnit{.low = -1, .high = 1};
 const Rule kMass{.low = 0, .high = 1e5};
@@ -157,6 +160,25 @@ void fields(V& v, const CharacterDesc*) {
   v.field("objects", &CharacterDesc::objects, {.max_count = 64}, "Objects that may be attached.");
 }
 
+template <class V>
+void fields(V& v, const KeyPoseDesc*) {
+  v.field("at", &KeyPoseDesc::at, {.low = 0, .high = 1, .required = true}, "Share of the period, above 0.");
+  v.field("ease", &KeyPoseDesc::ease, {.names = kEases}, "Of the way from the key before.");
+  v.field("pose", &KeyPoseDesc::pose, {.max_count = 64, .required = true}, "Angles and travels, as parameters of `pose`.");
+}
+
+template <class V>
+void fields(V& v, const ActionDesc*) {
+  v.constant("format", "contort.action/1");
+  v.field("name", &ActionDesc::name, kName, "What specs call it.");
+  v.field("help", &ActionDesc::help, kHelp, "One sentence for people.");
+  v.field("parts", &ActionDesc::parts, {.max_count = 256}, "Names of the parts that can do it.");
+  v.field("kinds", &ActionDesc::kinds, {.max_count = 64}, "Kinds of parts that can do it.");
+  v.field("keys", &ActionDesc::keys, {.max_count = 64}, "Poses, one after another.");
+  v.field("of", &ActionDesc::of, {.may_be_empty = true}, "Or: a built-in action, with other values.");
+  v.field("params", &ActionDesc::params, {.max_count = 64}, "of: the values where a spec gives none.");
+}
+
 using json_fields::read_document;
 using json_fields::write_pretty;
 using json_fields::write_schema;
@@ -165,12 +187,17 @@ Result<PartDesc> parse_part(std::string_view json) { return read_document<PartDe
 Result<ObjectDesc> parse_object(std::string_view json) { return read_document<ObjectDesc>(json, "object"); }
 Result<CharacterDesc> parse_character(std::string_view json) { return read_document<CharacterDesc>(json, "character"); }
 
+Result<ActionDesc> parse_action(std::string_view json) { return read_document<ActionDesc>(json, "action"); }
+
 std::string print_part(const PartDesc& part) { return write_pretty(part); }
 std::string print_object(const ObjectDesc& object) { return write_pretty(object); }
 std::string print_character(const CharacterDesc& character) { return write_pretty(character); }
 
+std::string print_action(const ActionDesc& action) { return write_pretty(action); }
+
 std::string part_schema() { return write_schema<PartDesc>("Contort part"); }
 std::string object_schema() { return write_schema<ObjectDesc>("Contort object"); }
+std::string action_schema() { return write_schema<ActionDesc>("Contort action"); }
 std::string character_schema() { return write_schema<CharacterDesc>("Contort character"); }
 
 }  // namespace contort

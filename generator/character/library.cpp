@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "generator/character/action_rules.h"
 #include "generator/character/part_rules.h"
 #include "generator/character/stock_files.h"
 #include "generator/core/files.h"
@@ -35,6 +36,17 @@ Result<ObjectDesc> checked(Result<ObjectDesc> object) {
   return object;
 }
 
+Result<Done> insert_action(std::vector<ActionDesc>& into, const Result<ActionDesc>& action) {
+  if (!action) return action.issue();
+  if (const Result<Done> rules = check_action(*action); !rules) return rules.issue();
+  for (const ActionDesc& other : into)
+    if (const std::string same = clash(*action, other); !same.empty())
+      return Issue{"action.duplicate_name", "/name", "\"" + action->name + "\" is there already for " + same};
+  into.push_back(*action);
+  std::ranges::stable_partition(into, [](const ActionDesc& a) { return a.parts.empty(); });
+  return Done{};
+}
+
 // "contort.part/1" of {"format": "contort.part/1", …}; "" where there is none.
 std::string format_of(const json_fields::Json& tree) {
   if (!tree.is_object()) return "";
@@ -49,9 +61,10 @@ Result<Done> add_description(std::string_view text, Library& into) {
   if (format == "contort.part/1") return insert_new(into.parts, checked(parse_part(text)), "part");
   if (format == "contort.object/1") return insert_new(into.objects, checked(parse_object(text)), "object");
   if (format == "contort.character/1") return insert_new(into.characters, parse_character(text), "character");
+  if (format == "contort.action/1") return insert_action(into.actions, parse_action(text));
   return Issue{"library.wrong_format", "/format",
                "found " + json_fields::quoted(format) +
-                   ", allowed are contort.part/1, contort.object/1 and contort.character/1"};
+                   ", allowed are contort.part/1, contort.object/1, contort.character/1 and contort.action/1"};
 }
 
 }  // namespace

@@ -50,16 +50,16 @@ std::string slots_of(const Character& character) {
   return text;
 }
 
-std::string actions_of(const Character& character, const Part& part) {
+std::string names_of(const std::vector<Action>& actions) {
   std::string text;
-  for (const ActionDef& action : all_actions())
-    if (action.supports(character, part)) text += (text.empty() ? "" : ", ") + std::string(action.name);
+  for (const Action& action : actions) text += (text.empty() ? "" : ", ") + std::string(action.name);
   return text.empty() ? "none" : text;
 }
 
-std::string all_action_names() {
+std::string all_action_names(const Character& character) {
   std::string text;
   for (const ActionDef& action : all_actions()) text += (text.empty() ? "" : ", ") + std::string(action.name);
+  for (const ActionDesc& desc : character.actions()) text += ", " + desc.name;
   return text;
 }
 
@@ -132,20 +132,24 @@ class Layout {
   }
 
   Result<Done> resolve(const ActionUse& use, PlannedAction& planned) const {
-    planned.def = find_action(use.action);
-    if (planned.def == nullptr)
-      return Issue{"spec.unknown_action", "/action", "found \"" + use.action + "\", allowed are " + all_action_names()};
+    if (!is_action_name(character_, use.action))
+      return Issue{"spec.unknown_action", "/action",
+                   "found \"" + use.action + "\", allowed are " + all_action_names(character_)};
     planned.named = character_.find_part(use.slot);
     if (planned.named < 0)
       return Issue{"spec.unknown_slot", "/slot", "found \"" + use.slot + "\", allowed are " + slots_of(character_)};
     const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
-    if (!planned.def->supports(character_, part))
-      return Issue{
-          "spec.unsupported_action", "/action",
-          "part " + part.name + " cannot do \"" + use.action + "\", allowed are " + actions_of(character_, part)};
-    Result<std::vector<double>> params = bind_params(*planned.def, character_, part, use.params);
+    const std::optional<Action> action = find_action(character_, part, use.action);
+    if (!action)
+      return Issue{"spec.unsupported_action", "/action",
+                   "part " + part.name + " cannot do \"" + use.action + "\", allowed are " +
+                       names_of(actions_of(character_, part))};
+    planned.def = action->def, planned.name = use.action;
+    Result<std::vector<double>> params = bind_params(*action, character_, part, use.params);
     if (!params) return params.issue();
     planned.params = std::move(params).value();
+    if (planned.def == &key_pose_def())
+      planned.keys = std::make_shared<const KeyPlan>(plan_keys(*action->desc, character_, part));
     if (!part.reach.empty()) planned.easy_grip_m = easy_grip_m(character_, part);
     plan_aim(planned);
     return check_blends(use, *planned.def);
@@ -164,7 +168,7 @@ class Layout {
   }
 
   static Result<Done> check_blends(const ActionUse& use, const ActionDef& def) {
-    const std::string name(def.name);
+    const std::string& name = use.action;
     if (use.blend_in_frames > 0 && def.timing == Timing::goal)
       return Issue{"spec.bad_blend", "/blend_in_frames", "\"" + name + "\" blends in over its whole period, allowed is 0"};
     if (use.blend_out_frames > 0 && def.layer == Layer::overwrite)

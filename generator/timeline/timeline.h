@@ -21,6 +21,7 @@ struct PlannedAction {
   int action = 0;
   int use = 0;  // numbers the uses of actions: equal where one use moves several parts
   const ActionDef* def = nullptr;
+  std::string name;  // that the spec uses
   int part = 0;   // that it moves
   int named = 0;  // that the spec names
   double start = 0.0;
@@ -32,7 +33,8 @@ struct PlannedAction {
   double blend_in = 0.0;  // frames
   double blend_out = 0.0;
   std::vector<double> params;
-  std::shared_ptr<const AimPlan> aim;  // where it has an own_point
+  std::shared_ptr<const AimPlan> aim;   // where it has an own_point
+  std::shared_ptr<const KeyPlan> keys;  // of key poses
   Vec3 easy_grip_m{0.0};  // of the named part, if it is an arm: in the character's frame
 };
 

@@ -107,6 +107,36 @@ TEST_F(Folder, DescriptionsAreToldApartByTheirFormat) {
   EXPECT_EQ(library.parts.size() + library.objects.size() + library.characters.size(), 3U);
 }
 
+// What one file must satisfy by itself; the rest needs parts (tests/generator/own_actions_test.cpp).
+TEST_F(Folder, ActionsAreCheckedOnTheWayIn) {
+  const std::pair<const char*, const char*> expected[] = {
+      {R"("keys": [{"at": 1, "pose": {"elbow_deg": 1}}])", "action.no_part"},
+      {R"("kinds": ["arm"], "parts": ["x"], "of": "pose")", "action.no_part"},
+      {R"("kinds": ["arm"])", "action.no_rule"},
+      {R"("kinds": ["arm"], "of": "pose", "keys": [{"at": 1, "pose": {"elbow_deg": 1}}])", "action.two_rules"},
+      {R"("kinds": ["arm"], "params": {"x": 1}, "keys": [{"at": 1, "pose": {"elbow_deg": 1}}])", "action.bad_params"},
+      {R"("kinds": ["arm"], "keys": [{"at": 0, "pose": {"elbow_deg": 1}}])", "action.bad_key"},
+      {R"("kinds": ["arm"], "keys": [{"at": 0.5, "pose": {"a": 1}}, {"at": 0.5, "pose": {"a": 1}}])", "action.bad_key"},
+      {R"("kinds": ["arm"], "keys": [{"at": 1, "pose": {}}])", "action.bad_key"},
+  };
+  for (const auto& [rest, code] : expected) {
+    put("a.json", std::string(R"({"format": "contort.action/1", "name": "x", )") + rest + "}");
+    EXPECT_EQ(refusal().code, code) << rest;
+  }
+}
+
+TEST_F(Folder, ActionsOfOneNameAreForDifferentParts) {
+  const auto action = [](const char* scope) {
+    return std::string(R"({"format": "contort.action/1", "name": "x", "of": "pose", )") + scope + "}";
+  };
+  put("a.json", action(R"("parts": ["p", "q"])"));
+  put("b.json", action(R"("kinds": ["arm"])"));
+  EXPECT_EQ(refusal().code, "");
+  put("c.json", action(R"("parts": ["r", "q"])"));
+  EXPECT_EQ(refusal().code, "action.duplicate_name");
+  EXPECT_NE(refusal().text.find("for q"), std::string::npos);
+}
+
 TEST_F(Folder, TroubleNamesTheFile) {
   put("bad.json", R"({"format": "contort.part/1", "name": "x", "kind": "arm", "colour": 1})");
   EXPECT_EQ(refusal().code, "part.unknown_field");

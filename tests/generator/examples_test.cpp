@@ -19,12 +19,12 @@ std::set<fs::path> json_files(const std::string& folder) {
   return files;
 }
 
-Result<Stage> stage_of_file(const fs::path& path) {
+Result<Stage> stage_of_file(const fs::path& path, const Library& library = stock_library()) {
   const Result<std::string> text = read_file(path.string());
   if (!text) return text.issue();
   const Result<Spec> spec = parse_spec(*text);
   if (!spec) return spec.issue();
-  return build_stage(*spec, stock_library());
+  return build_stage(*spec, library);
 }
 
 TEST(Examples, AllOfThemMove) {
@@ -51,6 +51,21 @@ TEST(Examples, AllActionsHaveOne) {
     for (const PlannedAction& action : stage->timeline.actions) seen.insert(std::string(action.def->name));
   }
   for (const ActionDef& action : all_actions()) EXPECT_TRUE(seen.contains(std::string(action.name))) << action.name;
+}
+
+TEST(Examples, ActionsOfAUsersOwnPlay) {
+  Library library = stock_library();
+  const std::string folder = CONTORT_SOURCE_DIR "/docs/examples/own_actions";
+  ASSERT_TRUE(load_folder(folder, library).ok());
+  ASSERT_TRUE(check_actions(library).ok());
+  std::set<std::string> seen;
+  for (const fs::path& path : json_files("docs/examples/with_own_actions")) {
+    const Result<Stage> stage = stage_of_file(path, library);
+    ASSERT_TRUE(stage.ok()) << path << to_line(stage.issue());
+    for (const PlannedAction& action : stage->timeline.actions) seen.insert(action.name);
+    EXPECT_GT(generate(*stage).frame_count, 1);
+  }
+  for (const ActionDesc& action : library.actions) EXPECT_TRUE(seen.contains(action.name)) << action.name;
 }
 
 TEST(Examples, BadOnesFailWithTheCodeThatIsTheirName) {

@@ -27,6 +27,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("part"), part_schema());
   EXPECT_EQ(published("object"), object_schema());
   EXPECT_EQ(published("character"), character_schema());
+  EXPECT_EQ(published("action"), action_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.

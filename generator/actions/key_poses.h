@@ -1,0 +1,33 @@
+// Key poses of an action file: each joint goes from where the action found it through the keys that name it.
+#pragma once
+
+#include <vector>
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+struct ActionDef;
+
+// The keys as they are for one part.
+struct KeyPlan {
+  struct Node {
+    double at = 1.0;  // share of the period
+    KeyEase ease = KeyEase::smooth;
+    double value = 0.0;          // hinge: rad, prismatic: m
+    Quat turn = kNoRotation;     // ball
+  };
+  struct Path {
+    int joint = 0;
+    std::vector<Node> nodes;  // in the order of `at`
+  };
+  std::vector<Path> paths;
+};
+
+// The rule of all of them: overwrite, a course, the part alone, no parameters.
+const ActionDef& key_pose_def();
+
+// For a part that can do the action (find_action).
+KeyPlan plan_keys(const ActionDesc& action, const Character& character, const Part& part);
+
+}  // namespace contort
