@@ -253,11 +253,14 @@ AimResult aim(const Character& character, const AimChain& chain, const AimTable&
   const Joint& first = character.joints()[static_cast<std::size_t>(chain.joints.front())];
   const Rigid& world_from_base = world[static_cast<std::size_t>(first.parent)];
   const Vec3 direction = direction_in_base(table, world_from_base, target);
-  std::array<double, kMaxAimCoords> start{};
-  table.interpolated(direction, start);
-  trials.start_from(start);
+  std::array<double, kMaxAimCoords> start{};  // at first where the chain is
+  keep_posture(character, chain, row, start);
   std::array<AimHit, kCandidates> hits;
-  trials.start_from(table, std::span(hits).first(static_cast<std::size_t>(table.nearest(direction, hits))));
+  const std::span<AimHit> near = std::span(hits).first(static_cast<std::size_t>(table.nearest(direction, hits)));
+  table.prefer(start, near);
+  table.interpolated(direction, near, start);
+  trials.start_from(start);
+  trials.start_from(table, near);
   if (target.kind == AimTarget::Kind::point && !trials.reached()) {
     const int found = table.nearest_to_point(inverse(world_from_base) * target.world, hits);
     trials.start_from(table, std::span(hits).first(static_cast<std::size_t>(found)));

@@ -30,7 +30,7 @@ struct AimResult {
 
 // From the present posture, the entry for every frame after the first. No turn about an axis is more than twice the
 // error that is left, so a target that moves a little moves the joints a little. It may get stuck at limits where
-// another posture would reach (0 to 10 frames of 3,000 in the tests): then `reached` is false, and aim() finds the
+// another posture would reach (0 to 25 frames of 3,000 in the tests): then `reached` is false, and aim() finds the
 // other posture, to which the caller blends. Joints that are out of range on entry are brought into it; that may be a
 // jump.
 AimResult continue_aim(const Character& character, const AimChain& chain, std::span<Rigid> world,

@@ -19,10 +19,13 @@ constexpr double kDifferent_rad = 20.0 * kRadPerDeg;
 // Postures within this in every joint can be averaged: the way between them stays where they point.
 constexpr double kNear_rad = 45.0 * kRadPerDeg;
 
+// A joint this far inside its range, as a share of the way from limit to middle, has room enough.
+constexpr double kRoom = 0.25;
+
 struct State {
   int cell = 0;
-  double least_margin = 0.0;  // of the joint that is nearest to its limit
-  double mean_margin = 0.0;
+  double room = 0.0;       // of the joint that is nearest to its limit, up to kRoom
+  double from_rest = 0.0;  // squared angles of all joints
   int number = 0;
 };
 
@@ -37,22 +40,28 @@ void state_coords(const AimGeometry& geometry, const AimSteps& steps, int number
   }
 }
 
+double from_rest_rad(const Joint& joint, const double* q) {
+  return joint.kind == JointKind::ball ? rotation_angle(Quat(q[0], q[1], q[2], q[3])) : q[0];
+}
+
 State judged(const AimGeometry& geometry, int number, std::span<const double> coords) {
-  State state{aim_cell(base_from_socket(geometry, coords).q * Vec3(0, 0, 1)), 1.0, 0.0, number};
+  State state{aim_cell(base_from_socket(geometry, coords).q * Vec3(0, 0, 1)), kRoom, 0.0, number};
   for (const Joint& joint : geometry.joints) {
     if (joint.kind == JointKind::prismatic) continue;
-    const double margin = normalised_margin(joint, coords.data() + joint.coord);
-    state.least_margin = std::min(state.least_margin, margin);
-    state.mean_margin += margin / static_cast<double>(geometry.joints.size());
+    const double* q = coords.data() + joint.coord;
+    state.room = std::min(state.room, normalised_margin(joint, q));
+    const double turned_rad = from_rest_rad(joint, q);
+    state.from_rest += turned_rad * turned_rad;
   }
   return state;
 }
 
-// Best of a cell first. Numbers differ, so the order is total.
+// Best of a cell first. Numbers differ, so the order is total. Not simply the farthest from the limits: the middle of a
+// shoulder's range is an arm held up sideways, and a rifle would be aimed from above the head.
 bool before(const State& a, const State& b) {
   if (a.cell != b.cell) return a.cell < b.cell;
-  if (a.least_margin != b.least_margin) return a.least_margin > b.least_margin;
-  if (a.mean_margin != b.mean_margin) return a.mean_margin > b.mean_margin;
+  if (a.room != b.room) return a.room > b.room;
+  if (a.from_rest != b.from_rest) return a.from_rest < b.from_rest;
   return a.number < b.number;
 }
 
@@ -259,12 +268,14 @@ int AimTable::nearest_to_point(const Vec3& target_m, std::span<AimHit> hits) con
 
 void AimTable::interpolated(const Vec3& direction, std::span<double> coords) const {
   std::array<AimHit, 8> hits;
-  const int found = nearest(direction, hits);
+  interpolated(direction, std::span(hits).first(static_cast<std::size_t>(nearest(direction, hits))), coords);
+}
+
+void AimTable::interpolated(const Vec3& direction, std::span<const AimHit> hits, std::span<double> coords) const {
   const std::span<const double> anchor = this->coords(hits[0].posture);
   std::array<double, kMaxAimCoords> sum{};
   double weights = 0.0;
-  for (int i = 0; i < found; ++i) {
-    const AimHit& hit = hits[static_cast<std::size_t>(i)];
+  for (const AimHit& hit : hits) {
     const std::span<const double> near = this->coords(hit.posture);
     if (posture_difference_rad(geometry_, anchor, near) > kNear_rad) continue;
     const double weight = 1.0 / (hit.chord + 1e-6);  // 1e-6: a milliradian, so that an exact hit takes nearly all
@@ -276,6 +287,16 @@ void AimTable::interpolated(const Vec3& direction, std::span<double> coords) con
   const Vec3 facing = base_from_socket(geometry_, mean).q * Vec3(0, 0, 1);
   const bool nearer = squared(facing - direction) < hits[0].chord;
   for (std::size_t i = 0; i < anchor.size(); ++i) coords[i] = nearer ? mean[i] : anchor[i];
+}
+
+void AimTable::prefer(std::span<const double> present, std::span<AimHit> hits) const {
+  std::array<std::pair<double, AimHit>, 32> ranked;
+  CONTORT_ASSERT(hits.size() <= ranked.size());
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    ranked[i] = {posture_difference_rad(geometry_, present, coords(hits[i].posture)), hits[i]};
+  std::stable_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(hits.size()),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = ranked[i].second;
 }
 
 }  // namespace contort

@@ -2,7 +2,7 @@
 // through their ranges (aim_states.h), once per geometry; immutable, so that threads may share it. docs/aim.md.
 //
 // Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell
-// postures: those farthest from their joint limits that differ from one another. A table therefore holds at most
+// postures that differ from one another: of those with some room to their joint limits the ones nearest to rest. A table therefore holds at most
 // 1,944 * per_cell postures of coord_count + 6 doubles: 0.9 MB for an arm of 8 coordinates with 4 postures per cell.
 #pragma once
 
@@ -54,9 +54,15 @@ class AimTable {
   // own point to the target. Looks at every posture. For targets so near that the aim point's place decides.
   int nearest_to_point(const Vec3& target_m, std::span<AimHit> hits) const;
 
+  // Puts those hits first whose postures are nearest to a present one (coords of the chain) in their worst joint.
+  void prefer(std::span<const double> present, std::span<AimHit> hits) const;
+
   // A posture between several near ones: hinges by weighted mean, balls by normalised quaternion sum, over those that
-  // are within 45 degrees of the nearest one in every joint. Writes coords of the chain, within ranges; where the mean
-  // does not point nearer to the direction than the nearest posture, that one. Never allocates.
+  // are within 45 degrees of the first one in every joint. Writes coords of the chain, within ranges; where the mean
+  // does not point nearer to the direction than the first one, that one. Never allocates.
+  void interpolated(const Vec3& direction, std::span<const AimHit> hits, std::span<double> coords) const;
+
+  // Of the eight nearest.
   void interpolated(const Vec3& direction, std::span<double> coords) const;
 
  private:
