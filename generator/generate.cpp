@@ -13,6 +13,8 @@ namespace {
 
 using Hold = GenerateScratch::Hold;
 
+constexpr double kCutFade_s = 0.15;  // of an additive that an interrupt cuts
+
 class Generation {
  public:
   Generation(const Stage& stage, GenerateScratch& scratch, Motion& motion)
@@ -258,16 +260,32 @@ class Generation {
     blend_part(character_, p, s_.base, s_.plain, not_blended_out(planned(hold), content(hold)), s_.plain);
   }
 
+  // An additive that is cut would be gone from one frame to the next: it runs on while it fades, and fades in again where
+  // it goes on.
   void add_additives(std::size_t p) {
-    for_moving(p, Layer::additive, [&](int run, int a) {
-      const PlannedAction& action = timeline_.actions[static_cast<std::size_t>(a)];
-      const int now = content(s_.queue.history()[static_cast<std::size_t>(run)], frame_);
-      mark_additive(a, action);
-      copy_part(character_, p, s_.shown, s_.target);
-      apply(action, p, s_.shown, action.start, frame_, now);
-      const double weight = blended_in(action, action.start, now) * not_blended_out(action, now);
-      blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
-    });
+    const int fade = std::max(1, static_cast<int>(kCutFade_s * stage_.rate_hz));
+    const std::span<const QueueSpan> history = s_.queue.history();
+    std::size_t first = history.size();
+    while (first > 0 && history[first - 1].last_frame >= frame_ - fade) --first;
+    for (std::size_t r = first; r < history.size(); ++r)
+      for (const int a : timeline_.of_part[static_cast<std::size_t>(history[r].sequence) * character_.parts().size() + p])
+        if (timeline_.actions[static_cast<std::size_t>(a)].def->layer == Layer::additive)
+          add(p, a, history[r], fade);
+  }
+
+  void add(std::size_t p, int index, const QueueSpan& run, int fade) {
+    const PlannedAction& action = timeline_.actions[static_cast<std::size_t>(index)];
+    const int now = content(run, frame_);
+    const bool over = frame_ > run.last_frame && content(run, run.last_frame) >= action.last_frame;
+    const bool begun = content(run, std::min(frame_, run.last_frame)) >= action.first_frame;
+    if (over || !begun || now > action.last_frame) return;
+    double weight = blended_in(action, action.start, now) * not_blended_out(action, now);
+    if (frame_ > run.last_frame) weight *= 1.0 - ease(static_cast<double>(frame_ - run.last_frame) / fade);
+    if (run.first_content > action.first_frame) weight *= ease(static_cast<double>(frame_ - run.first_frame) / fade);
+    mark_additive(index, action);
+    copy_part(character_, p, s_.shown, s_.target);
+    apply(action, p, s_.shown, action.start, frame_, now);
+    blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
   }
 
   // One span for as long as it adds without a break.

@@ -233,6 +233,26 @@ TEST(Interrupts, DropTheRestIfTheyAreToldTo) {
   EXPECT_EQ(elbow_at(motion, 30), 10 * kDeg);
 }
 
+// A blow on the torso, cut at its height: 40 degrees that would be gone in one frame. What remains in the end is nothing.
+TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
+  const std::vector<ActionUse> blow = {
+      use("hit_reaction", "torso", 0, 60, {{"strength_deg", 40.0}, {"azimuth_deg", 0.0}})};
+  for (const bool resume : {false, true}) {
+    InterruptDesc by = interrupt(10, {elbow(0, 30, 50)});
+    by.resume = resume;
+    const Motion cut = play_interrupted(blow, by);
+    double least = 0.0, fastest = 0.0, last = 0.0;
+    for (int f = 0; f < cut.frame_count; ++f) {
+      const double now = coord(cut, f, human(), "torso/lumbar_flex");
+      fastest = std::max(fastest, std::fabs(now - last));
+      least = std::min(least, now), last = now;
+    }
+    EXPECT_LT(least, -8 * kDeg) << resume;     // it was in full swing
+    EXPECT_LT(fastest, 4 * kDeg) << resume;    // 2.8; it was 12.6 when it was gone at once
+    EXPECT_NEAR(last, 0.0, 1e-9) << resume;    // and leaves nothing
+  }
+}
+
 TEST(Interrupts, ThatNeverFireChangeNothing) {
   const Motion with = play_interrupted({elbow(0, 40, 90)}, interrupt(400, {elbow(0, 10, 10)}));
   EXPECT_EQ(motion_hash(with), motion_hash(play({elbow(0, 40, 90)})));
