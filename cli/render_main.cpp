@@ -40,8 +40,10 @@ Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Op
   const Evaluation evaluation = evaluator.run(*stage);
   StripInput strip{*stage->character, evaluator.motion()};
   strip.finding = subject_of(*input, evaluation.findings);
-  strip.replay_command = input->stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
+  strip.replay_command =
+      input->stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
+  strip.environment = &stage->environment;
   return renderer.render(strip, png);
 }
 

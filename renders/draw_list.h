@@ -15,7 +15,7 @@
 namespace contort {
 
 struct DrawInstance {
-  int mesh = 0;           // Index into the triangles of the figure.
+  int mesh = 0;           // Index into the triangles of the figure and the scenery.
   Rigid world_from_mesh;  // Finite, within kWorldReach_m.
   Vec3 color{0.7};        // Linear RGB, each in [0, 1].
   int highlight =
@@ -26,9 +26,16 @@ struct DrawInstance {
 // Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
 inline constexpr double kWorldReach_m = 1e4;
 
+// What stands around the figure. It does not count for framing, and nothing of it hides the figure.
+struct Scenery {
+  std::vector<DrawInstance> ground;  // Empty: a level plane.
+  double level_m = 0.0;              // The height of that plane.
+  std::vector<DrawInstance> obstacles;
+};
+
 struct DrawList {
   std::vector<DrawInstance> instances;
-  double ground_height_m = 0.0;
+  Scenery scenery;
   bool complete = true;  // false: something had a place that is not finite and was left out.
 };
 
@@ -56,7 +63,8 @@ enum class Look { solid, ghost };
 // Appends the figure in the pose `world` (world_from_joint, one per joint).
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look = Look::solid);
 
-// Corners of the boxes around all instances, for framing; highlighted joints' markers and translucent pieces too.
+// Corners of the boxes around all instances, for framing, without the scenery; highlighted joints' markers and
+// translucent pieces too.
 std::vector<Vec3> outline(const DrawList& list, std::span<const Triangles> meshes);
 
 }  // namespace contort

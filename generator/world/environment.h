@@ -31,6 +31,9 @@ class Environment {
   // obstacle = -1 and an infinite distance where there are none.
   Surface nearest_obstacle(const Vec3& point_m) const;
 
+  // The parts of its description, in its own frame.
+  const Rigid& world_from_environment() const { return world_from_environment_; }
+  const Ground& ground() const { return ground_; }
   std::span<const ObstacleDesc> obstacles() const { return obstacles_; }
   int find_obstacle(std::string_view name) const;  // -1 where there is none
 

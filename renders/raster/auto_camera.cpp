@@ -19,6 +19,10 @@ int score(const std::vector<int>& visible) {
 
 // A view from the front is understood sooner; it may cost this much of what could be seen.
 constexpr double kGoodEnough = 0.9;
+constexpr double kGoodEnoughOnShapedGround = 0.6;  // So may one that shows the ground's shape, more dearly.
+
+// Scenery is translucent, so what is behind it counts, but not as much.
+constexpr int kPastScenery = 2;
 
 struct Probe {
   View view;
@@ -26,30 +30,48 @@ struct Probe {
   int visible_pixels = 0;
 };
 
-Result<std::vector<Probe>> probe_all(Renderer& renderer, const DrawList& list, std::span<const Vec3> points) {
+bool is_open(const DrawList& list) { return list.scenery.ground.empty() && list.scenery.obstacles.empty(); }
+
+Result<std::vector<Probe>> probe_all(Renderer& renderer, const DrawList& list, std::span<const Vec3> points,
+                                     std::span<const View> views) {
+  const bool open = is_open(list);
+  DrawList bare = list;
+  bare.scenery = {};
   std::vector<Probe> probes;
-  for (const View& view : probe_views()) {
+  for (const View& view : views) {
     const Camera camera = frame_points(points, view, static_cast<double>(kWidth) / kHeight);
-    const Result<std::vector<int>> visible = renderer.count_visible(list, camera, kWidth, kHeight);
+    const Result<std::vector<int>> visible = renderer.count_visible(bare, camera, kWidth, kHeight);
     if (!visible) return visible.issue();
-    probes.push_back({view, score(*visible), std::accumulate(visible->begin(), visible->end(), 0)});
+    const Result<std::vector<int>> unobstructed =
+        open ? visible : renderer.count_visible(list, camera, kWidth, kHeight);
+    if (!unobstructed) return unobstructed.issue();
+    probes.push_back({view, score(*visible) + kPastScenery * score(*unobstructed),
+                      std::accumulate(visible->begin(), visible->end(), 0)});
   }
   return probes;
 }
 
+DrawList whole_figure_highlighted(DrawList list) {
+  for (DrawInstance& instance : list.instances) instance.highlight = instance.ghost ? 0 : 1;
+  return list;
+}
+
 }  // namespace
 
-Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes) {
+Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes,
+                             std::span<const View> views) {
   const bool any = std::any_of(list.instances.begin(), list.instances.end(),
                                [](const DrawInstance& instance) { return instance.highlight > 0; });
-  if (!any) return ProbedView{probe_views().front(), 0};
-  const Result<std::vector<Probe>> probes = probe_all(renderer, list, outline(list, meshes));
+  if (!any && is_open(list)) return ProbedView{views.front(), 0};
+  const Result<std::vector<Probe>> probes =
+      probe_all(renderer, any ? list : whole_figure_highlighted(list), outline(list, meshes), views);
   if (!probes) return probes.issue();
   const auto less = [](const Probe& a, const Probe& b) { return a.score < b.score; };
   const int best = std::max_element(probes->begin(), probes->end(), less)->score;
-  const auto chosen = std::find_if(probes->begin(), probes->end(),
-                                   [&](const Probe& probe) { return probe.score >= kGoodEnough * best; });
-  return ProbedView{chosen->view, chosen->visible_pixels};
+  const double enough = list.scenery.ground.empty() ? kGoodEnough : kGoodEnoughOnShapedGround;
+  const auto chosen =
+      std::find_if(probes->begin(), probes->end(), [&](const Probe& probe) { return probe.score >= enough * best; });
+  return ProbedView{chosen->view, any ? chosen->visible_pixels : 0};
 }
 
 }  // namespace contort

@@ -10,8 +10,10 @@ struct ProbedView {
   int visible_pixels = 0;  // of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
 };
 
-// Looks at the frame from 12 sides. Takes the first in the order of probe_views() from which the least visible
-// highlight group shows about as well as from anywhere. Without highlight: the first of all.
-Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes);
+// Looks at the frame from each of the views. Takes the first from which the least visible highlight group shows about
+// as well as from anywhere; a view past the scenery is better than one through it. Without highlight the same for the
+// whole figure, and where there is no scenery, the first of all.
+Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes,
+                             std::span<const View> views);
 
 }  // namespace contort

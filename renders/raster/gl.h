@@ -15,6 +15,7 @@ namespace contort {
   X(BindBuffer, BINDBUFFER, void, (unsigned target, unsigned buffer))                                                  \
   X(BindFramebuffer, BINDFRAMEBUFFER, void, (unsigned target, unsigned framebuffer))                                   \
   X(BindRenderbuffer, BINDRENDERBUFFER, void, (unsigned target, unsigned renderbuffer))                                \
+  X(BindTexture, BINDTEXTURE, void, (unsigned target, unsigned texture))                                               \
   X(BindVertexArray, BINDVERTEXARRAY, void, (unsigned array))                                                          \
   X(BlendFunc, BLENDFUNC, void, (unsigned source, unsigned destination))                                               \
   X(BufferData, BUFFERDATA, void, (unsigned target, std::ptrdiff_t size, const void* data, unsigned usage))            \
@@ -29,18 +30,23 @@ namespace contort {
   X(DeleteProgram, DELETEPROGRAM, void, (unsigned program))                                                            \
   X(DeleteRenderbuffers, DELETERENDERBUFFERS, void, (int n, const unsigned* renderbuffers))                            \
   X(DeleteShader, DELETESHADER, void, (unsigned shader))                                                               \
+  X(DeleteTextures, DELETETEXTURES, void, (int n, const unsigned* textures))                                           \
   X(DeleteVertexArrays, DELETEVERTEXARRAYS, void, (int n, const unsigned* arrays))                                     \
   X(DepthFunc, DEPTHFUNC, void, (unsigned function))                                                                   \
   X(DepthMask, DEPTHMASK, void, (unsigned char flag))                                                                  \
   X(Disable, DISABLE, void, (unsigned capability))                                                                     \
   X(DrawArrays, DRAWARRAYS, void, (unsigned mode, int first, int count))                                               \
+  X(DrawBuffer, DRAWBUFFER, void, (unsigned buffer))                                                                   \
   X(Enable, ENABLE, void, (unsigned capability))                                                                       \
   X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY, void, (unsigned index))                                          \
   X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER, void,                                                            \
     (unsigned target, unsigned attachment, unsigned renderbuffer_target, unsigned renderbuffer))                       \
+  X(FramebufferTexture2D, FRAMEBUFFERTEXTURE2D, void,                                                                  \
+    (unsigned target, unsigned attachment, unsigned texture_target, unsigned texture, int level))                      \
   X(GenBuffers, GENBUFFERS, void, (int n, unsigned* buffers))                                                          \
   X(GenFramebuffers, GENFRAMEBUFFERS, void, (int n, unsigned* framebuffers))                                           \
   X(GenRenderbuffers, GENRENDERBUFFERS, void, (int n, unsigned* renderbuffers))                                        \
+  X(GenTextures, GENTEXTURES, void, (int n, unsigned* textures))                                                       \
   X(GenVertexArrays, GENVERTEXARRAYS, void, (int n, unsigned* arrays))                                                 \
   X(GetError, GETERROR, unsigned, ())                                                                                  \
   X(GetIntegerv, GETINTEGERV, void, (unsigned name, int* data))                                                        \
@@ -51,11 +57,16 @@ namespace contort {
   X(GetString, GETSTRING, const unsigned char*, (unsigned name))                                                       \
   X(GetUniformLocation, GETUNIFORMLOCATION, int, (unsigned program, const char* name))                                 \
   X(LinkProgram, LINKPROGRAM, void, (unsigned program))                                                                \
+  X(ReadBuffer, READBUFFER, void, (unsigned buffer))                                                                   \
   X(ReadPixels, READPIXELS, void, (int x, int y, int width, int height, unsigned format, unsigned type, void* pixels)) \
   X(RenderbufferStorage, RENDERBUFFERSTORAGE, void, (unsigned target, unsigned format, int width, int height))         \
   X(ShaderSource, SHADERSOURCE, void, (unsigned shader, int count, const char* const* strings, const int* lengths))    \
   X(StencilFunc, STENCILFUNC, void, (unsigned function, int reference, unsigned mask))                                 \
   X(StencilOp, STENCILOP, void, (unsigned stencil_fail, unsigned depth_fail, unsigned pass))                           \
+  X(TexImage2D, TEXIMAGE2D, void,                                                                                      \
+    (unsigned target, int level, int inner_format, int width, int height, int border, unsigned format, unsigned type,  \
+     const void* pixels))                                                                                              \
+  X(TexParameteri, TEXPARAMETERI, void, (unsigned target, unsigned name, int value))                                   \
   X(Uniform1f, UNIFORM1F, void, (int location, float x))                                                               \
   X(Uniform3f, UNIFORM3F, void, (int location, float x, float y, float z))                                             \
   X(Uniform4f, UNIFORM4F, void, (int location, float x, float y, float z, float w))                                    \

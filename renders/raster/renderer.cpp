@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kOversampling = 2;  // See halve_and_flip.
 constexpr float kGhostAlpha = 0.42f;
+constexpr float kObstacleAlpha = 0.42f;     // A figure behind two walls stays clear.
+constexpr float kShapedGroundAlpha = 0.6f;  // More hides feet behind a rise, less hides the rise.
 constexpr float kShineThroughAlpha = 0.4f;  // More looks as if nothing were in front.
 constexpr float kShadowAlpha = 0.20f;
 
@@ -57,9 +59,11 @@ struct Renderer::Eye {
         center_m(camera.center_m),
         at(camera.eye_m - camera.center_m),
         // From above the camera's left shoulder: all strips are lit alike, and shadows fall away from the viewer.
-        to_light(unit_or(1.1 * Vec3(0, 1, 0) + 0.65 * camera.back - 0.55 * camera.right, Vec3(0, 1, 0))) {}
+        to_light(unit_or(1.1 * Vec3(0, 1, 0) + 0.65 * camera.back - 0.55 * camera.right, Vec3(0, 1, 0))),
+        light_from_world(light_matrix(camera, static_cast<double>(width) / height, to_light)) {}
   glm::mat4 clip_from_world;
   Vec3 center_m, at, to_light;
+  glm::mat4 light_from_world;
 };
 
 struct Renderer::Paint {
@@ -84,7 +88,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<GlBackend> ba
 
 Renderer::~Renderer() {
   if (!gl_.DeleteProgram || !backend_->make_current()) return;
-  for (const unsigned program : {solid_, background_, ground_})
+  for (const unsigned program : {solid_, background_, ground_, shaped_ground_})
     if (program) gl_.DeleteProgram(program);
   if (vertex_array_) gl_.DeleteVertexArrays(1, &vertex_array_);
   if (no_vertices_) gl_.DeleteVertexArrays(1, &no_vertices_);
@@ -97,7 +101,8 @@ Result<Done> Renderer::set_up() {
     const char *vertex, *fragment;
   } programs[] = {{solid_, shaders::kSolidVertex, shaders::kSolidFragment},
                   {background_, shaders::kBackgroundVertex, shaders::kBackgroundFragment},
-                  {ground_, shaders::kGroundVertex, shaders::kGroundFragment}};
+                  {ground_, shaders::kGroundVertex, shaders::kGroundFragment},
+                  {shaped_ground_, shaders::kSolidVertex, shaders::kGroundFragment}};
   for (const auto& p : programs) {
     const Result<unsigned> made = make_program(gl_, p.vertex, p.fragment);
     if (!made) return made.issue();
@@ -151,8 +156,9 @@ void Renderer::set_meshes(std::span<const Triangles> meshes) {
 Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int width, int height) {
   backend_->make_current();
   const int wide = width * kOversampling, high = height * kOversampling;
-  if (Result<Done> ready = target_.use(wide, high); !ready) return ready.issue();
   const Eye eye(camera, width, height);
+  if (Result<Done> ready = draw_shadow_map(list, eye); !ready) return ready.issue();
+  if (Result<Done> ready = target_.use(wide, high); !ready) return ready.issue();
   gl_.Clear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   draw_background();
   gl_.Enable(GL_DEPTH_TEST);
@@ -164,8 +170,8 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int wid
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.DepthMask(GL_FALSE);
   draw_ground(list, eye);
-  draw_shadows(list, eye);
   draw_translucent(list, eye);
+  draw_obstacles(list, eye);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   gl_.Disable(GL_DEPTH_TEST);
@@ -190,6 +196,7 @@ Result<std::vector<int>> Renderer::count_visible(const DrawList& list, const Cam
     counts.resize(std::max(counts.size(), static_cast<std::size_t>(instance.highlight) + 1), 0);
     draw_instance(instance, eye, {.lit = false, .color = &group});
   }
+  draw_hiding(list, eye);
   gl_.Disable(GL_DEPTH_TEST);
   const std::vector<std::uint8_t>& pixels = target_.read();
   for (std::size_t i = 0; i < pixels.size(); i += 4) ++counts[pixels[i]];
@@ -207,25 +214,69 @@ void Renderer::draw_background() {
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+Result<Done> Renderer::draw_shadow_map(const DrawList& list, const Eye& eye) {
+  if (list.scenery.ground.empty()) return Done{};
+  if (Result<Done> ready = shadow_map_.use(); !ready) return ready;
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  begin_solid(eye);
+  set_matrix(solid_, "clip_from_world", eye.light_from_world);
+  for (const DrawInstance& instance : list.instances)
+    if (!instance.ghost) draw_instance(instance, eye, {.lit = false});
+  gl_.Disable(GL_DEPTH_TEST);
+  return Done{};
+}
+
 void Renderer::draw_ground(const DrawList& list, const Eye& eye) {
-  const auto set3 = [&](const char* name, const Vec3& v) {
-    gl_.Uniform3f(gl_.GetUniformLocation(ground_, name), static_cast<float>(v.x), static_cast<float>(v.y),
-                  static_cast<float>(v.z));
+  if (list.scenery.ground.empty()) {
+    draw_level_ground(list, eye, true);
+    draw_shadows(list, eye);
+    return;
+  }
+  gl_.DepthMask(GL_TRUE);  // Depth alone first: of ground behind ground, only what is nearest may be seen.
+  draw_shaped_ground(list, eye, false);
+  gl_.DepthMask(GL_FALSE);
+  gl_.DepthFunc(GL_LEQUAL);
+  draw_shaped_ground(list, eye, true);
+  gl_.DepthFunc(GL_LESS);
+}
+
+void Renderer::begin_ground(unsigned program, const DrawList& list, const Eye& eye, bool show) {
+  const auto set1 = [&](const char* name, double value) {
+    gl_.Uniform1f(gl_.GetUniformLocation(program, name), static_cast<float>(value));
   };
-  gl_.UseProgram(ground_);
+  gl_.UseProgram(program);
   gl_.Disable(GL_CULL_FACE);
+  set_matrix(program, "clip_from_world", eye.clip_from_world);
+  set3(program, "middle", Vec3(0.0, list.scenery.level_m - eye.center_m.y, 0.0));
+  set3(program, "world_origin", -eye.center_m);
+  set1("reach", 0.75 * glm::length(eye.at));
+  set1("relief", program == shaped_ground_ ? 1.0 : 0.0);
+  set1("show", show ? 1.0 : 0.0);
+}
+
+void Renderer::draw_level_ground(const DrawList& list, const Eye& eye, bool show) {
+  begin_ground(ground_, list, eye, show);
   gl_.BindVertexArray(no_vertices_);
-  gl_.UniformMatrix4fv(gl_.GetUniformLocation(ground_, "clip_from_world"), 1, GL_FALSE,
-                       glm::value_ptr(eye.clip_from_world));
-  set3("middle", Vec3(0.0, list.ground_height_m - eye.center_m.y, 0.0));
-  set3("world_origin", -eye.center_m);
-  gl_.Uniform1f(gl_.GetUniformLocation(ground_, "reach"), static_cast<float>(0.75 * glm::length(eye.at)));
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void Renderer::draw_shaped_ground(const DrawList& list, const Eye& eye, bool show) {
+  begin_ground(shaped_ground_, list, eye, show);
+  gl_.BindVertexArray(vertex_array_);
+  set3(shaped_ground_, "to_light", eye.to_light);
+  set_matrix(shaped_ground_, "light_from_world", eye.light_from_world);
+  shadow_map_.bind();
+  for (const DrawInstance& instance : list.scenery.ground) {
+    set_matrix(shaped_ground_, "world_from_mesh", float_matrix(instance.world_from_mesh, eye.center_m));
+    set_color(shaped_ground_, instance.color, kShapedGroundAlpha);
+    draw_range(instance);
+  }
 }
 
 void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
   static constexpr Vec3 kBlack(0.05, 0.07, 0.10);
-  const double lifted = list.ground_height_m - eye.center_m.y + 0.001;
+  const double lifted = list.scenery.level_m - eye.center_m.y + 0.001;
   const glm::mat4 flatten = shadow_matrix(eye.to_light, lifted);
   gl_.Enable(GL_STENCIL_TEST);  // Each pixel once, or shadows of several parts would add up.
   gl_.StencilFunc(GL_EQUAL, 0, 0xff);
@@ -247,32 +298,63 @@ void Renderer::draw_translucent(const DrawList& list, const Eye& eye) {
   gl_.DepthFunc(GL_LESS);
 }
 
+// Over all else, so that nothing hides behind them; ground still hides what is below it.
+void Renderer::draw_obstacles(const DrawList& list, const Eye& eye) {
+  if (list.scenery.obstacles.empty()) return;
+  if (list.scenery.ground.empty()) {
+    gl_.DepthMask(GL_TRUE);
+    draw_level_ground(list, eye, false);
+    gl_.DepthMask(GL_FALSE);
+  }
+  begin_solid(eye);
+  for (const DrawInstance& instance : list.scenery.obstacles) draw_instance(instance, eye, {.alpha = kObstacleAlpha});
+}
+
+// Scenery as if nothing were translucent, as group 0.
+void Renderer::draw_hiding(const DrawList& list, const Eye& eye) {
+  static constexpr Vec3 kNoGroup(0.0);
+  gl_.Disable(GL_CULL_FACE);  // The eye may be below the ground.
+  for (const auto* instances : {&list.scenery.ground, &list.scenery.obstacles})
+    for (const DrawInstance& instance : *instances) draw_instance(instance, eye, {.lit = false, .color = &kNoGroup});
+}
+
 void Renderer::begin_solid(const Eye& eye) {
-  const auto set3 = [&](const char* name, const Vec3& v) {
-    gl_.Uniform3f(gl_.GetUniformLocation(solid_, name), static_cast<float>(v.x), static_cast<float>(v.y),
-                  static_cast<float>(v.z));
-  };
   gl_.UseProgram(solid_);
   gl_.BindVertexArray(vertex_array_);
   gl_.Enable(GL_CULL_FACE);  // Counter-clockwise seen from outside; halves the work.
-  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "clip_from_world"), 1, GL_FALSE,
-                       glm::value_ptr(eye.clip_from_world));
-  set3("eye", eye.at);
-  set3("to_light", eye.to_light);
+  set_matrix(solid_, "clip_from_world", eye.clip_from_world);
+  set3(solid_, "eye", eye.at);
+  set3(solid_, "to_light", eye.to_light);
 }
 
 void Renderer::draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint) {
-  CONTORT_ASSERT(static_cast<std::size_t>(instance.mesh) < ranges_.size());
-  const Range& range = ranges_[static_cast<std::size_t>(instance.mesh)];
-  const Vec3& color = paint.color ? *paint.color : instance.color;
   glm::mat4 world_from_mesh = float_matrix(instance.world_from_mesh, eye.center_m);
   if (paint.flatten) world_from_mesh = *paint.flatten * world_from_mesh;
-  gl_.UniformMatrix4fv(gl_.GetUniformLocation(solid_, "world_from_mesh"), 1, GL_FALSE, glm::value_ptr(world_from_mesh));
-  gl_.Uniform4f(gl_.GetUniformLocation(solid_, "color"), static_cast<float>(color.x), static_cast<float>(color.y),
-                static_cast<float>(color.z), paint.alpha);
+  set_matrix(solid_, "world_from_mesh", world_from_mesh);
+  set_color(solid_, paint.color ? *paint.color : instance.color, paint.alpha);
   gl_.Uniform1f(gl_.GetUniformLocation(solid_, "lit"), paint.lit ? 1.0f : 0.0f);
   gl_.Uniform1f(gl_.GetUniformLocation(solid_, "rim"), paint.rim);
+  draw_range(instance);
+}
+
+void Renderer::draw_range(const DrawInstance& instance) {
+  CONTORT_ASSERT(static_cast<std::size_t>(instance.mesh) < ranges_.size());
+  const Range& range = ranges_[static_cast<std::size_t>(instance.mesh)];
   gl_.DrawArrays(GL_TRIANGLES, range.first, range.count);
+}
+
+void Renderer::set_matrix(unsigned program, const char* name, const glm::mat4& matrix) {
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(program, name), 1, GL_FALSE, glm::value_ptr(matrix));
+}
+
+void Renderer::set3(unsigned program, const char* name, const Vec3& v) {
+  gl_.Uniform3f(gl_.GetUniformLocation(program, name), static_cast<float>(v.x), static_cast<float>(v.y),
+                static_cast<float>(v.z));
+}
+
+void Renderer::set_color(unsigned program, const Vec3& color, float alpha) {
+  gl_.Uniform4f(gl_.GetUniformLocation(program, "color"), static_cast<float>(color.x), static_cast<float>(color.y),
+                static_cast<float>(color.z), alpha);
 }
 
 }  // namespace contort

@@ -14,6 +14,7 @@
 #include "renders/image.h"
 #include "renders/raster/gl.h"
 #include "renders/raster/gl_backend.h"
+#include "renders/raster/shadow_map.h"
 #include "renders/raster/target.h"
 
 namespace contort {
@@ -36,7 +37,8 @@ class Renderer {
   // Codes: render.bad_size, render.framebuffer, render.gl_error.
   Result<Image> draw(const DrawList& list, const Camera& camera, int width, int height);
 
-  // Pixels, without anti-aliasing, in which each highlight group is seen and not hidden; index = group, [0] is unused.
+  // Pixels, without anti-aliasing, in which each highlight group is seen and not hidden, by scenery neither; index =
+  // group, [0] is unused.
   Result<std::vector<int>> count_visible(const DrawList& list, const Camera& camera, int width, int height);
 
  private:
@@ -47,24 +49,36 @@ class Renderer {
   struct Paint;
   struct Eye;
 
-  explicit Renderer(std::unique_ptr<GlBackend> backend) : backend_(std::move(backend)), target_(gl_) {}
+  explicit Renderer(std::unique_ptr<GlBackend> backend)
+      : backend_(std::move(backend)), target_(gl_), shadow_map_(gl_) {}
   Result<Done> set_up();
   Result<Done> draw_test_pixel();
   Result<Done> gl_errors() const;
 
   void draw_background();
+  Result<Done> draw_shadow_map(const DrawList& list, const Eye& eye);
+  void draw_level_ground(const DrawList& list, const Eye& eye, bool show);
+  void draw_shaped_ground(const DrawList& list, const Eye& eye, bool show);
   void draw_ground(const DrawList& list, const Eye& eye);
+  void begin_ground(unsigned program, const DrawList& list, const Eye& eye, bool show);
   void draw_shadows(const DrawList& list, const Eye& eye);
+  void draw_obstacles(const DrawList& list, const Eye& eye);
+  void draw_hiding(const DrawList& list, const Eye& eye);
   void draw_translucent(const DrawList& list, const Eye& eye);
   void begin_solid(const Eye& eye);
   void draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint);
+  void draw_range(const DrawInstance& instance);
+  void set_matrix(unsigned program, const char* name, const glm::mat4& matrix);
+  void set3(unsigned program, const char* name, const Vec3& v);
+  void set_color(unsigned program, const Vec3& color, float alpha);
 
   std::unique_ptr<GlBackend> backend_;
   Gl gl_;
-  unsigned solid_ = 0, background_ = 0, ground_ = 0;  // programs
+  unsigned solid_ = 0, background_ = 0, ground_ = 0, shaped_ground_ = 0;  // programs
   unsigned vertex_array_ = 0, no_vertices_ = 0, buffer_ = 0;
   std::vector<Range> ranges_;
   Target target_;
+  ShadowMap shadow_map_;
 };
 
 }  // namespace contort

@@ -67,24 +67,36 @@ out vec4 pixel;
 void main() { pixel = mix(bottom, top, clamp(height, 0.0, 1.0)); }
 )";
 
-// The ground: a square around `middle` with a line each metre, fainter ones each 25 cm, all fading toward `reach`.
+// Level ground: a square around `middle` with a line each metre, fainter ones each 25 cm, all fading toward `reach`.
 inline constexpr char kGroundVertex[] = R"(#version 330 core
 uniform mat4 clip_from_world;
 uniform vec3 middle;
 uniform float reach;
 out vec3 at;
+out vec3 facing;
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
   at = middle + vec3(corner.x, 0.0, corner.y) * reach;
+  facing = vec3(0.0, 1.0, 0.0);
   gl_Position = clip_from_world * vec4(at, 1.0);
 }
 )";
 
+// `relief` 1 is for ground with a shape, which comes through kSolidVertex: shaded, less translucent, darker on risers,
+// and with the shadow from the map; 0 leaves level ground as flat as it is, its shadows are drawn onto it. `show` 0
+// draws nothing but depth.
 inline constexpr char kGroundFragment[] = R"(#version 330 core
 in vec3 at;
+in vec3 facing;
 uniform vec3 middle;
 uniform vec3 world_origin;
 uniform float reach;
+uniform float relief;
+uniform float show;
+uniform vec4 color;
+uniform vec3 to_light;
+uniform mat4 light_from_world;
+uniform sampler2DShadow nearest_to_light;
 out vec4 pixel;
 
 // Coverage of lines that are `width` pixels wide. Where several lines share a pixel they fade instead of flickering.
@@ -96,13 +108,29 @@ float lines(vec2 place, float step, float width) {
   return max(cover.x, cover.y);
 }
 
+float shadow(vec3 n) {
+  vec3 seen = (light_from_world * vec4(at, 1.0)).xyz * 0.5 + 0.5;
+  bool outside = any(lessThan(seen, vec3(0.0))) || any(greaterThan(seen, vec3(1.0)));
+  return outside || dot(n, to_light) <= 0.0 ? 0.0 : 1.0 - texture(nearest_to_light, seen - vec3(0.0, 0.0, 0.002));
+}
+
+vec4 shaded(float line) {
+  vec3 n = normalize(facing);
+  float slant = 1.0 - smoothstep(0.0, 0.5, n.y);  // 1 on a riser, which a line along it would paint as a whole
+  float light = 0.62 + 0.5 * max(dot(n, to_light), 0.0) - 0.3 * slant;
+  vec3 surface = mix(sqrt(color.rgb) * light, vec3(0.24, 0.29, 0.36), clamp(line * 1.6, 0.0, 1.0) * (1.0 - slant));
+  return vec4(mix(surface, vec3(0.05, 0.07, 0.10), 0.3 * shadow(n)), color.a);
+}
+
 void main() {
   vec2 place = (at - world_origin).xz;
   float fade = 1.0 - smoothstep(0.35, 1.0, length((at - middle).xz) / reach);
   float line = max(0.42 * lines(place, 1.0, 2.6), 0.16 * lines(place, 0.25, 1.6));
   float alpha = fade * (0.20 + 0.80 * line);
-  vec3 color = mix(vec3(0.70, 0.73, 0.77), vec3(0.24, 0.29, 0.36), clamp(line * 2.0, 0.0, 1.0));
-  pixel = vec4(color, alpha);
+  vec3 color_of_level = mix(vec3(0.70, 0.73, 0.77), vec3(0.24, 0.29, 0.36), clamp(line * 2.0, 0.0, 1.0));
+  pixel = vec4(color_of_level, alpha);
+  if (relief > 0.5) pixel = shaded(line) * vec4(1.0, 1.0, 1.0, fade);
+  pixel.a *= show;
 }
 )";
 

@@ -9,9 +9,12 @@
 #include "renders/raster/auto_camera.h"
 #include "renders/raster/renderer.h"
 #include "renders/raster/sheet.h"
+#include "renders/scenery.h"
 
 namespace contort {
 namespace {
+
+constexpr double kAroundFigure_m = 1.0;  // A few steps of a stair.
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -54,47 +57,56 @@ DrawList list_of(const StripInput& input, const Figure& figure, int frame) {
 }
 
 // The place on the ground below the root: what a following camera follows.
-Vec3 anchor_of(const Motion& motion, int frame) {
+Vec3 anchor_of(const Motion& motion, const Environment& environment, int frame) {
   const Vec3& root = motion.root[at(frame)].p_m;
   const bool usable = std::fabs(root.x) <= kWorldReach_m && std::fabs(root.z) <= kWorldReach_m;
-  return usable ? Vec3(root.x, 0.0, root.z) : Vec3(0.0);
+  return usable ? Vec3(root.x, environment.height_at(root.x, root.z), root.z) : Vec3(0.0);
 }
 
 // Everything about a strip but its pixels.
 struct Plan {
   Figure figure;
+  std::vector<Triangles> meshes;  // The figure's, then the scenery's.
   std::vector<int> frames;
   std::vector<DrawList> lists;  // one per frame
+  std::vector<std::vector<Vec3>> outlines;
   std::vector<Vec3> anchors;
   StripCamera camera;
   int visible_pixels = 0;
 };
 
-Plan plan_figures(const StripInput& input) {
+Environment environment_of(const StripInput& input) { return input.environment ? *input.environment : Environment(); }
+
+Plan plan_strip(const StripInput& input) {
   Plan plan;
+  const Environment environment = environment_of(input);
   const Highlight highlight = input.finding ? highlighted(input.character, *input.finding) : Highlight{};
   plan.figure = make_figure(input.character, highlight);
+  plan.meshes = plan.figure.meshes;
   plan.frames = frames_of(input);
   for (const int frame : plan.frames) {
     plan.lists.push_back(list_of(input, plan.figure, frame));
-    plan.anchors.push_back(anchor_of(input.motion, frame));
+    plan.outlines.push_back(outline(plan.lists.back(), plan.meshes));
+    plan.anchors.push_back(anchor_of(input.motion, environment, frame));
   }
+  const Scenery scenery = make_scenery(environment, region_around(plan.outlines), plan.meshes);
+  for (DrawList& list : plan.lists) list.scenery = scenery;
   return plan;
 }
 
-std::size_t worst_tile(const StripInput& input, const std::vector<int>& frames) {
-  if (!input.finding) return 0;
+// The worst frame of the finding. Without one, the middle: a walker is on its stair by then.
+std::size_t probed_tile(const StripInput& input, const std::vector<int>& frames) {
+  if (!input.finding) return frames.size() / 2;
   const auto found = std::lower_bound(frames.begin(), frames.end(), input.finding->worst_frame);
   return std::min(static_cast<std::size_t>(found - frames.begin()), frames.size() - 1);
 }
 
 Result<Done> choose_camera(Renderer& renderer, const StripInput& input, double aspect, Plan& plan) {
-  const DrawList& worst = plan.lists[worst_tile(input, plan.frames)];
-  const Result<ProbedView> view = best_view(renderer, worst, plan.figure.meshes);
+  const std::size_t tile = probed_tile(input, plan.frames);
+  const std::vector<View> views = views_of(environment_of(input), plan.anchors[tile], kAroundFigure_m);
+  const Result<ProbedView> view = best_view(renderer, plan.lists[tile], plan.meshes, views);
   if (!view) return view.issue();
-  std::vector<std::vector<Vec3>> points;
-  for (const DrawList& list : plan.lists) points.push_back(outline(list, plan.figure.meshes));
-  plan.camera = frame_strip(points, plan.anchors, view->view, aspect);
+  plan.camera = frame_strip(plan.outlines, plan.anchors, view->view, aspect);
   plan.visible_pixels = view->visible_pixels;
   return Done{};
 }
@@ -133,9 +145,9 @@ std::string StripRenderer::description() const { return state_->renderer->descri
 
 Result<StripDone> StripRenderer::render(const StripInput& input, const std::string& png_path) {
   if (Result<Done> fine = check_input(input); !fine) return fine.issue();
-  Plan plan = plan_figures(input);
+  Plan plan = plan_strip(input);
   Renderer& renderer = *state_->renderer;
-  renderer.set_meshes(plan.figure.meshes);
+  renderer.set_meshes(plan.meshes);
   const double aspect = Sheet::picture_aspect(input);
   if (Result<Done> chosen = choose_camera(renderer, input, aspect, plan); !chosen) return chosen.issue();
   StripDone done{plan.frames, plan.visible_pixels, {}};

@@ -9,6 +9,7 @@
 #include "generator/character/character.h"
 #include "generator/core/result.h"
 #include "generator/motion/motion.h"
+#include "generator/world/environment.h"
 
 namespace contort {
 
@@ -26,6 +27,7 @@ struct StripInput {
   int tiles = 8;                  // In [1, 64]; fewer are drawn when the motion has fewer frames.
   const Motion* ghost = nullptr;  // Drawn translucent behind, frame by frame: the motion that was aimed for.
   std::string font = kStripFont;
+  const Environment* environment = nullptr;  // Null: a level plane at height 0.
 };
 
 struct StripDone {

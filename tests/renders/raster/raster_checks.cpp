@@ -5,6 +5,7 @@
 
 #include "renders/raster/auto_camera.h"
 #include "renders/raster/renderer.h"
+#include "renders/scenery.h"
 
 namespace contort {
 namespace {
@@ -167,13 +168,99 @@ TEST(Renderer, RefusesSizesThatCannotBe) {
   EXPECT_TRUE(renderer->draw({}, front(), 64, 64).ok());  // and goes on
 }
 
+// The scene's meshes on other ground, or with obstacles.
+struct Shaped {
+  std::vector<Triangles> meshes = Scene().meshes;
+  Scenery scenery;
+  explicit Shaped(const Ground& ground, std::vector<ObstacleDesc> obstacles = {}) {
+    const Environment environment = build_environment({.ground = ground, .obstacles = std::move(obstacles)}).value();
+    scenery = make_scenery(environment, {-4.0, -4.0, 4.0, 4.0}, meshes);
+  }
+  Image draw(std::vector<DrawInstance> instances, const Camera& camera) const {
+    const std::unique_ptr<Renderer> renderer = make_renderer();
+    renderer->set_meshes(meshes);
+    DrawList list = list_of(std::move(instances));
+    list.scenery = scenery;
+    return renderer->draw(list, camera, kWidth, kHeight).value();
+  }
+};
+
+TEST(Renderer, DrawsTheGroundsShape) {
+  const Camera camera = front(14.0);
+  const Image steps = Shaped(StepsGround{.heading_deg = 180.0, .start_m = 0.0}).draw({}, camera);
+  EXPECT_GT(differing_pixels(draw({}, camera), steps), kWidth * kHeight / 4);
+  int edges = 0;  // up the middle, where nothing else is: risers are dark, treads are not
+  for (int y = 1; y < kHeight; ++y)
+    edges += std::abs(brightness(steps, kWidth / 2 + 7, y) - brightness(steps, kWidth / 2 + 7, y - 1)) > 60 ? 1 : 0;
+  EXPECT_GE(edges, 8);
+}
+
+TEST(Renderer, CastsShadowsOnShapedGround) {
+  DrawInstance low = Scene::ball(0.0, 0);
+  low.world_from_mesh.p_m.y = 0.45;
+  const Shaped slope(SlopeGround{15.0, 90.0});
+  const Image empty = slope.draw({}, front(30.0)), ball = slope.draw({low}, front(30.0));
+  int shadow = 0;
+  for (int y = kHeight / 2; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool grey = std::abs(ball.pixel(x, y)[0] - ball.pixel(x, y)[2]) < 40;
+      shadow += grey && brightness(ball, x, y) < brightness(empty, x, y) - 20 ? 1 : 0;
+    }
+  EXPECT_GT(shadow, 50);
+}
+
+// The ramp rises toward the eye and the pane stands before it: both tint the ball and leave it red.
+TEST(Renderer, HidesNothingBehindScenery) {
+  const Shaped ramp(SlopeGround{50.0, 0.0});
+  const Shaped glass(PlaneGround{}, {{"pane", Box{Vec3(0.0, 1.0, 0.6), Vec3(1.0, 1.0, 0.05), Vec3(0.0)}}});
+  const long open = redness(draw(list_of({Scene::ball(0.0, 0)})));
+  for (const Shaped* scene : {&ramp, &glass}) {
+    const long seen = redness(scene->draw({Scene::ball(0.0, 0)}, front())) - redness(scene->draw({}, front()));
+    EXPECT_GT(seen, open / 6);  // measured: 0.27 and 0.69
+    EXPECT_LT(seen, open * 4 / 5);
+  }
+}
+
+TEST(Renderer, ShowsObstaclesInAColourOfTheirOwn) {
+  const Shaped scene(PlaneGround{}, {{"ball", Sphere{Vec3(0.0, 0.8, 0.0), 0.4}}});
+  const Image image = scene.draw({}, front());
+  const std::uint8_t* middle = image.pixel(kWidth / 2, kHeight / 2);
+  EXPECT_GT(middle[2], middle[1] + 30);
+}
+
+TEST(Renderer, DrawsLevelGroundTheSameAfterShapedGround) {
+  const Shaped steps(StepsGround{.start_m = 0.0}, {{"ball", Sphere{Vec3(0.0, 0.8, 0.0), 0.4}}});
+  DrawList list = list_of({Scene::ball(0.5, 1)});
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(steps.meshes);
+  const Image first = renderer->draw(list, front(), kWidth, kHeight).value();
+  list.scenery = steps.scenery;
+  const Image shaped = renderer->draw(list, front(), kWidth, kHeight).value();
+  list.scenery = {};
+  EXPECT_EQ(renderer->draw(list, front(), kWidth, kHeight).value(), first);
+  list.scenery = steps.scenery;
+  EXPECT_EQ(renderer->draw(list, front(), kWidth, kHeight).value(), shaped);
+}
+
+TEST(BestView, LooksPastObstacles) {
+  const Shaped scene(PlaneGround{}, {{"wall", Box{Vec3(0.0, 1.0, 0.6), Vec3(3.0, 2.0, 0.05), Vec3(0.0)}}});
+  const std::unique_ptr<Renderer> renderer = make_renderer();
+  renderer->set_meshes(scene.meshes);
+  for (const int highlight : {0, 1}) {
+    DrawList list = list_of({Scene::ball(0.0, highlight)});
+    list.scenery = scene.scenery;
+    const ProbedView found = best_view(*renderer, list, scene.meshes, probe_views()).value();
+    EXPECT_GT(std::abs(found.view.azimuth_rad), 89.0 * kRadPerDeg);
+  }
+}
+
 TEST(BestView, LooksFromTheSideThatShowsTheHighlight) {
   const Scene scene;
   const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->set_meshes(scene.meshes);
   for (const double side : {-1.0, 1.0}) {
     const DrawList list = list_of({scene.wall, Scene::ball(0.5 * side, 1)});
-    const ProbedView found = best_view(*renderer, list, scene.meshes).value();
+    const ProbedView found = best_view(*renderer, list, scene.meshes, probe_views()).value();
     EXPECT_GT(found.visible_pixels, 50);
     EXPECT_LT(std::abs(found.view.azimuth_rad) * kDegPerRad * side, 91.0 * side);
   }
@@ -185,7 +272,7 @@ TEST(BestView, ShowsTheSmallerOfAPair) {
   const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->set_meshes(scene.meshes);
   const DrawList list = list_of({scene.wall, Scene::ball(-0.4, 2)});
-  const ProbedView found = best_view(*renderer, list, scene.meshes).value();
+  const ProbedView found = best_view(*renderer, list, scene.meshes, probe_views()).value();
   EXPECT_GT(std::abs(found.view.azimuth_rad), 89.0 * kRadPerDeg);
 }
 
@@ -193,7 +280,7 @@ TEST(BestView, HasADefault) {
   const Scene scene;
   const std::unique_ptr<Renderer> renderer = make_renderer();
   renderer->set_meshes(scene.meshes);
-  const ProbedView found = best_view(*renderer, list_of({scene.wall}), scene.meshes).value();
+  const ProbedView found = best_view(*renderer, list_of({scene.wall}), scene.meshes, probe_views()).value();
   EXPECT_EQ(found.view.azimuth_rad, probe_views().front().azimuth_rad);
   EXPECT_EQ(found.visible_pixels, 0);
 }

@@ -107,6 +107,23 @@ TEST_F(Strip, HasTheSameBytesAgain) {
   EXPECT_NE(bytes("a.png"), bytes("c.png"));
 }
 
+TEST_F(Strip, ShowsTheEnvironment) {
+  const auto draw = [&](const EnvironmentDesc& desc, const std::string& name) {
+    const Environment environment = build_environment(desc).value();
+    StripInput strip = input();
+    strip.environment = &environment;
+    EXPECT_TRUE(render_strip(strip, path(name)).ok());
+    return bytes(name);
+  };
+  ASSERT_TRUE(render_strip(input(), path("none.png")).ok());
+  const std::string level = draw({}, "level.png");
+  EXPECT_EQ(level, bytes("none.png"));
+  EXPECT_NE(level, draw({.ground = StepsGround{.start_m = 0.3}, .obstacles = {}}, "steps.png"));
+  EXPECT_NE(level, draw({.ground = PlaneGround{-0.2}, .obstacles = {}}, "low.png"));
+  EXPECT_NE(level,
+            draw({.ground = PlaneGround{}, .obstacles = {{"ball", Sphere{Vec3(0.6, 0.4, 0.0), 0.4}}}}, "ball.png"));
+}
+
 TEST_F(Strip, IsRedWhereTheFindingIs) {
   ASSERT_TRUE(render_strip(input(), path("with.png")).ok());
   EXPECT_GT(red_pixels(read_png(path("with.png")).image, input()), 500);

@@ -1,0 +1,26 @@
+// The ground's shape as triangles. A pure function of the environment and a region.
+#pragma once
+
+#include "generator/character/shape.h"
+#include "generator/world/environment.h"
+
+namespace contort {
+
+struct GroundRegion {  // A rectangle in world x and z.
+  double low_x_m = -1.0, low_z_m = -1.0;
+  double high_x_m = 1.0, high_z_m = 1.0;
+};
+
+// Whatever a spec says; a height field is sampled more coarsely to keep it.
+inline constexpr int kMostGroundTriangles = 50'000;
+
+// In world coordinates; normals point up, those of risers against the direction of climbing.
+struct GroundMesh {
+  Triangles surface;  // Without what is in `nosings`.
+  Triangles nosings;  // The front edges of treads, a hand's width or less: they show a step seen from its upper side.
+};
+
+// Covers the region at least.
+GroundMesh ground_mesh(const Environment& environment, const GroundRegion& region);
+
+}  // namespace contort

@@ -1,0 +1,98 @@
+#include "renders/scenery.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/core/detmath.h"
+
+namespace contort {
+namespace {
+
+constexpr Vec3 kSurfaceColor{0.49, 0.53, 0.59};  // The level ground's, as linear RGB.
+constexpr Vec3 kNosingColor{0.05, 0.07, 0.11};
+constexpr Vec3 kObstacleColor{0.30, 0.10, 0.46};  // Violet: no part, highlight or ghost is.
+
+// The eye is at most 6 times half the figure's diagonal away: 1.07 / 0.25 to fit it (camera.cpp) over 0.75 where it
+// stands still. The ground fades out at 0.75 times that distance from the middle of the picture (renderer.cpp).
+constexpr double kReachPerDiagonal = 0.75 * 6.0 / 2.0;
+
+constexpr double kHardlyRises = 0.1;  // Height over length; 6 degrees.
+
+// Height over length, toward the eye.
+double rise_toward(const View& view, const Environment& environment, const Vec3& at_m, double radius_m) {
+  const det::SinCos azimuth = det::sincos(view.azimuth_rad);
+  const double x_m = radius_m * azimuth.sin, z_m = radius_m * azimuth.cos;
+  const double near_m = environment.height_at(at_m.x + x_m, at_m.z + z_m);
+  return (near_m - environment.height_at(at_m.x - x_m, at_m.z - z_m)) / (2.0 * radius_m);
+}
+
+struct Extent {
+  Vec3 low{0.0}, high{0.0};
+};
+
+Extent extent_of(const std::vector<Vec3>& points) {
+  if (points.empty()) return {};
+  Extent extent{points.front(), points.front()};
+  for (const Vec3& p : points) extent = {glm::min(extent.low, p), glm::max(extent.high, p)};
+  return extent;
+}
+
+MeshShape as_mesh(const ColliderShape& shape) {
+  return std::visit([](const auto& s) { return MeshShape(s); }, shape);
+}
+
+int add_mesh(std::vector<Triangles>& meshes, Triangles triangles) {
+  meshes.push_back(std::move(triangles));
+  return static_cast<int>(meshes.size()) - 1;
+}
+
+}  // namespace
+
+GroundRegion region_around(std::span<const std::vector<Vec3>> outlines) {
+  Extent all;
+  double diagonal_m = 2.0;  // At least; of a frame without a figure, see frame_points.
+  bool first = true;
+  for (const std::vector<Vec3>& points : outlines) {
+    if (points.empty()) continue;
+    const Extent extent = extent_of(points);
+    all = first ? extent : Extent{glm::min(all.low, extent.low), glm::max(all.high, extent.high)};
+    diagonal_m = std::max(diagonal_m, glm::distance(extent.low, extent.high));
+    first = false;
+  }
+  const double margin_m = kReachPerDiagonal * diagonal_m;
+  return {all.low.x - margin_m, all.low.z - margin_m, all.high.x + margin_m, all.high.z + margin_m};
+}
+
+std::vector<View> views_of(const Environment& environment, const Vec3& at_m, double radius_m) {
+  std::vector<View> views = probe_views();
+  const auto rise = [&](const View& view) { return rise_toward(view, environment, at_m, radius_m); };
+  double steepest = 0.0;  // Views come in opposite pairs.
+  for (const View& view : views) steepest = std::max(steepest, rise(view));
+  const bool steps = std::holds_alternative<StepsGround>(environment.ground());
+  const auto shows_rise = [&](const View& view) {
+    const double share = rise(view) / steepest;  // The sine of the angle between view and contour, on a plane.
+    return steps ? share < -0.25 : std::fabs(share) < 0.25;
+  };
+  if (steepest > kHardlyRises) std::stable_partition(views.begin(), views.end(), shows_rise);
+  return views;
+}
+
+Scenery make_scenery(const Environment& environment, const GroundRegion& region, std::vector<Triangles>& meshes) {
+  Scenery scenery;
+  if (environment.is_level()) {
+    scenery.level_m = environment.height_at(0.0, 0.0);
+  } else {
+    GroundMesh ground = ground_mesh(environment, region);
+    scenery.ground = {
+        {.mesh = add_mesh(meshes, std::move(ground.surface)), .world_from_mesh = {}, .color = kSurfaceColor},
+        {.mesh = add_mesh(meshes, std::move(ground.nosings)), .world_from_mesh = {}, .color = kNosingColor}};
+  }
+  for (const ObstacleDesc& obstacle : environment.obstacles())
+    scenery.obstacles.push_back({.mesh = add_mesh(meshes, tessellate(as_mesh(obstacle.shape))),
+                                 .world_from_mesh = environment.world_from_environment(),
+                                 .color = kObstacleColor,
+                                 .ghost = true});
+  return scenery;
+}
+
+}  // namespace contort
