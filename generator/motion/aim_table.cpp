@@ -289,14 +289,11 @@ void AimTable::interpolated(const Vec3& direction, std::span<const AimHit> hits,
   for (std::size_t i = 0; i < anchor.size(); ++i) coords[i] = nearer ? mean[i] : anchor[i];
 }
 
+// Insertion: of equals the earlier hit stays first, and std::stable_sort would allocate.
 void AimTable::prefer(std::span<const double> present, std::span<AimHit> hits) const {
-  std::array<std::pair<double, AimHit>, 32> ranked;
-  CONTORT_ASSERT(hits.size() <= ranked.size());
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    ranked[i] = {posture_difference_rad(geometry_, present, coords(hits[i].posture)), hits[i]};
-  std::stable_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(hits.size()),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = ranked[i].second;
+  const auto far_rad = [&](const AimHit& hit) { return posture_difference_rad(geometry_, present, coords(hit.posture)); };
+  for (std::size_t i = 1; i < hits.size(); ++i)
+    for (std::size_t j = i; j > 0 && far_rad(hits[j]) < far_rad(hits[j - 1]); --j) std::swap(hits[j], hits[j - 1]);
 }
 
 }  // namespace contort
