@@ -1,0 +1,68 @@
+// Rigid-body dynamics of a floating tree, after R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: inverse dynamics
+// (RNEA, section 5.3), mass matrix (CRBA, 6.2), its factors along the tree (6.5), point Jacobians. Equation of motion:
+//
+//   M(q) a + h(q, v) = generalised forces,    h: gravity, Coriolis and centrifugal terms
+//
+// All bodies are written about one point, the root's origin, along the world's axes: motions then add along the tree and
+// forces add back, without a change of frames between links, and the mass matrix, Jacobians and ground forces share the
+// same axes. Fixed order of sums; no allocation once a scratch has been used.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/multibody.h"
+
+namespace contort {
+
+inline constexpr double kGravity_m_s2 = 9.81;
+
+// A frame in the world, its rotation as a matrix.
+struct Placement {
+  Mat3 rotation{1.0};
+  Vec3 origin_m{0.0};
+};
+
+// Where all bodies are, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
+struct DynamicsScratch {
+  std::vector<Placement> world;         // world_from_link
+  std::vector<SpatialMotion> freedoms;  // by freedom: what a unit rate of it does
+  std::vector<SpatialInertia> inertia;  // by link
+  std::vector<SpatialMotion> velocity;
+  std::vector<SpatialMotion> acceleration;
+  std::vector<SpatialForce> force;
+  std::vector<SpatialInertia> composite;  // of all that moves with a link
+};
+
+// Everything below works on the pose that was placed last.
+void place(const Multibody& body, const Rigid& world_from_root, std::span<const double> coords,
+           DynamicsScratch& scratch);
+
+// RNEA: forces = M a + h with gravity along -Y. Leaves velocities and accelerations in the scratch.
+void inverse_dynamics(const Multibody& body, std::span<const double> velocity, std::span<const double> acceleration,
+                      double gravity_m_s2, DynamicsScratch& scratch, std::span<double> forces);
+
+// CRBA: M, symmetric, dof_count x dof_count row by row, of which only the entries (i, j) with j on i's way to the root
+// are written: the rest of `matrix` must be 0 from before and stays so.
+void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<double> matrix);
+
+// M = L^T D L in place, without filling any zero; then solves M x = b, x in place of b. M of bodies with mass is positive
+// definite; a last link without mass gives infinities.
+void factorise(const Multibody& body, std::span<double> matrix);
+void solve(const Multibody& body, std::span<const double> factors, std::span<double> x);
+
+// Rows of the velocity of a point fixed to a link (m/s, world), 3 x dof_count, and of the link's angular velocity
+// (rad/s, world). All entries are written.
+void point_jacobian(const Multibody& body, const DynamicsScratch& scratch, int link, const Vec3& point_world_m,
+                    std::span<double> rows);
+void angular_jacobian(const Multibody& body, const DynamicsScratch& scratch, int link, std::span<double> rows);
+
+// The acceleration of a point fixed to a link (m/s^2, world). After inverse_dynamics with acceleration 0 and gravity 0
+// that is what the present velocities alone cause: dJ/dt v.
+Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& point_world_m);
+
+// Moves a pose by generalised velocities over a time: the root's and balls' rotations by the exponential map.
+void integrate(const Multibody& body, std::span<const double> velocity, double time_s, Rigid& world_from_root,
+               std::span<double> coords);
+
+}  // namespace contort

@@ -1,0 +1,57 @@
+// A character as a tree of rigid bodies that floats freely: what the recursions of dynamics.h run over.
+//
+// Generalised velocity, `dof_count()` doubles: the root's velocity (world, m/s), its angular velocity (its own axes,
+// rad/s), then joint by joint a hinge's rate (rad/s), a travel's (m/s), or a ball's angular velocity (axes of the body
+// that it moves, rad/s). These are MuJoCo's coordinates. Generalised forces are dual to them: N in the world, N m in the
+// root's axes, and so on.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/character/character.h"
+#include "generator/dynamics/spatial.h"
+
+namespace contort {
+
+inline constexpr int kRootDofs = 6;
+
+struct Link {
+  JointKind kind = JointKind::root;
+  int parent = -1;
+  int coord = 0;  // first coordinate in a pose row
+  int dof = 0;    // first entry of a generalised velocity
+  int dof_count = 0;
+  Vec3 axis{0.0};  // unit, in the parent's frame at rest
+  // parent_from_link of a hinge is along + cos * across + sin * turned: Rodrigues' formula behind the rest rotation.
+  Mat3 along{0.0};
+  Mat3 across{0.0};
+  Mat3 turned{0.0};
+  Mat3 rest{1.0};
+  Vec3 origin_m{0.0};  // in the parent, at rest
+  double mass_kg = 0.0;
+  Vec3 center_of_mass_m{0.0};  // in the link's frame
+  Mat3 inertia_kg_m2{0.0};     // about it, axes of the link's frame
+  bool massless = true;
+};
+
+class Multibody {
+ public:
+  static Multibody of(const Character& character);
+
+  std::span<const Link> links() const { return links_; }  // as the character's joints
+  int dof_count() const { return static_cast<int>(parent_dof_.size()); }
+  int coord_count() const { return coord_count_; }
+  double mass_kg() const { return mass_kg_; }
+
+  // The next freedom towards the root that moves the same bodies, -1 at the end: the sparsity of the mass matrix.
+  std::span<const int> parent_dof() const { return parent_dof_; }
+
+ private:
+  std::vector<Link> links_;
+  std::vector<int> parent_dof_;
+  int coord_count_ = 0;
+  double mass_kg_ = 0.0;
+};
+
+}  // namespace contort
