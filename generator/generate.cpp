@@ -46,6 +46,9 @@ class Generation {
     s_.stacks.assign(character_.parts().size(), {});
     s_.feedback.assign(character_.parts().size(), {});
     s_.additive_spans.assign(timeline_.actions.size(), -1);
+    s_.aim_spans.assign(timeline_.actions.size(), -1);
+    s_.added.assign(character_.parts().size(), 0);
+    motion_.aims.clear();
     s_.world.resize(character_.joints().size());
     s_.bodies.assign(static_cast<std::size_t>(timeline_.use_count), {});
     s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
@@ -81,7 +84,9 @@ class Generation {
     frame_ = frame;
     s_.queue.advance(frame, s_.signals);
     for (Feedback& feedback : s_.feedback) feedback = {};
+    for (char& added : s_.added) added = 0;
     for (const int p : timeline_.part_order) move_part(static_cast<std::size_t>(p));
+    for (std::size_t p = 0; p < s_.stacks.size(); ++p) mark_aim(p);
     signal();
     std::copy(s_.shown.coords.begin(), s_.shown.coords.end(), motion_.row(frame).begin());
     motion_.root[static_cast<std::size_t>(frame)] = s_.shown.root;
@@ -283,9 +288,34 @@ class Generation {
     if (frame_ > run.last_frame) weight *= 1.0 - ease(static_cast<double>(frame_ - run.last_frame) / fade);
     if (run.first_content > action.first_frame) weight *= ease(static_cast<double>(frame_ - run.first_frame) / fade);
     mark_additive(index, action);
+    s_.added[p] = 1;
     copy_part(character_, p, s_.shown, s_.target);
     apply(action, p, s_.shown, action.start, frame_, now);
     blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
+  }
+
+  // Whether the use that aims is all that moves a part. Parts before it in the chain are not its own.
+  bool is_alone(const PlannedAction& aim, std::size_t p) const {
+    const Hold& ik = s_.stacks[p].ik;
+    return ik.action >= 0 && planned(ik).use == aim.use && s_.added[p] == 0;
+  }
+
+  void mark_aim(std::size_t p) {
+    const Hold& hold = s_.stacks[p].ik;
+    if (hold.action < 0 || planned(hold).aim == nullptr || planned(hold).named != static_cast<int>(p)) return;
+    const PlannedAction& action = planned(hold);
+    const int now = content(hold);
+    bool full = blended_in(action, hold.came, now) >= 1.0 && not_blended_out(action, now) >= 1.0 && frame_ > hold.frame;
+    for (const int j : action.aim->chain.joints)
+      full = full && is_alone(action, static_cast<std::size_t>(character_.joints()[static_cast<std::size_t>(j)].part));
+    if (!full) return;
+    int& span = s_.aim_spans[static_cast<std::size_t>(hold.action)];
+    if (span < 0 || motion_.aims[static_cast<std::size_t>(span)].last_frame < frame_ - 1) {
+      span = static_cast<int>(motion_.aims.size());
+      const Vec3 target(action.params[1], action.params[2], action.params[3]);
+      motion_.aims.push_back({frame_, frame_, action.aim->chain.socket, stage_.start * target});
+    }
+    motion_.aims[static_cast<std::size_t>(span)].last_frame = frame_;
   }
 
   // One span for as long as it adds without a break.

@@ -32,6 +32,8 @@ struct GenerateScratch {
   std::vector<Stack> stacks;        // of the parts
   std::vector<Feedback> feedback;   // of the parts, in this frame
   std::vector<int> additive_spans;  // by action: its entry in Motion::spans, or -1
+  std::vector<int> aim_spans;       // by action: its entry in Motion::aims, or -1
+  std::vector<char> added;          // by part: an additive moved it in this frame
   Posture base;                     // what the overwrite layer has made
   Posture plain;                    // with ik, without additives: what was seen last, but for these
   Posture from_overwrite;           // where the actions that have the layers took over

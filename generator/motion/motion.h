@@ -37,6 +37,15 @@ struct QueueSpan {
   bool operator==(const QueueSpan&) const = default;
 };
 
+// In which frames an aim was fully in force: come in, not fading, and nothing else on the parts that it moves.
+struct AimSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  int socket = 0;      // of the character; its +Z shall point at the target
+  Vec3 target_m{0.0};  // in the world
+  bool operator==(const AimSpan&) const = default;
+};
+
 struct Motion {
   double rate_hz = 60.0;
   int frame_count = 0;
@@ -45,6 +54,7 @@ struct Motion {
   std::vector<Rigid> root;     // frame_count: world_from_root
   std::vector<ActionSpan> spans;
   std::vector<QueueSpan> queue;  // the queue's history
+  std::vector<AimSpan> aims;     // in the order of their first frames
 
   std::span<const double> row(int frame) const {
     return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
