@@ -45,6 +45,7 @@ void add_render(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
+void add_tables(CLI::App& app, Context& context);
 void add_version(CLI::App& app, Context& context);
 
 }  // namespace contort::cli

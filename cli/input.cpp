@@ -9,6 +9,7 @@
 
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
+#include "generator/motion/aim_tables.h"
 
 namespace contort::cli {
 
@@ -25,8 +26,10 @@ Issue in_file(const std::string& path, Issue issue) {
 
 Result<Library> load_libraries(const std::vector<std::string>& folders) {
   Library library = stock_library();
-  for (const std::string& folder : folders)
+  for (const std::string& folder : folders) {
     if (const Result<Done> loaded = load_folder(folder, library); !loaded) return loaded.issue();
+    shared_aim_tables().read_from(folder + "/aim");
+  }
   if (const Result<Done> fit = check_actions(library); !fit) return fit.issue();
   return library;
 }

@@ -4,6 +4,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include "generator/motion/aim_table.h"
 
@@ -13,14 +15,27 @@ class AimTables {
  public:
   explicit AimTables(const AimTableOptions& options = {}) : options_(options) {}
 
+  // Looks for files of tables there first. A file that does not fit, because its character has changed or because it is
+  // damaged, is as good as none.
+  void read_from(const std::string& folder);
+
   // The chain's table; stays alive as long as anyone holds it. Safe from any thread. Two threads that ask first may
   // both build it: the tables are equal, and one of them is kept.
   std::shared_ptr<const AimTable> get(const Character& character, const AimChain& chain);
 
  private:
+  AimTable read_or_build(const AimGeometry& geometry, const std::vector<std::string>& folders) const;
+
   AimTableOptions options_;
+  std::vector<std::string> folders_;
   std::mutex mutex_;
   std::map<std::uint64_t, std::shared_ptr<const AimTable>> tables_;
 };
+
+// One for the whole process: what is in a table depends on its chain alone, whoever asks first.
+AimTables& shared_aim_tables();
+
+// The file name of a chain's table: its key.
+std::string aim_table_name(const AimGeometry& geometry, const AimTableOptions& options);
 
 }  // namespace contort

@@ -155,15 +155,13 @@ class Layout {
     return check_blends(use, *planned.def);
   }
 
-  // Tables are shared by the whole process: what is in one depends on the chain alone, whoever asks first.
   void plan_aim(PlannedAction& planned) const {
-    static AimTables tables;
     const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
     const std::vector<ParamDef> defs = planned.def->params(character_, part);
     if (defs.empty() || defs.front().type != ParamType::own_point) return;
     AimPlan plan;
     plan.chain = aim_chain_for(character_, planned.named, static_cast<int>(planned.params.front()));
-    plan.table = tables.get(character_, plan.chain);
+    plan.table = shared_aim_tables().get(character_, plan.chain);
     planned.aim = std::make_shared<const AimPlan>(std::move(plan));
   }
 

@@ -281,6 +281,42 @@ TEST_F(Commands, AnInterruptKeepsWhatWasFoundAndExitsWith75) {
   }
 }
 
+// Damage, a stranger's file and a character that changed cost a table's building time, never another motion.
+TEST_F(Commands, TablesAreKeptBesideTheLibraryAndBuiltAnewWhereTheyDoNotFit) {
+  const std::string library = folder_ / "tables_library";
+  std::filesystem::create_directories(library);
+  const auto tables = [&] { return contort_program({"--library", library, "tables", library}).out; };
+  const std::string first = tables();
+  EXPECT_NE(first.find(" 0 kept"), std::string::npos) << first;
+  EXPECT_NE(tables().find(": 0 built"), std::string::npos);
+  const auto motion = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"generate", CONTORT_SOURCE_DIR "/docs/examples/aim_while_walking.json", "-o",
+                                       folder_ / "motion.json"});
+    const Ran ran = contort_program(arguments);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out.substr(ran.out.rfind("motion "));
+  };
+  const std::string expected = motion({});
+  EXPECT_EQ(motion({"--library", library}), expected);
+  std::size_t damaged = 0;
+  for (const auto& [name, bytes] : tree_of(library)) {
+    spill(library + "/" + name, bytes.substr(0, bytes.size() / 2));
+    ++damaged;
+  }
+  EXPECT_GT(damaged, 10U);
+  EXPECT_EQ(motion({"--library", library}), expected);
+  spill(library + "/aim/stranger.aim", "not a table");
+  const std::string again = tables();
+  EXPECT_NE(again.find(std::to_string(damaged) + " built, 0 kept, 1 removed"), std::string::npos) << again;
+}
+
+TEST_F(Commands, TablesThatCannotBeWrittenAreAnError) {
+  spill(folder_ / "file", "");
+  const Ran ran = contort_program({"tables", folder_ / "file"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_NE(ran.err.find("file.unwritable"), std::string::npos) << ran.err;
+}
+
 }  // namespace
 
 }  // namespace contort

@@ -83,7 +83,7 @@ TEST(AimFile, OtherVersionsAndChainsAreRefusedByName) {
   EXPECT_EQ(code_of(bytes, geometry_at(0)), "aim_table.other_chain");
   EXPECT_EQ(code_of(bytes, geometry_at(13)), "aim_table.other_chain");
   EXPECT_EQ(code_of(bytes, small_table().geometry(), {5.0, 300, 2}), "aim_table.other_chain");
-  bytes[8] = 2;
+  bytes[8] = static_cast<char>(bytes[8] + 1);
   EXPECT_EQ(code_of(rehashed(bytes), small_table().geometry()), "aim_table.version");
 }
 
