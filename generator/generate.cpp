@@ -13,7 +13,7 @@ namespace {
 
 using Hold = GenerateScratch::Hold;
 
-constexpr double kCutFade_s = 0.15;  // of an additive that an interrupt cuts
+constexpr double kCutFade_s = 0.15;  // of what an interrupt cuts, and of a course when it goes on
 
 class Generation {
  public:
@@ -256,9 +256,20 @@ class Generation {
     copy_part(character_, p, beneath, s_.target);
     apply(planned(hold), p, from, hold.came, hold.frame, content(hold));
     const double left = 1.0 - hold.eased;
-    const double eased = blended_in(planned(hold), hold.came, content(hold));
+    const double eased = come_in(hold);
     const double weight = left > 1e-9 ? (eased - hold.eased) / left : 1.0;
     blend_part(character_, p, from, s_.target, weight, out);
+  }
+
+  int cut_fade() const { return std::max(1, static_cast<int>(kCutFade_s * stage_.rate_hz)); }
+
+  // A course that was cut comes in again where it goes on: a walk would start with both feet at home, wherever they are.
+  // Key poses, on the layer overwrite, start from where the part is by themselves.
+  double come_in(const Hold& hold) const {
+    const PlannedAction& action = planned(hold);
+    const double in = blended_in(action, hold.came, content(hold));
+    if (action.def->layer != Layer::ik || action.def->timing == Timing::goal || hold.came <= action.start) return in;
+    return std::min(in, ease(static_cast<double>(frame_ - hold.frame) / cut_fade()));
   }
 
   void fade(std::size_t p, const Hold& hold) {
@@ -268,7 +279,7 @@ class Generation {
   // An additive that is cut would be gone from one frame to the next: it runs on while it fades, and fades in again where
   // it goes on.
   void add_additives(std::size_t p) {
-    const int fade = std::max(1, static_cast<int>(kCutFade_s * stage_.rate_hz));
+    const int fade = cut_fade();
     const std::span<const QueueSpan> history = s_.queue.history();
     std::size_t first = history.size();
     while (first > 0 && history[first - 1].last_frame >= frame_ - fade) --first;
@@ -305,7 +316,7 @@ class Generation {
     if (hold.action < 0 || planned(hold).aim == nullptr || planned(hold).named != static_cast<int>(p)) return;
     const PlannedAction& action = planned(hold);
     const int now = content(hold);
-    bool full = blended_in(action, hold.came, now) >= 1.0 && not_blended_out(action, now) >= 1.0 && frame_ > hold.frame;
+    bool full = come_in(hold) >= 1.0 && not_blended_out(action, now) >= 1.0 && frame_ > hold.frame;
     for (const int j : action.aim->chain.joints)
       full = full && is_alone(action, static_cast<std::size_t>(character_.joints()[static_cast<std::size_t>(j)].part));
     if (!full) return;

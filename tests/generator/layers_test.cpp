@@ -253,6 +253,17 @@ TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
   }
 }
 
+// Cut in the middle of a stride; when the walk goes on it stands with both feet at home, and would be there at once.
+TEST(Interrupts, LetAWalkComeInAgain) {
+  ActionUse walk = use("walk", "waist", 0, 150, {{"speed_m_s", 0.9}});
+  const Motion motion = play_interrupted({walk}, interrupt(40, {elbow(0, 20, 50)}));
+  double fastest = 0.0;
+  for (int f = 1; f < motion.frame_count; ++f)
+    for (const char* joint : {"leg_left/hip_flex", "leg_right/hip_flex", "leg_left/knee", "leg_right/knee"})
+      fastest = std::max(fastest, std::fabs(coord(motion, f, human(), joint) - coord(motion, f - 1, human(), joint)));
+  EXPECT_LT(fastest, 9 * kDeg);  // 7.7; 43 when it was at once
+}
+
 TEST(Interrupts, ThatNeverFireChangeNothing) {
   const Motion with = play_interrupted({elbow(0, 40, 90)}, interrupt(400, {elbow(0, 10, 10)}));
   EXPECT_EQ(motion_hash(with), motion_hash(play({elbow(0, 40, 90)})));
