@@ -16,7 +16,7 @@ constexpr double kNosing_m = 0.03;      // About 3 pixels in a tile.
 using Quad = std::array<Vec3, 4>;
 
 void add_quad(Triangles& out, const Quad& corners, const Quad& normals) {
-  for (const std::size_t i : {0, 1, 2, 0, 2, 3}) {
+  for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) {
     out.positions_m.push_back(corners[i]);
     out.normals.push_back(normals[i]);
   }

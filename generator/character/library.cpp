@@ -43,7 +43,8 @@ Result<Done> insert_action(std::vector<ActionDesc>& into, const Result<ActionDes
     if (const std::string same = clash(*action, other); !same.empty())
       return Issue{"action.duplicate_name", "/name", "\"" + action->name + "\" is there already for " + same};
   into.push_back(*action);
-  std::ranges::stable_partition(into, [](const ActionDesc& a) { return a.parts.empty(); });
+  // Not std::ranges: clang++ 14 cannot compile the subrange that it returns.
+  std::stable_partition(into.begin(), into.end(), [](const ActionDesc& a) { return a.parts.empty(); });
   return Done{};
 }
 
