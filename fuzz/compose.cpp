@@ -7,6 +7,7 @@
 #include "generator/character/character.h"
 #include "generator/core/detmath.h"
 #include "generator/motion/kinematics.h"
+#include "generator/motion/legs.h"
 
 namespace contort {
 
@@ -251,12 +252,32 @@ SequenceDesc& named_sequence(Spec& spec, int raw) {
   return sequence;
 }
 
-ConditionDesc compose_condition(const RawInterrupt& raw, Spec& spec) {
+// Slots whose parts can tell of an event: feet and what aims.
+std::vector<std::string> slots_that_tell(Event event, const Character& character) {
+  std::vector<std::string> slots;
+  if (event == Event::contact)
+    for (const Leg& leg : find_legs(character))
+      slots.push_back(character.parts()[static_cast<std::size_t>(leg.foot_part)].slot);
+  if (event == Event::aim_reached)
+    for (const Part& part : character.parts())
+      if (find_action(character, part, "aim")) slots.push_back(part.slot);
+  return slots;
+}
+
+ConditionDesc compose_condition(const RawInterrupt& raw, const Character& character, Spec& spec) {
   ConditionDesc when;
-  constexpr Event kEvents[] = {Event::frame,         Event::frame,  Event::clip_ended,
-                               Event::sequence_ended, Event::impact, Event::ground_steeper};
+  constexpr Event kEvents[] = {Event::frame,   Event::frame,          Event::clip_ended,
+                               Event::impact,  Event::sequence_ended, Event::ground_steeper,
+                               Event::contact, Event::aim_reached,    Event::near_obstacle};
   when.event = kEvents[pick(raw.event, std::size(kEvents))];
+  const std::vector<std::string> slots = slots_that_tell(when.event, character);
+  const bool waits_for_slot = when.event == Event::contact || when.event == Event::aim_reached;
+  const bool cannot_happen = (waits_for_slot && slots.empty()) ||
+                             (when.event == Event::near_obstacle && spec.environment.obstacles.empty());
+  if (cannot_happen) when.event = Event::frame;
   if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
+  if (when.event == Event::near_obstacle) when.distance_m = contort::on_lattice(0.1 * between(raw.what, 2, 20), 10.0);
+  if (waits_for_slot && !cannot_happen) when.slot = slots[pick(raw.what, slots.size())];
   if (when.event == Event::sequence_ended) when.name = named_sequence(spec, raw.what).name;
   if (when.event == Event::clip_ended) {
     SequenceDesc& sequence = named_sequence(spec, raw.what);
@@ -269,7 +290,7 @@ ConditionDesc compose_condition(const RawInterrupt& raw, Spec& spec) {
 InterruptDesc compose_interrupt(const RawInterrupt& raw, const Character& character,
                                 const std::vector<const Part*>& parts, Spec& spec) {
   InterruptDesc interrupt;
-  interrupt.when = compose_condition(raw, spec);
+  interrupt.when = compose_condition(raw, character, spec);
   interrupt.enter = static_cast<Enter>(pick(raw.enter, 4));
   if (interrupt.enter == Enter::after_sequence) interrupt.after = named_sequence(spec, raw.after).name;
   interrupt.resume = pick(raw.resume, 3) > 0;
