@@ -4,6 +4,7 @@
 #include <array>
 
 #include "generator/actions/action.h"
+#include "generator/core/detmath.h"
 
 namespace contort {
 
@@ -16,6 +17,7 @@ double eased(KeyEase ease, double u) {
     case KeyEase::smooth: return u * u * u * (10.0 + u * (6.0 * u - 15.0));
     case KeyEase::linear: return u;
     case KeyEase::step: return u < 1.0 ? 0.0 : 1.0;
+    case KeyEase::sine: return 0.5 - 0.5 * det::cos(kPi * u);
   }
   return u;
 }

@@ -34,7 +34,9 @@ std::vector<ParamDef> params_of_gait(double fastest_m_s, double preset_m_s) {
 }
 
 std::vector<ParamDef> params_of_bend() {
-  return {number("share", 0.0, 0.6, 0.3, "How far the hips go down, as a share of the legs' length.")};
+  return {number("share", 0.0, 0.6, 0.3, "How far the hips go down, as a share of the legs' length."),
+          number("lean_deg", -30.0, 90.0, 0.0, "How far the hips lean forward at the lowest."),
+          number("back_m", -0.5, 0.5, 0.0, "How far they go back there: what leans forward must stay over its feet.")};
 }
 
 bool is_root_with_legs(const Character& character, const Part& part) {
@@ -93,8 +95,16 @@ void go(const RuleInput& in, GaitParams params, Posture& posture) {
   follow(in, posture, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
 }
 
+// The knees' angle goes with `share`, not the hips' height: that would have knees start from straight with a jerk. Two
+// bones of one length and a knee of angle k reach cos(k/2) of their length.
 void bend(const RuleInput& in, double share, Posture& posture) {
-  follow(in, posture, [&](Gait& gait) { return gait.stand(share * in.params[0]); });
+  const double lowest_rad = det::acos(1.0 - in.params[0]);
+  follow(in, posture, [&](Gait& gait) {
+    GaitFrame frame = gait.stand(1.0 - det::cos(share * lowest_rad));
+    frame.root.p_m += frame.root.q * Vec3(0.0, 0.0, -share * in.params[2]);
+    frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), share * in.params[1] * kRadPerDeg);
+    return frame;
+  });
 }
 
 double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
@@ -122,8 +132,7 @@ void crouch_rule(const RuleInput& in, Posture& posture) {
 std::vector<ParamDef> squat_params(const Character&, const Part&) { return params_of_bend(); }
 bool squat_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void squat_rule(const RuleInput& in, Posture& posture) {
-  const double u = in.time.progress;
-  bend(in, ease_jerk(u < 0.5 ? 2.0 * u : 2.0 - 2.0 * u), posture);
+  bend(in, 0.5 - 0.5 * det::cos(2.0 * kPi * in.time.progress), posture);
 }
 
 }  // namespace contort

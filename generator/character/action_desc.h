@@ -18,6 +18,7 @@ enum class KeyEase {
   smooth,  // minimum jerk
   linear,
   step,  // stays, and is there at once
+  sine,  // half a cosine: turns round without a pause
 };
 
 struct KeyPoseDesc {

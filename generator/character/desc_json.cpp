@@ -14,7 +14,7 @@ using json_fields::Text;
 constexpr std::string_view kJointTypes[] = {"hinge", "ball", "prismatic"};
 constexpr std::string_view kSides[] = {"center", "left", "right"};
 
-constexpr std::string_view kEases[] = {"smooth", "linear", "step"};
+constexpr std::string_view kEases[] = {"smooth", "linear", "step", "sine"};
 
 const Rule kUnit{.low = -1, .high = 1};
 const Rule kMass{.low = 0, .high = 1e5};

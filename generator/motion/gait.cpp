@@ -41,14 +41,14 @@ Vec3 footprint_point(const Leg& leg, int across, int lengthwise) {
 }
 
 // The ground under a footprint at a place, as a plane h + x·a + z·b through its points, and what sticks out of it.
-struct Footing {
+struct Foothold {
   double height_m = 0.0;
   double slope_x = 0.0;
   double slope_z = 0.0;
   double unevenness_m = 0.0;
 };
 
-Footing footing_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
+Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
   double heights[kAcross][kLong];
   Vec3 middle(0.0);
   double mean = 0.0;
@@ -67,21 +67,21 @@ Footing footing_at(const Environment& environment, const Leg& leg, const Rigid& 
       xx += point.x * point.x, zz += point.z * point.z;
       xh += point.x * (heights[i][j] - mean), zh += point.z * (heights[i][j] - mean);
     }
-  Footing footing;
+  Foothold foothold;
   const double steepest = det::sin(kLongestTilt_rad) / det::cos(kLongestTilt_rad);
-  footing.slope_x = std::clamp(xh / xx, -steepest, steepest);
-  footing.slope_z = std::clamp(zh / zz, -steepest, steepest);
+  foothold.slope_x = std::clamp(xh / xx, -steepest, steepest);
+  foothold.slope_z = std::clamp(zh / zz, -steepest, steepest);
   // The plane is laid on the highest points, so that nothing is below the ground.
   double highest = -1e9, lowest = 1e9;
   for (int i = 0; i < kAcross; ++i)
     for (int j = 0; j < kLong; ++j) {
       const Vec3 point = footprint_point(leg, i, j);
-      const double over = heights[i][j] - footing.slope_x * point.x - footing.slope_z * point.z;
+      const double over = heights[i][j] - foothold.slope_x * point.x - foothold.slope_z * point.z;
       highest = std::max(highest, over), lowest = std::min(lowest, over);
     }
-  footing.height_m = highest;
-  footing.unevenness_m = highest - lowest;
-  return footing;
+  foothold.height_m = highest;
+  foothold.unevenness_m = highest - lowest;
+  return foothold;
 }
 
 GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double stride_per_leg) {
@@ -199,15 +199,15 @@ Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) 
   constexpr double kStep_m = 0.02;
   constexpr int kSteps = 12;
   constexpr double kFarther = 0.02;  // unevenness that one metre of detour is worth
-  Footing best;
+  Foothold best;
   Vec3 best_at = home_m;
   double best_cost = 1e9;
   for (int n = 0; n <= 2 * kSteps; ++n) {
     const int steps = n % 2 == 0 ? -n / 2 : (n + 1) / 2;  // 0, 1, -1, 2, -2 …
     const Vec3 at = home_m + steps * kStep_m * direction;
-    const Footing footing = footing_at(*environment_, leg, {world_from_start_.q, at});
-    const double cost = footing.unevenness_m + kFarther * kStep_m * std::abs(steps);
-    if (cost < best_cost - 1e-9) best = footing, best_at = at, best_cost = cost;
+    const Foothold foothold = foothold_at(*environment_, leg, {world_from_start_.q, at});
+    const double cost = foothold.unevenness_m + kFarther * kStep_m * std::abs(steps);
+    if (cost < best_cost - 1e-9) best = foothold, best_at = at, best_cost = cost;
     if (environment_->is_level()) break;
   }
   best_at.y = best.height_m;
@@ -328,8 +328,8 @@ GaitFrame Gait::stand(double lower_share) {
   }
   std::array<double, kMaxLegs> holds;
   holds.fill(1.0);
-  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0),
-                         lower_share * leg_length_m_, std::min(1.0, lower_share / 0.05));
+  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0), 0.0, 0.0);
+  frame.root.p_m.y -= lower_share * leg_length_m_;  // from where the legs reach, wherever that is: without a kink
   return frame;
 }
 
