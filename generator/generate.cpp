@@ -60,7 +60,7 @@ class Generation {
   // At rest on level ground; elsewhere hips and feet fit themselves to what is beneath.
   void stand_up() {
     const Vec3& at = stage_.start.p_m;
-    if (stage_.environment.is_level() || stage_.legs.empty()) {
+    if ((stage_.environment.is_level() && !stage_.bends) || stage_.legs.empty()) {
       s_.base.root.p_m.y += stage_.environment.height_at(at.x, at.z);
       return;
     }
@@ -355,6 +355,8 @@ class Generation {
 
 void generate(const Stage& stage, GenerateScratch& scratch, Motion& motion) {
   Generation(stage, scratch, motion).run();
+  motion.response = {};
+  if (stage.dynamics) simulate(*stage.character, *stage.dynamics, stage.environment, scratch.simulation, motion);
 }
 
 Motion generate(const Stage& stage) {

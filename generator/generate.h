@@ -10,6 +10,7 @@ namespace contort {
 // Memory that generate() reuses from call to call; any Stage may follow any other. After the first frame of a motion
 // nothing allocates.
 struct GenerateScratch {
+  SimulationScratch simulation;
   // Who has a layer of a part. An action takes over from the posture that was there: `eased` is how far it had come in
   // the frame before, so that what is left of its way is covered in what is left of its time.
   struct Hold {

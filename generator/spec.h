@@ -8,6 +8,7 @@
 
 #include "generator/character/desc.h"
 #include "generator/core/result.h"
+#include "generator/dynamics/dynamics_desc.h"
 #include "generator/timeline/clip.h"
 #include "generator/world/environment_desc.h"
 
@@ -17,6 +18,8 @@ namespace contort {
 struct StartDesc {
   Vec3 position_m{0.0};      // its height is the ground's there
   double heading_deg = 0.0;  // about +Y; 0 faces +Z
+  double ahead_m = 0.0;      // how far the hips stand before where the feet have them: legs lean from the ankles
+  double lower_m = 0.0;      // how much lower than on stretched legs they stay: knees that are never straight
   bool operator==(const StartDesc&) const = default;
 };
 
@@ -28,6 +31,7 @@ struct Spec {
   int hold_frames = 0;                  // [0, 6000] frames after the last sequence
   std::vector<SequenceDesc> sequences;  // played in this order
   std::vector<InterruptDesc> interrupts;
+  DynamicsDesc dynamics;
   bool operator==(const Spec&) const = default;
 };
 

@@ -67,6 +67,34 @@ template <class V>
 void fields(V& v, const StartDesc*) {
   v.field("position_m", &StartDesc::position_m, {.low = -1000, .high = 1000}, "On the ground, whatever its height.");
   v.field("heading_deg", &StartDesc::heading_deg, {.low = -360, .high = 360}, "0 faces +Z, 90 faces +X.");
+  v.field("ahead_m", &StartDesc::ahead_m, {.low = -0.3, .high = 0.3}, "How far before the feet the hips stand and go.");
+  v.field("lower_m", &StartDesc::lower_m, {.low = 0, .high = 0.3}, "How much lower than on stretched legs they stay.");
+}
+
+template <class V>
+void fields(V& v, const LoadDesc*) {
+  v.field("slot", &LoadDesc::slot, {.required = true}, "The slot whose part carries it.");
+  v.field("socket", &LoadDesc::socket, {.required = true}, "A socket of that part.");
+  v.field("position_m", &LoadDesc::position_m, {.low = -10, .high = 10}, "The box's centre, in the socket's frame.");
+  v.field("size_m", &LoadDesc::size_m, {.low = 0.001, .high = 10}, "Along the socket's axes.");
+  v.field("mass_kg", &LoadDesc::mass_kg, {.low = 0.001, .high = 10000}, "Spread evenly.");
+}
+
+template <class V>
+void fields(V& v, const ImpactDesc*) {
+  v.field("frame", &ImpactDesc::frame, kFrames, "Strikes before this frame moves on.");
+  v.field("slot", &ImpactDesc::slot, {.required = true}, "The slot whose part is struck.");
+  v.field("joint", &ImpactDesc::joint, {.may_be_empty = true}, "Of that part, by its own name; its first one where left out.");
+  v.field("point_m", &ImpactDesc::point_m, {.low = -10, .high = 10}, "In that joint's frame.");
+  v.field("impulse_N_s", &ImpactDesc::impulse_N_s, {.low = -10000, .high = 10000}, "Along the axes of the start.");
+}
+
+template <class V>
+void fields(V& v, const DynamicsDesc*) {
+  v.field("mode", &DynamicsDesc::mode, {.names = mode_names()}, "How the motion is controlled.");
+  v.field("ticks_per_frame", &DynamicsDesc::ticks_per_frame, {.low = 0, .high = 64}, "Of control; 0: as many as make 120 a second.");
+  v.field("loads", &DynamicsDesc::loads, {.max_count = 16}, "Boxes that the target motion does not know of.");
+  v.field("impacts", &DynamicsDesc::impacts, {.max_count = 64}, "Blows.");
 }
 
 template <class V>
@@ -93,6 +121,7 @@ void fields(V& v, const Spec*) {
   v.field("start", &Spec::start, {}, "Where the character stands at first.");
   v.field("sequences", &Spec::sequences, {.max_count = 64}, "Played one after another.");
   v.field("interrupts", &Spec::interrupts, {.max_count = 64}, "Sequences that wait for a condition.");
+  v.field("dynamics", &Spec::dynamics, {}, "Mass, loads and impacts.");
 }
 
 }  // namespace contort

@@ -27,6 +27,8 @@ Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> cha
   stage.timeline = std::move(timeline).value();
   stage.rate_hz = spec.rate_hz;
   stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), Vec3(spec.start.position_m.x, 0.0, spec.start.position_m.z)};
+  stage.bends = spec.start.ahead_m != 0.0 || spec.start.lower_m != 0.0;
+  for (Leg& leg : stage.legs) leg.home_m.z -= spec.start.ahead_m, leg.length_m -= spec.start.lower_m;
   stage.hold_frames = spec.hold_frames;
   // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
   stage.most_frames =
@@ -41,6 +43,15 @@ Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> cha
     if (interrupt.obstacle < 0)
       return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
                    "found \"" + interrupt.when.name + "\", which no obstacle is called"};
+  }
+  if (spec.dynamics != DynamicsDesc{}) {
+    Result<DynamicsSetup> dynamics = build_dynamics(spec.dynamics, *character, stage.legs, stage.rate_hz, stage.start.q);
+    if (!dynamics) {
+      Issue issue = dynamics.issue();
+      issue.pointer = "/dynamics" + issue.pointer;
+      return issue;
+    }
+    if (spec.dynamics.mode != Mode::kinematic) stage.dynamics = std::make_shared<const DynamicsSetup>(std::move(dynamics).value());
   }
   stage.character = std::move(character);
   return stage;

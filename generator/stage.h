@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "generator/character/character.h"
+#include "generator/dynamics/simulate.h"
 #include "generator/motion/legs.h"
 #include "generator/spec.h"
 #include "generator/timeline/timeline.h"
@@ -16,13 +17,15 @@ struct Stage {
   Timeline timeline;
   Environment environment;
   std::vector<Leg> legs;
+  std::shared_ptr<const DynamicsSetup> dynamics;  // null: kinematic
   double rate_hz = 60.0;
   Rigid start;          // where the character stands in frame 0: a turn about +Y and a place
+  bool bends = false;   // hips before or behind the feet, or lower than at rest
   int hold_frames = 0;  // after the queue has run dry
   int most_frames = 1;  // >= 1; fewer where an interrupt never fires or drops what it cuts
 };
 
-// Codes "spec.*", "environment.*" and "character.*" with pointers into the spec.
+// Codes "spec.*", "environment.*", "dynamics.*" and "character.*" with pointers into the spec.
 Result<Stage> build_stage(const Spec& spec, const Library& library);
 
 // The same with a character that was built from spec.character before; many specs can share one.

@@ -42,18 +42,22 @@ void place_root_freedoms(const Placement& root, SpatialMotion* out) {
 }
 
 // Inertia about the centre of mass turned, then moved: R I R^T + m (c.c 1 - c c^T).
-SpatialInertia place_inertia(const Link& link, const Placement& own, const Vec3& from_root_m) {
-  const Mat3& r = own.rotation;
-  const Vec3 c = from_root_m + r * link.center_of_mass_m;
-  const Mat3 half = r * link.inertia_kg_m2;
+SpatialInertia place_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& about_center, const Mat3& r,
+                             const Vec3& from_root_m) {
+  const Vec3 c = from_root_m + r * center_of_mass_m;
+  const Mat3 half = r * about_center;
   Mat3 inertia;
   const double across = glm::dot(c, c);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) {
       const double turned = half[0][i] * r[0][j] + half[1][i] * r[1][j] + half[2][i] * r[2][j];
-      inertia[i][j] = inertia[j][i] = turned + link.mass_kg * ((i == j ? across : 0.0) - c[i] * c[j]);
+      inertia[i][j] = inertia[j][i] = turned + mass_kg * ((i == j ? across : 0.0) - c[i] * c[j]);
     }
-  return {link.mass_kg, link.mass_kg * c, inertia};
+  return {mass_kg, mass_kg * c, inertia};
+}
+
+SpatialInertia place_inertia(const Link& link, const Placement& own, const Vec3& from_root_m) {
+  return place_inertia(link.mass_kg, link.center_of_mass_m, link.inertia_kg_m2, own.rotation, from_root_m);
 }
 
 SpatialMotion rate_of(const Link& link, const DynamicsScratch& scratch, std::span<const double> rates) {
@@ -73,13 +77,6 @@ void start_at_root(std::span<const double> velocity, std::span<const double> acc
   scratch.velocity[0] = {angular, linear};
   scratch.acceleration[0] = {r * Vec3(acceleration[3], acceleration[4], acceleration[5]),
                              up - glm::cross(angular, linear)};
-}
-
-// I a + v x* I v
-SpatialForce force_of(const SpatialInertia& inertia, const SpatialMotion& v, const SpatialMotion& a) {
-  SpatialForce force = inertia * a;
-  force += cross_force(v, inertia * v);
-  return force;
 }
 
 Quat turned(const Quat& q, const Vec3& rate, double time_s) {
@@ -105,6 +102,11 @@ void place(const Multibody& body, const Rigid& world_from_root, std::span<const 
     place_freedoms(link, parent, own, from_root_m, &scratch.freedoms[at(link.dof)]);
     if (!link.massless) scratch.inertia[i] = place_inertia(link, own, from_root_m);
   }
+}
+
+SpatialInertia placed_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2,
+                              const Placement& link, const Vec3& root_m) {
+  return place_inertia(mass_kg, center_of_mass_m, inertia_kg_m2, link.rotation, link.origin_m - root_m);
 }
 
 void inverse_dynamics(const Multibody& body, std::span<const double> velocity, std::span<const double> acceleration,
@@ -147,6 +149,20 @@ void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<doub
       for (int j = k; j >= 0; j = parent_dof[at(j)]) row[j] = dot(scratch.freedoms[at(j)], force);
     }
     if (i > 0) scratch.composite[at(link.parent)] += scratch.composite[i];
+  }
+}
+
+void multiply(const Multibody& body, std::span<const double> matrix, std::span<const double> x, std::span<double> out) {
+  const auto n = at(body.dof_count());
+  const auto parent = body.parent_dof();
+  for (std::size_t k = 0; k < n; ++k) {
+    const double* row = &matrix[k * n];
+    double sum = row[k] * x[k];
+    for (int i = parent[k]; i >= 0; i = parent[at(i)]) {
+      sum += row[i] * x[at(i)];
+      out[at(i)] += row[i] * x[k];
+    }
+    out[k] = sum;
   }
 }
 

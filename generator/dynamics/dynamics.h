@@ -38,6 +38,10 @@ struct DynamicsScratch {
 void place(const Multibody& body, const Rigid& world_from_root, std::span<const double> coords,
            DynamicsScratch& scratch);
 
+// A mass fixed to a link, about the root's origin.
+SpatialInertia placed_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2,
+                              const Placement& link, const Vec3& root_m);
+
 // RNEA: forces = M a + h with gravity along -Y. Leaves velocities and accelerations in the scratch.
 void inverse_dynamics(const Multibody& body, std::span<const double> velocity, std::span<const double> acceleration,
                       double gravity_m_s2, DynamicsScratch& scratch, std::span<double> forces);
@@ -45,6 +49,9 @@ void inverse_dynamics(const Multibody& body, std::span<const double> velocity, s
 // CRBA: M, symmetric, dof_count x dof_count row by row, of which only the entries (i, j) with j on i's way to the root
 // are written: the rest of `matrix` must be 0 from before and stays so.
 void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<double> matrix);
+
+// out = M x of such a matrix.
+void multiply(const Multibody& body, std::span<const double> matrix, std::span<const double> x, std::span<double> out);
 
 // M = L^T D L in place, without filling any zero; then solves M x = b, x in place of b. M of bodies with mass is positive
 // definite; a last link without mass gives infinities.

@@ -27,7 +27,23 @@ Link link_of(const Joint& joint) {
   return link;
 }
 
+// m (d.d 1 - d d^T): what a mass adds to the inertia about a point that is d away (parallel axes).
+Mat3 moved_inertia(double mass_kg, const Vec3& d) {
+  return mass_kg * (glm::dot(d, d) * Mat3(1.0) - glm::outerProduct(d, d));
+}
+
 }  // namespace
+
+void Multibody::add_mass(int link, double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2) {
+  Link& own = links_[static_cast<std::size_t>(link)];
+  const double sum_kg = own.mass_kg + mass_kg;
+  if (!(sum_kg > 0.0)) return;
+  const Vec3 center = (own.mass_kg * own.center_of_mass_m + mass_kg * center_of_mass_m) / sum_kg;
+  own.inertia_kg_m2 += moved_inertia(own.mass_kg, own.center_of_mass_m - center) + inertia_kg_m2 +
+                       moved_inertia(mass_kg, center_of_mass_m - center);
+  own.mass_kg = sum_kg, own.center_of_mass_m = center, own.massless = false;
+  mass_kg_ += mass_kg;
+}
 
 Multibody Multibody::of(const Character& character) {
   Multibody body;

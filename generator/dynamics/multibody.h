@@ -39,6 +39,9 @@ class Multibody {
  public:
   static Multibody of(const Character& character);
 
+  // Makes a body part of a link: mass, centre and inertia about it in the link's frame. Exact, as the two move as one.
+  void add_mass(int link, double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2);
+
   std::span<const Link> links() const { return links_; }  // as the character's joints
   int dof_count() const { return static_cast<int>(parent_dof_.size()); }
   int coord_count() const { return coord_count_; }

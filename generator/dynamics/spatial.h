@@ -46,6 +46,13 @@ inline SpatialForce cross_force(const SpatialMotion& v, const SpatialForce& f) {
   return {glm::cross(v.angular, f.moment) + glm::cross(v.linear, f.force), glm::cross(v.angular, f.force)};
 }
 
+// What moves a body so: I a + v x* I v.
+inline SpatialForce force_of(const SpatialInertia& inertia, const SpatialMotion& v, const SpatialMotion& a) {
+  SpatialForce force = inertia * a;
+  force += cross_force(v, inertia * v);
+  return force;
+}
+
 inline SpatialInertia& operator+=(SpatialInertia& a, const SpatialInertia& b) {
   a.mass_kg += b.mass_kg, a.first_moment += b.first_moment, a.inertia += b.inertia;
   return a;

@@ -46,6 +46,45 @@ struct AimSpan {
   bool operator==(const AimSpan&) const = default;
 };
 
+// How a figure that dynamics moves stands in a frame.
+enum class Footing : std::uint8_t {
+  standing,  // on its soles, flat
+  airborne,  // on nothing
+  tipping,   // on edges or corners of soles
+  fallen,    // on anything else, or as good as lying
+};
+
+struct Stance {
+  Footing footing = Footing::standing;
+  bool overpowered = false;   // a joint needed more than its strength to hold the pose
+  std::uint8_t planned = 0;   // bit i: leg i stands in the target
+  std::uint8_t standing = 0;  // bit i: leg i stands
+  Vec3 zmp_m{0.0};            // zero moment point, where standing; of the tick in which it was nearest to the edge
+  double margin_m = 0.0;      // of it inside the support area, < 0 outside
+  bool operator==(const Stance&) const = default;
+};
+
+// A blow that struck.
+struct ImpactMark {
+  int frame = 0;
+  int joint = 0;
+  Vec3 point_m{0.0};      // in the world, before it moved anything
+  Vec3 impulse_N_s{0.0};  // in the world
+  bool operator==(const ImpactMark&) const = default;
+};
+
+// What dynamics did, frame by frame. Empty in kinematic motions.
+struct Response {
+  int dof_count = 0;                  // freedoms: six of the root, then those of the joints in order; see dynamics/multibody.h
+  std::vector<double> target_coords;  // frames x coord_count: the motion that was followed
+  std::vector<Rigid> target_root;     // frames
+  std::vector<double> efforts;        // frames x dof_count, N m or N, the greatest of a frame; 0 for the root
+  std::vector<double> control;        // frames x dof_count: accelerations that dynamic control added
+  std::vector<Stance> stances;        // frames
+  std::vector<ImpactMark> impacts;
+  bool operator==(const Response&) const = default;
+};
+
 struct Motion {
   double rate_hz = 60.0;
   int frame_count = 0;
@@ -55,6 +94,7 @@ struct Motion {
   std::vector<ActionSpan> spans;
   std::vector<QueueSpan> queue;  // the queue's history
   std::vector<AimSpan> aims;     // in the order of their first frames
+  Response response;
 
   std::span<const double> row(int frame) const {
     return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),

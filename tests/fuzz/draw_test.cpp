@@ -76,7 +76,7 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
   const std::array<std::string, 3> pinned = {"471aee7f3edeb5975cf62044f849cc16", "f49ddd34bc17ebdf763e7dca423e7a80",
-                                             "63eccd44d344fcb9410a4e8416d60871"};
+                                             "7e359cd13351918f5a3e1a70ce2b824a"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }

@@ -1,0 +1,50 @@
+// Which soles stand and where they were put down.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/figure.h"
+#include "generator/dynamics/support.h"
+#include "generator/motion/motion.h"
+#include "generator/world/environment.h"
+
+namespace contort {
+
+class Feet {
+ public:
+  void begin(const Figure& figure);
+
+  std::span<const int> soles() const { return soles_; }  // of the figure, in the order in which they landed
+  std::span<const StandingFoot> places() const { return places_; }
+  bool none() const { return soles_.empty(); }
+  bool stands(int sole) const;
+
+  // By freedom: whether it is of a leg that stands.
+  std::span<const char> stands_by_dof() const { return by_dof_; }
+
+  void land(int sole, const Rigid& world_from_sole);
+  void lift(int sole);
+  void clear();
+
+ private:
+  void mark();
+  const Figure* figure_ = nullptr;
+  std::vector<int> soles_;
+  std::vector<StandingFoot> places_;
+  std::vector<char> by_dof_;
+};
+
+// Where a sole is, and where it stands if it comes down here: on the ground, tilted like it, turned as it was.
+Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics);
+Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
+
+// Whether all corners of a sole are near the ground and slow. Needs the velocities of inverse_dynamics.
+bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
+
+// Which soles stand in each frame of a motion: near the ground, level with it, and hardly moving. Bit i: sole i.
+std::vector<std::uint8_t> planned_stances(const Character& character, const Figure& figure,
+                                          const Environment& environment, const Motion& motion);
+
+}  // namespace contort

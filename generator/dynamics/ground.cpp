@@ -1,0 +1,160 @@
+#include "generator/dynamics/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "generator/dynamics/linear.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kMomentPrice = 100.0;  // of a squared N m against a squared N
+constexpr double kLeastShare = 0.2;     // of the weight that must press on the ground
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Twice the area of a triangle seen from above, > 0 counter-clockwise (+Y is Z cross X).
+double area_above(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+}
+
+// A. M. Andrew's monotone chain (1979): the hull's corners, counter-clockwise seen from above.
+void convex_hull(std::vector<Vec3>& points, std::vector<int>& hull) {
+  std::ranges::sort(points, [](const Vec3& a, const Vec3& b) { return a.z != b.z ? a.z < b.z : a.x < b.x; });
+  hull.clear();
+  const int count = static_cast<int>(points.size());
+  const auto add = [&](int next, std::size_t kept) {
+    while (hull.size() > kept && area_above(points[at(hull[hull.size() - 2])], points[at(hull.back())], points[at(next)]) <= 0.0)
+      hull.pop_back();
+    hull.push_back(next);
+  };
+  for (int i = 0; i < count; ++i) add(i, 1);
+  const std::size_t lower = hull.size();
+  for (int i = count - 1; i-- > 0;) add(i, lower);
+  if (hull.size() > 1) hull.pop_back();  // the first one again
+}
+
+// Row of the moment e . (n + (o - p) x f) in the root's entries of generalised forces: f in the world, n in its axes.
+SupportEdge edge_between(const Vec3& from_m, const Vec3& to_m, const Placement& root) {
+  SupportEdge edge{from_m, to_m - from_m, {}};
+  edge.along /= std::sqrt(edge.along.x * edge.along.x + edge.along.z * edge.along.z);
+  const Vec3 force = glm::cross(edge.along, root.origin_m - from_m);
+  for (int k = 0; k < 3; ++k) {
+    edge.row[at(k)] = force[k];
+    edge.row[at(3 + k)] = glm::dot(edge.along, root.rotation[k]);
+  }
+  return edge;
+}
+
+}  // namespace
+
+SpatialForce ground_force(const DynamicsScratch& dynamics, std::span<const double> forces) {
+  return {dynamics.world[0].rotation * Vec3(forces[3], forces[4], forces[5]), Vec3(forces[0], forces[1], forces[2])};
+}
+
+void find_support_area(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+                       SupportArea& area) {
+  area.corners_m.clear();
+  for (const int s : standing) {
+    const Sole& sole = figure.soles[at(s)];
+    const Placement& link = dynamics.world[at(sole.link)];
+    for (const Vec3& corner : sole.corners_m) area.corners_m.push_back(link.origin_m + link.rotation * corner);
+  }
+  convex_hull(area.corners_m, area.order);
+  area.edges.clear();
+  for (std::size_t i = 0; i < area.order.size() && area.order.size() > 2; ++i) {
+    const int next = area.order[(i + 1) % area.order.size()];
+    area.edges.push_back(edge_between(area.corners_m[at(area.order[i])], area.corners_m[at(next)], dynamics.world[0]));
+  }
+}
+
+Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std::span<const double> forces,
+                   double weight_N) {
+  const SpatialForce net = ground_force(dynamics, forces);
+  Balance balance{dynamics.world[0].origin_m, -std::numeric_limits<double>::infinity()};
+  if (!(net.force.y > kLeastShare * weight_N) || area.edges.empty()) return balance;
+  double height_m = 0.0;
+  for (const Vec3& corner : area.corners_m) height_m += corner.y / static_cast<double>(area.corners_m.size());
+  // Where the force's moment has no horizontal part, at that height.
+  const double down_m = height_m - balance.zmp_m.y;
+  balance.zmp_m.x += (net.moment.z + down_m * net.force.x) / net.force.y;
+  balance.zmp_m.z += (-net.moment.x + down_m * net.force.z) / net.force.y;
+  balance.zmp_m.y = height_m;
+  balance.margin_m = std::numeric_limits<double>::infinity();
+  for (const SupportEdge& edge : area.edges)
+    balance.margin_m = std::min(balance.margin_m, dot(edge.row, forces.first(kRootDofs)) / net.force.y);
+  return balance;
+}
+
+double balanced_share(const SupportArea& area, std::span<const double> hold, std::span<const double> forces,
+                      double margin_m) {
+  double share = 1.0;
+  for (const SupportEdge& edge : area.edges) {
+    const auto inside = [&](std::span<const double> f) { return dot(edge.row, f.first(kRootDofs)) - margin_m * f[1]; };
+    const double now = inside(forces), still = inside(hold);
+    if (now < 0.0 && still > 0.0) share = std::min(share, still / (still - now));
+  }
+  return share;
+}
+
+// Multipliers (moment mu, force phi) with f_i = phi + mu x d_i and n_i = mu / price meet sum f = F, sum n + d x f = N.
+void GroundShare::prepare(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics) {
+  feet_.clear();
+  dof_count_ = figure.body.dof_count();
+  moves_.assign(standing.size() * at(dof_count_), 0);
+  factors_.fill(0.0);
+  const auto entry = [&](int i, int j) -> double& { return factors_[at(6 * i + j)]; };
+  for (const int s : standing) {
+    const Sole& sole = figure.soles[at(s)];
+    const Placement& link = dynamics.world[at(sole.link)];
+    Vec3 center(0.0);
+    for (const Vec3& corner : sole.corners_m) center += 0.25 * corner;
+    const Vec3 d = link.origin_m + link.rotation * center - dynamics.world[0].origin_m;
+    for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
+    feet_.push_back({s, d});
+    for (int i = 0; i < 3; ++i) {
+      entry(3 + i, 3 + i) += 1.0;
+      for (int j = 0; j < 3; ++j) entry(i, j) += (i == j ? 1.0 / kMomentPrice + glm::dot(d, d) : 0.0) - d[i] * d[j];
+    }
+    // d x phi
+    entry(3, 1) += d.z, entry(3, 2) -= d.y, entry(4, 0) -= d.z, entry(4, 2) += d.x, entry(5, 0) += d.y, entry(5, 1) -= d.x;
+  }
+  if (!feet_.empty()) factorise_symmetric(factors_, 6);
+}
+
+SpatialForce GroundShare::multipliers(const SpatialForce& net) const {
+  double x[6];
+  for (int k = 0; k < 3; ++k) x[k] = net.moment[k], x[3 + k] = net.force[k];
+  solve_factorised(factors_, 6, x);
+  return {Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5])};
+}
+
+SpatialForce GroundShare::share(std::size_t standing, const SpatialForce& net) const {
+  const SpatialForce m = multipliers(net);
+  const Vec3& d = feet_[standing].center_m;
+  const Vec3 force = m.force + glm::cross(m.moment, d);
+  return {m.moment / kMomentPrice + glm::cross(d, force), force};
+}
+
+void GroundShare::efforts(const Figure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
+                          std::span<double> out) const {
+  std::copy(forces.begin(), forces.end(), out.begin());
+  std::fill_n(out.begin(), kRootDofs, 0.0);
+  const SpatialForce net = ground_force(dynamics, forces);
+  for (std::size_t i = 0; i < feet_.size(); ++i) {
+    const SpatialForce own = share(i, net);
+    for (const int dof : figure.soles[at(feet_[i].sole)].chain_dofs) out[at(dof)] -= dot(dynamics.freedoms[at(dof)], own);
+  }
+}
+
+double GroundShare::effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const {
+  double effort = forces[at(dof)];
+  for (std::size_t i = 0; i < feet_.size(); ++i)
+    if (moves_[i * at(dof_count_) + at(dof)] != 0)
+      effort -= dot(dynamics.freedoms[at(dof)], share(i, ground_force(dynamics, forces)));
+  return effort;
+}
+
+}  // namespace contort

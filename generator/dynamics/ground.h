@@ -1,0 +1,83 @@
+// The ground's side of dynamics: the net force that it must supply, where that acts (zero moment point, ZMP), whether
+// standing soles can supply it, and how they share it.
+//
+// Soles that stand can only push. A figure tips about an edge of the convex hull of their corners, seen from above, when
+// the moment of the ground's force about that edge changes its sign. For level ground that is the ZMP leaving the
+// support polygon (M. Vukobratovic and B. Borovac, "Zero-Moment Point - thirty-five years of its life", 2004); as a
+// moment about a line in space it holds for soles at different heights and tilts as well, and it is linear in the
+// accelerations, without any division.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/dynamics.h"
+#include "generator/dynamics/figure.h"
+
+namespace contort {
+
+// What the ground must supply: a force, and its moment about the root's origin (world axes). `forces` are the
+// generalised ones of inverse dynamics.
+SpatialForce ground_force(const DynamicsScratch& dynamics, std::span<const double> forces);
+
+struct SupportEdge {
+  Vec3 from_m{0.0};
+  Vec3 along{0.0};  // its horizontal part has length 1
+  // Moment about the edge: row . the six root entries of generalised forces, N m; > 0 inside. Divided by the vertical
+  // force it is the ZMP's distance from the edge, m.
+  std::array<double, kRootDofs> row{};
+};
+
+struct SupportArea {
+  std::vector<SupportEdge> edges;  // counter-clockwise seen from above
+  std::vector<Vec3> corners_m;     // memory
+  std::vector<int> order;          // memory
+};
+
+// Of soles that stand, by index, at the placed pose.
+void find_support_area(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+                       SupportArea& area);
+
+struct Balance {
+  Vec3 zmp_m{0.0};       // on the horizontal plane through the corners' mean
+  double margin_m = 0.0; // of the ZMP inside the area, < 0 outside; -infinity where the ground would have to pull
+};
+
+// Of a figure that needs this force; a vertical one below a fifth of the weight counts as pulling.
+Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std::span<const double> forces,
+                   double weight_N);
+
+// The largest share in [0, 1] of the way from the forces of holding still to these at which the ZMP keeps a margin.
+// Edges beyond which even holding still would tip are left out: nothing is won there.
+double balanced_share(const SupportArea& area, std::span<const double> hold, std::span<const double> forces,
+                      double margin_m);
+
+// How soles share a ground force: the least sum of squared forces and, a hundred times dearer, of squared moments about
+// the soles' centres. Efforts of joints above the legs do not depend on it.
+class GroundShare {
+ public:
+  void prepare(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics);
+
+  // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
+  void efforts(const Figure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
+               std::span<double> out) const;
+  // The same for one freedom.
+  double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const;
+
+  // One sole's share of a net force, about the root's origin; `standing` counts as in prepare.
+  SpatialForce share(std::size_t standing, const SpatialForce& net) const;
+
+ private:
+  struct Foot {
+    int sole = 0;
+    Vec3 center_m{0.0};  // from the root's origin
+  };
+  SpatialForce multipliers(const SpatialForce& net) const;
+  std::vector<Foot> feet_;
+  int dof_count_ = 0;
+  std::vector<char> moves_;  // feet x freedoms: whether it moves the sole
+  std::array<double, 36> factors_{};
+};
+
+}  // namespace contort

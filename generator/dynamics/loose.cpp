@@ -1,0 +1,145 @@
+#include "generator/dynamics/loose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/dynamics/linear.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kFriction = 0.8;        // of a rubber sole on dry ground
+constexpr double kNear_m = 0.02;         // beyond what a tick covers, points nearer than this are looked at
+constexpr double kRecovery_per_s = 5.0;  // of depth
+constexpr double kFastestRecovery_m_s = 0.5;
+constexpr int kSweeps = 30;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
+  const auto add = [&](const Vec3& point, double radius) { out.push_back({collider.joint, point, radius, false}); };
+  if (const Sphere* sphere = std::get_if<Sphere>(&collider.shape)) add(sphere->center_m, sphere->radius_m);
+  if (const Capsule* capsule = std::get_if<Capsule>(&collider.shape))
+    add(capsule->a_m, capsule->radius_m), add(capsule->b_m, capsule->radius_m);
+  const Box* box = std::get_if<Box>(&collider.shape);
+  if (box == nullptr) return;
+  const Quat q = from_rotation_vector(box->rotation_deg * kRadPerDeg);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    add(box->center_m + q * (sign * box->half_m), 0.0);
+  }
+}
+
+// Two unit vectors at right angles to a unit one and to each other.
+void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
+  const Vec3 other = std::fabs(normal.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  first = glm::normalize(glm::cross(normal, other));
+  second = glm::cross(normal, first);
+}
+
+// Velocities of all links about the root's origin.
+void find_velocities(const Multibody& body, const DynamicsScratch& d, std::span<const double> velocity,
+                     std::vector<SpatialMotion>& out) {
+  const auto links = body.links();
+  out.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    SpatialMotion v = i > 0 ? out[at(links[i].parent)] : SpatialMotion{};
+    for (int k = links[i].dof; k < links[i].dof + links[i].dof_count; ++k) v += velocity[at(k)] * d.freedoms[at(k)];
+    out[i] = v;
+  }
+}
+
+// The inertia that everything together has about the root's origin, factorised: (moment, force) from (angular, linear).
+void factorise_inertia(const SpatialInertia& inertia, std::array<double, 36>& factors) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    SpatialMotion unit;
+    (k < 3 ? unit.angular : unit.linear)[static_cast<int>(k % 3)] = 1.0;
+    const SpatialForce column = inertia * unit;
+    for (std::size_t i = 0; i < 6; ++i) factors[i * 6 + k] = i < 3 ? column.moment[static_cast<int>(i)] : column.force[static_cast<int>(i - 3)];
+  }
+  factorise_symmetric(factors, 6);
+}
+
+SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce& impulse) {
+  double x[6];
+  for (int k = 0; k < 3; ++k) x[k] = impulse.moment[k], x[3 + k] = impulse.force[k];
+  solve_factorised(factors, 6, x);
+  return {Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5])};
+}
+
+}  // namespace
+
+std::vector<TouchPoint> touch_points(const Character& character, const Figure& figure) {
+  std::vector<TouchPoint> points;
+  for (const Sole& sole : figure.soles)
+    for (const Vec3& corner : sole.corners_m) points.push_back({sole.link, corner, 0.0, true});
+  const auto stands = [&](int link) {
+    return std::ranges::any_of(figure.soles, [&](const Sole& sole) { return sole.link == link; });
+  };
+  for (const Collider& collider : character.colliders())
+    if (!stands(collider.joint)) add_points(collider, points);
+  return points;
+}
+
+void fall_freely(const Multibody& body, std::span<const double> mass, LooseScratch& scratch,
+                 std::span<double> acceleration, std::span<double> forces) {
+  const auto n = static_cast<std::size_t>(body.dof_count());
+  double change[kRootDofs];
+  for (std::size_t i = 0; i < kRootDofs; ++i) {
+    change[i] = -forces[i];
+    for (std::size_t j = 0; j <= i; ++j) scratch.factors[i * kRootDofs + j] = mass[i * n + j];
+  }
+  solve_symmetric(scratch.factors, kRootDofs, change);
+  for (std::size_t k = 0; k < kRootDofs; ++k) acceleration[k] += change[k];
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[std::max(i, k) * n + std::min(i, k)] * change[k];
+}
+
+void push_off(const Figure& figure, std::span<const TouchPoint> points, const Environment& environment, double tick_s,
+              const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity) {
+  const Vec3 root_m = dynamics.world[0].origin_m;
+  find_velocities(figure.body, dynamics, velocity, scratch.velocity);
+  scratch.contacts.clear();
+  for (const TouchPoint& touch : points) {
+    const Placement& link = dynamics.world[at(touch.link)];
+    const Vec3 center = link.origin_m + link.rotation * touch.point_m;
+    const Surface ground = environment.nearest_ground(center);
+    const double gap_m = ground.distance_m - touch.radius_m;
+    const Vec3 from_root = center - touch.radius_m * ground.normal - root_m;
+    const SpatialMotion& v = scratch.velocity[at(touch.link)];
+    const double sinking = glm::dot(ground.normal, v.linear + glm::cross(v.angular, from_root));
+    if (!(gap_m < kNear_m - tick_s * sinking)) continue;
+    LooseScratch::Contact contact;
+    Vec3 axes[3] = {ground.normal};
+    tangents(ground.normal, axes[1], axes[2]);
+    for (int k = 0; k < 3; ++k) contact.push[k] = {glm::cross(from_root, axes[k]), axes[k]};
+    contact.link = touch.link, contact.is_sole = touch.is_sole;
+    contact.least_speed = gap_m > 0.0 ? -gap_m / tick_s : std::min(-kRecovery_per_s * gap_m, kFastestRecovery_m_s);
+    scratch.contacts.push_back(contact);
+  }
+  if (scratch.contacts.empty()) return;
+  factorise_inertia(dynamics.composite[0], scratch.factors);
+  for (LooseScratch::Contact& contact : scratch.contacts)
+    for (int k = 0; k < 3; ++k) contact.answer[k] = moved_by(scratch.factors, contact.push[k]);
+  SpatialMotion change;  // of the root's velocity, and with it of every link's
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (LooseScratch::Contact& contact : scratch.contacts)
+      for (int k = 0; k < 3; ++k) {
+        SpatialMotion v = scratch.velocity[at(contact.link)];
+        v += change;
+        const double softness = dot(contact.answer[k], contact.push[k]);
+        const double wanted = k == 0 ? contact.least_speed : 0.0;
+        const double before = contact.impulse[k];
+        double now = before + (wanted - dot(v, contact.push[k])) / softness;
+        const double most = kFriction * contact.impulse[0];
+        now = k == 0 ? std::max(0.0, now) : std::clamp(now, -most, most);
+        contact.impulse[k] = now;
+        change += (now - before) * contact.answer[k];
+      }
+  const Mat3 world_to_root = glm::transpose(dynamics.world[0].rotation);
+  const Vec3 turn = world_to_root * change.angular;
+  for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
+}
+
+}  // namespace contort

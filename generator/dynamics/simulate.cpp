@@ -1,0 +1,373 @@
+#include "generator/dynamics/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/dynamics/joint_ends.h"
+#include "generator/dynamics/linear.h"
+#include "generator/dynamics/strength.h"
+
+namespace contort {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double kRootPrice = 1e-3;      // of its accelerations, a joint's cost 1: the root goes where the legs say
+constexpr double kFootStiffness = 15.0;  // rad/s, of soles that have drifted
+constexpr double kLandingGap_m = 0.03;   // a sole that is meant to stand and is nearer than this has landed
+constexpr double kEdge_m = 0.005;        // of the zero moment point from the edge, for which tracking gives way
+constexpr double kTips_m = 0.03;         // the zero moment point this far outside cannot be brought back
+constexpr double kTips_s = 0.2;          // nor one that is outside for so long
+constexpr double kBlow_s = 0.02;         // a blow takes so long: what weight presses on a foot meanwhile holds it
+constexpr double kFastest_rad_s = 20.0;  // a joint that a blow would move faster is braced
+constexpr double kLying_cos = 0.5;       // a trunk 60 degrees from its target's up has fallen
+constexpr double kLimp_per_s = 10.0;     // damping of joints after a fall
+
+class Simulation {
+ public:
+  Simulation(const Character& character, const DynamicsSetup& setup, const Environment& environment,
+             SimulationScratch& scratch, Motion& motion)
+      : character_(character),
+        setup_(setup),
+        figure_(setup.figure),
+        body_(setup.figure.body),
+        environment_(environment),
+        s_(scratch),
+        motion_(motion),
+        target_(setup.figure.body, motion),
+        planned_(planned_stances(character, setup.figure, environment, motion)),
+        tick_s_(1.0 / (motion.rate_hz * setup.ticks_per_frame)),
+        weight_N_(kGravity_m_s2 * setup.figure.body.mass_kg()) {
+    target_.share_knots(closed_chain());
+  }
+
+  void run() {
+    prepare();
+    for (frame_ = 0; frame_ < motion_.frame_count; ++frame_) {
+      store_pose();
+      s_.record.begin_frame(frame_, planned_[at(frame_)]);
+      for (const Blow& blow : setup_.blows)
+        if (blow.frame == frame_) strike(blow);
+      place_figure();
+      if (!loose_) plan_feet(false);
+      // The last frame is looked at, but not left.
+      const bool last = frame_ + 1 == motion_.frame_count;
+      for (int i = 0; i < (last ? 1 : setup_.ticks_per_frame); ++i) tick(i, !last);
+      s_.record.end_frame(s_.feet.soles());
+    }
+  }
+
+ private:
+  // While several feet stand, their legs and the root are one chain: they must head for the same knots.
+  std::vector<int> closed_chain() const {
+    std::vector<int> links = {0};
+    for (std::size_t i = 1; i < body_.links().size(); ++i)
+      for (const Sole& sole : figure_.soles)
+        if (std::ranges::find(sole.leg_dofs, body_.links()[i].dof) != sole.leg_dofs.end())
+          links.push_back(static_cast<int>(i));
+    return links;
+  }
+
+  void prepare() {
+    const auto n = at(body_.dof_count());
+    for (std::vector<double>* row : {&s_.tracked, &s_.acceleration, &s_.forces, &s_.bias, &s_.efforts, &s_.hold,
+                                     &s_.hold_forces, &s_.hold_efforts})
+      row->assign(n, 0.0);
+    s_.mass.assign(n * n, 0.0);
+    s_.factors.assign(n * n, 0.0);
+    s_.record.begin(motion_, body_.dof_count());
+    s_.state = standing_start(body_, target_);
+    s_.control.begin(figure_, tick_s_);
+    s_.feet.begin(figure_);
+    frame_ = 0;
+    place_figure();
+    plan_feet(true);
+  }
+
+  void store_pose() {
+    motion_.root[at(frame_)] = s_.state.root;
+    std::copy(s_.state.coords.begin(), s_.state.coords.end(), motion_.row(frame_).begin());
+  }
+
+  bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
+  void place_figure() { place(body_, s_.state.root, s_.state.coords, s_.dynamics); }
+
+  // ---- feet
+
+  bool is_planned(int sole) const { return (planned_[at(frame_)] >> sole & 1) != 0; }
+  int sole_count() const { return static_cast<int>(figure_.soles.size()); }
+
+  void land(int sole) { s_.feet.land(sole, footprint(figure_.soles[at(sole)], s_.dynamics, environment_)); }
+
+  void let_go() {
+    s_.feet.clear();
+    s_.control.rest();
+    loose_ = true;
+    outside_s_ = 0.0;
+  }
+
+  // Lifts and lands feet as the target does. A foot that is still high in the air lands later.
+  void plan_feet(bool at_once) {
+    bool changed = false;
+    for (int i = 0; i < sole_count(); ++i) {
+      const bool stands = s_.feet.stands(i), shall = is_planned(i);
+      const bool lands = shall && !stands && (at_once || gap_m(figure_.soles[at(i)]) < kLandingGap_m);
+      if (stands && !shall) s_.feet.lift(i);
+      if (lands) land(i);
+      changed = changed || lands || (stands && !shall);
+    }
+    if (!changed) return;
+    s_.control.rest();
+    if (!s_.feet.none()) {
+      find_rows();
+      stop_feet(body_, kRootPrice, s_.support, s_.state.velocity);
+    } else if (is_dynamic() && sole_count() > 0) {
+      let_go();
+    }
+  }
+
+  double gap_m(const Sole& sole) const {
+    return environment_.nearest_ground(sole_place(sole, s_.dynamics).p_m).distance_m;
+  }
+
+  // The forces of no acceleration at all, with the velocities and accelerations of all links.
+  void find_bias() {
+    std::ranges::fill(s_.hold, 0.0);
+    inverse_dynamics(body_, s_.state.velocity, s_.hold, kGravity_m_s2, s_.dynamics, s_.bias);
+  }
+
+  // And what standing feet ask.
+  void find_rows() {
+    find_bias();
+    support_rows(body_, s_.feet.places(), s_.state.velocity, kFootStiffness, kGravity_m_s2, s_.dynamics, s_.support);
+  }
+
+  // ---- blows
+
+  void strike(const Blow& blow) {
+    place_figure();
+    mass_matrix(body_, s_.dynamics, s_.mass);
+    s_.factors = s_.mass;
+    factorise(body_, s_.factors);
+    const Placement& link = s_.dynamics.world[at(blow.link)];
+    s_.record.impact({frame_, blow.link, link.origin_m + link.rotation * blow.point_m, blow.impulse_N_s});
+    std::vector<double>& change = s_.acceleration;
+    answer(blow, change);
+    if (is_dynamic() && pulls_a_foot()) {
+      let_go();
+      answer(blow, change);
+    }
+    find_stiff_answer(blow, s_.hold);
+    brace(s_.state.velocity, s_.hold, kFastest_rad_s, change);
+    for (std::size_t k = 0; k < change.size(); ++k) s_.state.velocity[k] += change[k];
+    s_.control.rest();
+  }
+
+  // The change of velocity with joints that do not resist and feet that stay.
+  void answer(const Blow& blow, std::span<double> change) {
+    find_rows();
+    std::ranges::fill(change, 0.0);
+    add_impulse(body_, s_.dynamics, blow, change);
+    std::vector<double>& stay = s_.support.wanted;
+    for (std::size_t r = 0; r < stay.size(); ++r)
+      stay[r] = -dot(std::span(s_.support.rows).subspan(r * change.size(), change.size()), s_.state.velocity);
+    respond(body_, s_.factors, s_.support, stay, s_.response, change);
+  }
+
+  bool pulls_a_foot() const {
+    const auto feet = s_.feet.soles().size();
+    for (std::size_t i = 0; i < feet; ++i)
+      if (s_.response.push[6 * i + 1] < -weight_N_ * kBlow_s / static_cast<double>(feet)) return true;
+    return false;
+  }
+
+  // With joints that do not move: none at all on its feet.
+  void find_stiff_answer(const Blow& blow, std::span<double> change) {
+    std::ranges::fill(change, 0.0);
+    if (!s_.feet.none()) return;
+    std::ranges::fill(s_.forces, 0.0);
+    add_impulse(body_, s_.dynamics, blow, s_.forces);
+    for (double& impulse : s_.forces) impulse = -impulse;
+    fall_freely(body_, s_.mass, s_.loose, change, s_.forces);
+  }
+
+  // ---- a tick
+
+  void tick(int index, bool moves) {
+    place_figure();
+    const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
+    track(body_, target_, frame, tick_s_, s_.state, s_.tracked);
+    slow_at_ends(character_, body_, s_.feet.stands_by_dof(), s_.state, tick_s_, s_.tracked);
+    if (is_dynamic()) {
+      mass_matrix(body_, s_.dynamics, s_.mass);
+      if (loose_ && !fallen_) try_to_stand();
+      if (loose_ || !stand()) fall();
+      s_.record.control(s_.control.added(), 1.0 / setup_.ticks_per_frame);
+    } else {
+      follow();
+    }
+    s_.record.efforts(s_.efforts);
+    if (moves) move();
+  }
+
+  // Tracking alone: what that takes is measured, and changes nothing.
+  void follow() {
+    find_rows();
+    s_.acceleration = s_.tracked;
+    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    inverse_dynamics(body_, s_.state.velocity, s_.acceleration, kGravity_m_s2, s_.dynamics, s_.forces);
+    find_ground();
+    if (!s_.feet.none()) s_.record.balance(balance_of(s_.area, s_.dynamics, s_.forces, weight_N_));
+  }
+
+  void find_ground() {
+    find_support_area(figure_, s_.feet.soles(), s_.dynamics, s_.area);
+    s_.ground.prepare(figure_, s_.feet.soles(), s_.dynamics);
+    s_.ground.efforts(figure_, s_.dynamics, s_.forces, s_.efforts);
+  }
+
+  void find_forces(std::span<const double> acceleration, std::span<double> forces) {
+    multiply(body_, s_.mass, acceleration, forces);
+    for (std::size_t k = 0; k < forces.size(); ++k) forces[k] += s_.bias[k];
+  }
+
+  // Whether the ground can hold the figure; if not, it has let go.
+  bool stand() {
+    find_rows();
+    s_.acceleration = s_.tracked;
+    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    find_forces(s_.acceleration, s_.forces);
+    find_ground();
+    s_.control.correct({figure_, s_.dynamics, s_.mass, s_.feet.stands_by_dof(), s_.support, s_.area, s_.ground, weight_N_,
+                        s_.acceleration, s_.forces});
+    s_.ground.efforts(figure_, s_.dynamics, s_.forces, s_.efforts);
+    const bool tips = sole_count() > 0 && balance_of(s_.area, s_.dynamics, s_.forces, weight_N_).margin_m < kEdge_m;
+    if (tips || exceeds_strength(figure_, s_.efforts)) hold_back();
+    if (sole_count() == 0) return true;
+    const Balance balance = balance_of(s_.area, s_.dynamics, s_.forces, weight_N_);
+    s_.record.balance(balance);
+    outside_s_ = balance.margin_m < 0.0 ? outside_s_ + tick_s_ : 0.0;
+    if (balance.margin_m > -kTips_m && outside_s_ < kTips_s) return true;
+    let_go();
+    return false;
+  }
+
+  // Back towards holding still, as far as joints and ground cannot give more. Where even that is too much for a joint,
+  // joints give what they have and the rest follows.
+  void hold_back() {
+    std::ranges::fill(s_.hold, 0.0);
+    project_on_support(body_, kRootPrice, s_.support, s_.hold);
+    find_forces(s_.hold, s_.hold_forces);
+    s_.ground.efforts(figure_, s_.dynamics, s_.hold_forces, s_.hold_efforts);
+    const double share = std::min(affordable_share(figure_, s_.hold_efforts, s_.efforts),
+                                  balanced_share(s_.area, s_.hold_forces, s_.forces, kEdge_m));
+    take_back(share);
+    find_forces(s_.acceleration, s_.forces);
+    s_.ground.efforts(figure_, s_.dynamics, s_.forces, s_.efforts);
+    if (!exceeds_strength(figure_, s_.efforts)) return;
+    s_.record.overpowered();
+    s_.record.efforts(s_.efforts);
+    clamp_to_strength(figure_, s_.efforts);
+    s_.factors = s_.mass;
+    factorise(body_, s_.factors);
+    for (std::size_t k = 0; k < s_.efforts.size(); ++k) s_.acceleration[k] = s_.efforts[k] - s_.bias[k];
+    respond(body_, s_.factors, s_.support, s_.support.wanted, s_.response, s_.acceleration);
+    find_forces(s_.acceleration, s_.forces);
+  }
+
+  void take_back(double share) {
+    for (std::size_t k = 0; k < s_.hold.size(); ++k)
+      s_.acceleration[k] = s_.hold[k] + share * (s_.acceleration[k] - s_.hold[k]);
+  }
+
+  // ---- without standing
+
+  void fall() {
+    find_bias();
+    s_.acceleration = s_.tracked;
+    std::fill_n(s_.acceleration.begin(), kRootDofs, 0.0);
+    if (fallen_)
+      for (std::size_t k = kRootDofs; k < s_.acceleration.size(); ++k)
+        s_.acceleration[k] = -std::min(kLimp_per_s, 0.5 / tick_s_) * s_.state.velocity[k];
+    fly(s_.acceleration, s_.efforts);
+    if (!exceeds_strength(figure_, s_.efforts)) return;
+    fly(s_.hold, s_.hold_efforts);
+    const double share = affordable_share(figure_, s_.hold_efforts, s_.efforts);
+    take_back(share);
+    for (std::size_t k = kRootDofs; k < s_.efforts.size(); ++k)
+      s_.efforts[k] = s_.hold_efforts[k] + share * (s_.efforts[k] - s_.hold_efforts[k]);
+  }
+
+  // Root accelerations of free fall, and the efforts of the joints.
+  void fly(std::span<double> acceleration, std::span<double> efforts) {
+    find_forces(acceleration, efforts);
+    fall_freely(body_, s_.mass, s_.loose, acceleration, efforts);
+    std::fill_n(efforts.begin(), kRootDofs, 0.0);
+  }
+
+  // Planned soles that lie flat and still take the weight again, if it is above them.
+  void try_to_stand() {
+    find_bias();
+    for (int i = 0; i < sole_count(); ++i)
+      if (is_planned(i) && lies_still(figure_.soles[at(i)], s_.dynamics, environment_)) land(i);
+    if (s_.feet.none()) return;
+    s_.hold_efforts = s_.state.velocity;
+    find_rows();
+    stop_feet(body_, kRootPrice, s_.support, s_.state.velocity);
+    find_rows();
+    s_.acceleration = s_.tracked;
+    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    find_forces(s_.acceleration, s_.forces);
+    find_support_area(figure_, s_.feet.soles(), s_.dynamics, s_.area);
+    loose_ = balance_of(s_.area, s_.dynamics, s_.forces, weight_N_).margin_m < 0.0;
+    if (!loose_) return;
+    s_.state.velocity = s_.hold_efforts;
+    s_.feet.clear();
+  }
+
+  // ---- moving on
+
+  void move() {
+    for (std::size_t k = 0; k < s_.acceleration.size(); ++k) s_.state.velocity[k] += tick_s_ * s_.acceleration[k];
+    stop_at_ends(character_, body_, s_.feet.stands_by_dof(), tick_s_, s_.state);
+    if (loose_) push_off(figure_, setup_.touches, environment_, tick_s_, s_.dynamics, s_.loose, s_.state.velocity);
+    if (loose_) see_how_it_lies();
+    integrate(body_, s_.state.velocity, tick_s_, s_.state.root, s_.state.coords);
+  }
+
+  void see_how_it_lies() {
+    bool on_sole = false, on_other = false;
+    for (const LooseScratch::Contact& contact : s_.loose.contacts)
+      if (contact.impulse[0] > 0.0) (contact.is_sole ? on_sole : on_other) = true;
+    const Vec3 up = s_.state.root.q * Vec3(0, 1, 0);
+    const Vec3 wanted = motion_.response.target_root[at(frame_)].q * Vec3(0, 1, 0);
+    fallen_ = fallen_ || on_other || glm::dot(up, wanted) < kLying_cos;
+    s_.record.footing(fallen_ ? Footing::fallen : on_sole ? Footing::tipping : Footing::airborne);
+  }
+
+  const Character& character_;
+  const DynamicsSetup& setup_;
+  const Figure& figure_;
+  const Multibody& body_;
+  const Environment& environment_;
+  SimulationScratch& s_;
+  Motion& motion_;
+  Target target_;
+  std::vector<std::uint8_t> planned_;
+  double tick_s_;
+  double weight_N_;
+  int frame_ = 0;
+  bool loose_ = false;
+  bool fallen_ = false;
+  double outside_s_ = 0.0;
+};
+
+}  // namespace
+
+void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
+              SimulationScratch& scratch, Motion& motion) {
+  Simulation(character, setup, environment, scratch, motion).run();
+}
+
+}  // namespace contort

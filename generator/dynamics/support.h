@@ -1,0 +1,48 @@
+// Feet that stand: accelerations that keep them where they are. A standing sole is fixed with all six freedoms.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/dynamics.h"
+
+namespace contort {
+
+struct StandingFoot {
+  int link = 0;
+  Rigid link_from_sole;
+  Rigid world_from_sole;  // where it was put down
+};
+
+// What standing feet ask of accelerations: rows * acceleration = wanted, six rows a foot (linear at the sole, then
+// angular; world). Memory of the caller, reused.
+struct SupportRows {
+  int count = 0;                // rows
+  std::vector<double> rows;     // count x dof_count
+  std::vector<double> wanted;   // count
+  std::vector<double> scratch;  // of the solver
+  std::vector<double> factors;  // of keep_feet
+};
+
+// The rows at the pose and velocities of an inverse_dynamics with acceleration 0 and this gravity. Soles that have moved
+// are brought back as by a critically damped spring of this frequency (J. Baumgarte, "Stabilization of constraints and
+// integrals of motion in dynamical systems", 1972).
+void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std::span<const double> velocity,
+                  double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support);
+
+// The accelerations nearest to the given ones that the feet allow, in place: weights of the root's freedoms are
+// root_weight, those of joints 1. Where rows depend on one another (a straight knee) the wanted ones are met as nearly
+// as they can be.
+void project_on_support(const Multibody& body, double root_weight, SupportRows& support,
+                        std::span<double> acceleration);
+
+// Velocities nearest to the given ones that move no standing sole, by the same weights: what is left of a step when the
+// foot has landed.
+void stop_feet(const Multibody& body, double root_weight, SupportRows& support, std::span<double> velocity);
+
+// Changes of acceleration that would move standing soles, with the legs giving way so that they stay: `legs` marks their
+// freedoms. prepare once for all of a tick.
+void prepare_keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support);
+void keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support, std::span<double> change);
+
+}  // namespace contort

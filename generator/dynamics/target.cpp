@@ -1,0 +1,108 @@
+#include "generator/dynamics/target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/dynamics/rotation_rates.h"
+
+namespace contort {
+
+namespace {
+
+Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
+void put(const Quat& q, double* out) { out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z; }
+
+// The cubic from a to b over one frame with slopes m0 and m1 a frame: value and slope.
+struct Cubic {
+  double value, slope;
+};
+Cubic cubic(double a, double b, double m0, double m1, double u) {
+  const double d = b - a;
+  const double c2 = 3.0 * d - 2.0 * m0 - m1, c3 = m0 + m1 - 2.0 * d;
+  return {a + u * (m0 + u * (c2 + u * c3)), m0 + u * (2.0 * c2 + u * 3.0 * c3)};
+}
+
+}  // namespace
+
+Target::Target(const Multibody& body, const Motion& motion)
+    : rate_hz_(motion.rate_hz), frame_count_(motion.frame_count), coord_count_(motion.coord_count + 7) {
+  for (int f = 0; f < frame_count_; ++f) {
+    const Rigid& root = motion.root[static_cast<std::size_t>(f)];
+    coords_.insert(coords_.end(), motion.row(f).begin(), motion.row(f).end());
+    coords_.insert(coords_.end(), {root.p_m.x, root.p_m.y, root.p_m.z, root.q.w, root.q.x, root.q.y, root.q.z});
+  }
+  for (const Link& link : body.links()) {
+    std::vector<int> knots;
+    const int coord = link.kind == JointKind::root ? motion.coord_count + 3 : link.coord;
+    const bool turns = link.kind == JointKind::root || link.kind == JointKind::ball;
+    for (int k = 0; k < (turns ? 3 : 1); ++k) {
+      std::vector<double> curve;
+      for (int f = 0; f < frame_count_; ++f)
+        curve.push_back(turns ? to_rotation_vector(quat_at(row(f) + coord))[k] : row(f)[coord]);
+      knots = merged_knots(knots, find_knots(curve));
+    }
+    knots_.push_back(std::move(knots));
+  }
+}
+
+Target::Between Target::between(double frame) const {
+  const double clamped = std::clamp(frame, 0.0, static_cast<double>(frame_count_ - 1));
+  const int before = std::min(static_cast<int>(std::floor(clamped)), std::max(frame_count_ - 2, 0));
+  return {before, clamped - before, frame < 0.0 || frame > frame_count_ - 1 || frame_count_ < 2};
+}
+
+// Half of the way from the frame before to the one after: Catmull and Rom's slope. Ends have none.
+double Target::slope(int frame, int coord) const {
+  if (frame == 0 || frame == frame_count_ - 1) return 0.0;
+  return 0.5 * (row(frame + 1)[coord] - row(frame - 1)[coord]);
+}
+
+Vec3 Target::turn_slope(int frame, int coord) const {
+  if (frame == 0 || frame == frame_count_ - 1) return Vec3(0.0);
+  return 0.5 * to_rotation_vector(glm::conjugate(quat_at(row(frame - 1) + coord)) * quat_at(row(frame + 1) + coord));
+}
+
+void Target::joint_at(const Link& link, double frame, double* coords, double* rates) const {
+  const Between at = between(frame);
+  const int next = std::min(at.frame + 1, frame_count_ - 1);
+  const double per_s = at.stands ? 0.0 : rate_hz_;
+  if (link.kind != JointKind::ball) {
+    const Cubic now = cubic(row(at.frame)[link.coord], row(next)[link.coord], slope(at.frame, link.coord),
+                            slope(next, link.coord), at.share);
+    coords[0] = now.value, rates[0] = per_s * now.slope;
+    return;
+  }
+  // The same in the rotation vector from the frame before.
+  const Quat from = quat_at(row(at.frame) + link.coord), to = quat_at(row(next) + link.coord);
+  const Vec3 way = to_rotation_vector(glm::conjugate(from) * to);
+  const Vec3 m0 = turn_slope(at.frame, link.coord), m1 = rotation_vector_rate(way, turn_slope(next, link.coord));
+  Vec3 turn, rate;
+  for (int k = 0; k < 3; ++k) {
+    const Cubic now = cubic(0.0, way[k], m0[k], m1[k], at.share);
+    turn[k] = now.value, rate[k] = per_s * now.slope;
+  }
+  put(glm::normalize(from * from_rotation_vector(turn)), coords);
+  const Vec3 angular = angular_velocity_of(turn, rate);
+  for (int k = 0; k < 3; ++k) rates[k] = angular[k];
+}
+
+void Target::root_at(double frame, Rigid& world_from_root, double* velocity) const {
+  Link place, turn;
+  turn.kind = JointKind::ball, turn.coord = coord_count_ - 4;
+  place.kind = JointKind::prismatic;
+  for (int k = 0; k < 3; ++k) {
+    place.coord = coord_count_ - 7 + k;
+    joint_at(place, frame, &world_from_root.p_m[k], velocity + k);
+  }
+  double q[4];
+  joint_at(turn, frame, q, velocity + 3);
+  world_from_root.q = quat_at(q);
+}
+
+void Target::share_knots(const std::vector<int>& links) {
+  std::vector<int> all;
+  for (const int link : links) all = merged_knots(all, knots(link));
+  for (const int link : links) knots_[static_cast<std::size_t>(link)] = all;
+}
+
+}  // namespace contort

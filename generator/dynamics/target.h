@@ -1,0 +1,52 @@
+// A target motion as a function of time, between its frames too: what tracking control follows. Poses pass through those
+// of the frames; rates are the poses' own derivatives, continuous over the frames.
+#pragma once
+
+#include <vector>
+
+#include "generator/dynamics/multibody.h"
+#include "generator/dynamics/tracking.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+class Target {
+ public:
+  // Keeps no reference to the motion. At least one frame.
+  Target(const Multibody& body, const Motion& motion);
+
+  double rate_hz() const { return rate_hz_; }
+  int last_frame() const { return frame_count_ - 1; }
+
+  // A joint's coordinates and rates (rad/s, m/s; of a ball along the axes of its body) at a time in frames; before the
+  // first frame and after the last it stands still.
+  void joint_at(const Link& link, double frame, double* coords, double* rates) const;
+
+  // The root, with its generalised velocity: world, then its own axes.
+  void root_at(double frame, Rigid& world_from_root, double* velocity) const;
+
+  // Frames that control of a link heads for (tracking.h). Of a ball: of the components of its rotation against rest.
+  const std::vector<int>& knots(int link) const { return knots_[static_cast<std::size_t>(link)]; }
+
+  // Gives all these links the knots of each: legs that stand on the ground are one chain.
+  void share_knots(const std::vector<int>& links);
+
+ private:
+  struct Between {
+    int frame = 0;     // the one before
+    double share = 0.0;  // of the way to the next one, [0, 1)
+    bool stands = false;
+  };
+  Between between(double frame) const;
+  const double* row(int frame) const { return &coords_[static_cast<std::size_t>(frame * coord_count_)]; }
+  double slope(int frame, int coord) const;
+  Vec3 turn_slope(int frame, int coord) const;
+
+  double rate_hz_ = 60.0;
+  int frame_count_ = 0;
+  int coord_count_ = 0;  // with seven of the root at the end of a row: place, then rotation
+  std::vector<double> coords_;
+  std::vector<std::vector<int>> knots_;
+};
+
+}  // namespace contort

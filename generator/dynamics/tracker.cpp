@@ -1,0 +1,68 @@
+#include "generator/dynamics/tracker.h"
+
+#include "generator/dynamics/dynamics.h"
+
+namespace contort {
+
+namespace {
+
+Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
+Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
+void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+void track_root(const Target& target, double then, double ahead_s, const FigureState& state,
+                std::span<double> acceleration) {
+  Rigid goal;
+  double rates[kRootDofs];
+  target.root_at(then, goal, rates);
+  for (int k = 0; k < 3; ++k)
+    acceleration[static_cast<std::size_t>(k)] = cubic_acceleration(
+        state.root.p_m[k], state.velocity[static_cast<std::size_t>(k)], goal.p_m[k], rates[k], ahead_s);
+  put(cubic_acceleration(state.root.q, vec_at(&state.velocity[3]), goal.q, vec_at(rates + 3), ahead_s),
+      &acceleration[3]);
+}
+
+void track_joint(const Link& link, const Target& target, double then, double ahead_s, const FigureState& state,
+                 double* acceleration) {
+  const double* now = &state.coords[static_cast<std::size_t>(link.coord)];
+  const double* velocity = &state.velocity[static_cast<std::size_t>(link.dof)];
+  double goal[4], rates[3];
+  target.joint_at(link, then, goal, rates);
+  if (link.kind == JointKind::ball)
+    put(cubic_acceleration(quat_at(now), vec_at(velocity), quat_at(goal), vec_at(rates), ahead_s), acceleration);
+  else
+    acceleration[0] = cubic_acceleration(now[0], velocity[0], goal[0], rates[0], ahead_s);
+}
+
+}  // namespace
+
+FigureState standing_start(const Multibody& body, const Target& target) {
+  FigureState state;
+  state.coords.resize(static_cast<std::size_t>(body.coord_count()));
+  state.velocity.assign(static_cast<std::size_t>(body.dof_count()), 0.0);
+  double unused[kRootDofs];
+  target.root_at(0.0, state.root, unused);
+  for (const Link& link : body.links().subspan(1))
+    target.joint_at(link, 0.0, &state.coords[static_cast<std::size_t>(link.coord)], unused);
+  return state;
+}
+
+void track(const Multibody& body, const Target& target, double frame, double tick_s, const FigureState& state,
+           std::span<double> acceleration) {
+  for (std::size_t i = 0; i < body.links().size(); ++i) {
+    const Link& link = body.links()[i];
+    const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
+    const double then = frame + target.rate_hz() * ahead_s;
+    if (link.kind == JointKind::root)
+      track_root(target, then, ahead_s, state, acceleration);
+    else
+      track_joint(link, target, then, ahead_s, state, &acceleration[static_cast<std::size_t>(link.dof)]);
+  }
+}
+
+void advance(const Multibody& body, std::span<const double> acceleration, double tick_s, FigureState& state) {
+  for (std::size_t k = 0; k < state.velocity.size(); ++k) state.velocity[k] += tick_s * acceleration[k];
+  integrate(body, state.velocity, tick_s, state.root, state.coords);
+}
+
+}  // namespace contort

@@ -1,0 +1,114 @@
+// A target between its frames: it passes through them, and its rates are its own derivatives.
+#include "generator/dynamics/target.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generator/dynamics/rotation_rates.h"
+#include "generator/generate.h"
+#include "tests/character/stock.h"
+#include "tests/scenes.h"
+
+namespace contort {
+namespace {
+
+Quat quat_of(const double* q) { return {q[0], q[1], q[2], q[3]}; }
+
+struct Sample {
+  Rigid root;
+  std::vector<double> coords;
+  std::vector<double> velocity;
+};
+
+Sample sampled(const Multibody& body, const Target& target, double frame) {
+  Sample out;
+  out.coords.resize(static_cast<std::size_t>(body.coord_count()));
+  out.velocity.resize(static_cast<std::size_t>(body.dof_count()));
+  target.root_at(frame, out.root, out.velocity.data());
+  for (const Link& link : body.links().subspan(1))
+    target.joint_at(link, frame, &out.coords[static_cast<std::size_t>(link.coord)], &out.velocity[static_cast<std::size_t>(link.dof)]);
+  return out;
+}
+
+// Velocity by central differences of poses.
+std::vector<double> differences(const Multibody& body, const Sample& a, const Sample& b, double time_s) {
+  std::vector<double> out(static_cast<std::size_t>(body.dof_count()));
+  const auto put = [&](int dof, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(dof + k)] = v[k] / time_s;
+  };
+  put(0, b.root.p_m - a.root.p_m);
+  put(3, to_rotation_vector(glm::conjugate(a.root.q) * b.root.q));
+  for (const Link& link : body.links().subspan(1)) {
+    const auto coord = static_cast<std::size_t>(link.coord);
+    if (link.kind == JointKind::ball)
+      put(link.dof, to_rotation_vector(glm::conjugate(quat_of(&a.coords[coord])) * quat_of(&b.coords[coord])));
+    else
+      out[static_cast<std::size_t>(link.dof)] = (b.coords[coord] - a.coords[coord]) / time_s;
+  }
+  return out;
+}
+
+TEST(Target, PassesThroughItsFramesAndItsRatesAreItsDerivatives) {
+  for (const char* name : {"human_interrupted", "mech_walk_aim", "quadruped_slope"}) {
+    const Result<Stage> stage = build_stage(scene(name), stock_library());
+    ASSERT_TRUE(stage.ok());
+    const Motion motion = generate(*stage);
+    const Multibody body = Multibody::of(*stage->character);
+    const Target target(body, motion);
+    for (int f = 1; f < motion.frame_count - 1; f += 7) {
+      const Sample there = sampled(body, target, f);
+      for (std::size_t c = 0; c < there.coords.size(); ++c) EXPECT_NEAR(there.coords[c], motion.row(f)[c], 1e-12);
+      EXPECT_LT(testing::length(there.root.p_m - motion.root[static_cast<std::size_t>(f)].p_m), 1e-12);
+      for (const double share : {0.0, 0.3, 0.9}) {
+        constexpr double kStep = 1e-4;  // frames
+        const Sample now = sampled(body, target, f + share);
+        const auto slope = differences(body, sampled(body, target, f + share - kStep),
+                                       sampled(body, target, f + share + kStep), 2 * kStep / motion.rate_hz);
+        for (std::size_t i = 0; i < slope.size(); ++i)
+          ASSERT_NEAR(now.velocity[i], slope[i], 2e-3 * (1.0 + std::fabs(slope[i]))) << name << " " << f + share << " " << i;
+      }
+    }
+  }
+}
+
+TEST(Target, StandsStillBeforeItsStartAndAfterItsEnd) {
+  const Result<Stage> stage = build_stage(scene("human_reaches"), stock_library());
+  const Motion motion = generate(*stage);
+  const Multibody body = Multibody::of(*stage->character);
+  const Target target(body, motion);
+  for (const double frame : {-3.0, motion.frame_count + 5.0}) {
+    const Sample there = sampled(body, target, frame);
+    for (const double rate : there.velocity) EXPECT_EQ(rate, 0.0);
+    const auto expected = motion.row(frame < 0 ? 0 : motion.frame_count - 1);
+    for (std::size_t c = 0; c < there.coords.size(); ++c) EXPECT_NEAR(there.coords[c], expected[c], 1e-12);
+  }
+}
+
+TEST(Target, LegsOfOneChainShareTheirKnots) {
+  const Result<Stage> stage = build_stage(scene("mech_walk_aim"), stock_library());
+  const Motion motion = generate(*stage);
+  const Multibody body = Multibody::of(*stage->character);
+  Target target(body, motion);
+  const int left = stage->character->find_joint("leg_left/knee"), right = stage->character->find_joint("leg_right/knee");
+  EXPECT_NE(target.knots(left), target.knots(right));
+  const std::vector<int> both = merged_knots(target.knots(left), target.knots(right));
+  target.share_knots({left, right});
+  EXPECT_EQ(target.knots(left), both);
+  EXPECT_EQ(target.knots(right), both);
+  EXPECT_EQ(both.back(), motion.frame_count - 1);
+}
+
+TEST(RotationRates, UndoEachOtherAndAreDerivatives) {
+  for (const Vec3& rotation : {Vec3(0.0), Vec3(1e-5, 0.0, 2e-5), Vec3(9e-4, 1e-4, 0.0), Vec3(1.2e-3, 0.0, 0.0), Vec3(0.3, -1.0, 2.0), Vec3(0, 3.1, 0)}) {
+    const Vec3 rate(0.7, -0.2, 0.4);
+    const Vec3 angular = angular_velocity_of(rotation, rate);
+    EXPECT_LT(testing::length(rotation_vector_rate(rotation, angular) - rate), 1e-9);
+    constexpr double kStep = 1e-6;
+    const Quat before = from_rotation_vector(rotation - kStep * rate), after = from_rotation_vector(rotation + kStep * rate);
+    EXPECT_LT(testing::length(to_rotation_vector(glm::conjugate(before) * after) / (2 * kStep) - angular), 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace contort
