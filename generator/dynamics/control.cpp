@@ -26,7 +26,8 @@ constexpr double kRootPrice = 1e-3;
 double follow(double tick_s, double lag_s) { return 1.0 - det::exp(-tick_s / lag_s); }
 
 // A unit acceleration along a handle; a ball's axis is its parent's, its rates are along the axes of the moved body.
-void put_unit(const Handle& handle, const Figure& figure, const DynamicsScratch& dynamics, std::span<double> out) {
+void put_unit(const Handle& handle, const DynamicFigure& figure, const DynamicsScratch& dynamics,
+              std::span<double> out) {
   std::ranges::fill(out, 0.0);
   if (!handle.is_ball) {
     out[at(handle.dof)] = 1.0;
@@ -56,7 +57,7 @@ void without_loads(const ControlTick& tick, std::span<double> forces) {
 
 }  // namespace
 
-void DynamicControl::begin(const Figure& figure, double tick_s) {
+void DynamicControl::begin(const DynamicFigure& figure, double tick_s) {
   relief_lag_ = follow(tick_s, kReliefLag_s);
   balance_lag_ = follow(tick_s, kBalanceLag_s);
   std::size_t handles = 0;
@@ -77,7 +78,7 @@ void DynamicControl::rest() {
   std::ranges::fill(added_, 0.0);
 }
 
-double DynamicControl::strength(const Figure& figure, int dof) const {
+double DynamicControl::strength(const DynamicFigure& figure, int dof) const {
   return std::max({-figure.strength_low[at(dof)], figure.strength_high[at(dof)], 1e-3});
 }
 

@@ -1,7 +1,8 @@
 // Dynamic control (seed D3, D4; M. Oshita and A. Makinouchi, "A dynamic motion control technique for human-like
 // articulated figures", Eurographics 2001): where a joint carries more than it would without loads, and where the zero
-// moment point leaves the support, accelerations of a few freedoms are changed: arms, then the back, then the lower body.
-// Both are least squares over the group's handles, with effort in units of the joints' own strength; docs/dynamics.md.
+// moment point leaves the support, accelerations of a few freedoms are changed: arms, then the back, then the lower
+// body. Both are least squares over the group's handles, with effort in units of the joints' own strength;
+// docs/dynamics.md.
 #pragma once
 
 #include <array>
@@ -17,21 +18,21 @@ inline constexpr std::size_t kMostHandles = 8;  // of one group
 
 // All of a tick that control looks at, and what it changes: accelerations and the forces that belong to them.
 struct ControlTick {
-  const Figure& figure;
-  DynamicsScratch& dynamics;             // after inverse_dynamics with acceleration 0
-  std::span<const double> mass;          // mass_matrix
-  std::span<const char> legs;            // by freedom: of legs that stand
+  const DynamicFigure& figure;
+  DynamicsScratch& dynamics;     // after inverse_dynamics with acceleration 0
+  std::span<const double> mass;  // mass_matrix
+  std::span<const char> legs;    // by freedom: of legs that stand
   SupportRows& support;
   const SupportArea& area;
   const GroundShare& ground;
   double weight_N = 0.0;
-  std::span<double> acceleration;        // of the actual figure
-  std::span<double> forces;              // M a + h
+  std::span<double> acceleration;  // of the actual figure
+  std::span<double> forces;        // M a + h
 };
 
 class DynamicControl {
  public:
-  void begin(const Figure& figure, double tick_s);
+  void begin(const DynamicFigure& figure, double tick_s);
 
   // Changes tick.acceleration and tick.forces.
   void correct(const ControlTick& tick);
@@ -60,15 +61,15 @@ class DynamicControl {
   Squares balance_rows(const ControlTick& tick, const ControlGroup& group) const;
   void step(const ControlTick& tick, const ControlGroup& group, Squares squares, double price, double lag,
             std::span<double> given);
-  double strength(const Figure& figure, int dof) const;
+  double strength(const DynamicFigure& figure, int dof) const;
 
   double relief_lag_ = 1.0;
   double balance_lag_ = 1.0;
-  std::vector<double> relief_;   // by handle of all groups: the accelerations that are given now
+  std::vector<double> relief_;  // by handle of all groups: the accelerations that are given now
   std::vector<double> balance_;
   std::vector<double> added_;
   std::vector<double> overload_;
-  std::vector<double> nominal_;  // forces without loads
+  std::vector<double> nominal_;   // forces without loads
   std::vector<double> bearable_;  // by watched freedom, N m
   std::vector<Column> columns_;
   bool legs_ready_ = false;

@@ -129,7 +129,8 @@ void inverse_dynamics(const Multibody& body, std::span<const double> velocity, s
   }
   for (std::size_t i = links.size(); i-- > 0;) {
     const Link& link = links[i];
-    for (int k = link.dof; k < link.dof + link.dof_count; ++k) forces[at(k)] = dot(scratch.freedoms[at(k)], scratch.force[i]);
+    for (int k = link.dof; k < link.dof + link.dof_count; ++k)
+      forces[at(k)] = dot(scratch.freedoms[at(k)], scratch.force[i]);
     if (i > 0) scratch.force[at(link.parent)] += scratch.force[i];
   }
 }

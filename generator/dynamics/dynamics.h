@@ -1,11 +1,12 @@
-// Rigid-body dynamics of a floating tree, after R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: inverse dynamics
-// (RNEA, section 5.3), mass matrix (CRBA, 6.2), its factors along the tree (6.5), point Jacobians. Equation of motion:
+// Rigid-body dynamics of a floating tree, after R. Featherstone, "Rigid Body Dynamics Algorithms", 2008: inverse
+// dynamics (RNEA, section 5.3), mass matrix (CRBA, 6.2), its factors along the tree (6.5), point Jacobians. Equation of
+// motion:
 //
 //   M(q) a + h(q, v) = generalised forces,    h: gravity, Coriolis and centrifugal terms
 //
-// All bodies are written about one point, the root's origin, along the world's axes: motions then add along the tree and
-// forces add back, without a change of frames between links, and the mass matrix, Jacobians and ground forces share the
-// same axes. Fixed order of sums; no allocation once a scratch has been used.
+// All bodies are written about one point, the root's origin, along the world's axes: motions then add along the tree
+// and forces add back, without a change of frames between links, and the mass matrix, Jacobians and ground forces share
+// the same axes. Fixed order of sums; no allocation once a scratch has been used.
 #pragma once
 
 #include <span>
@@ -53,8 +54,8 @@ void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<doub
 // out = M x of such a matrix.
 void multiply(const Multibody& body, std::span<const double> matrix, std::span<const double> x, std::span<double> out);
 
-// M = L^T D L in place, without filling any zero; then solves M x = b, x in place of b. M of bodies with mass is positive
-// definite; a last link without mass gives infinities.
+// M = L^T D L in place, without filling any zero; then solves M x = b, x in place of b. M of bodies with mass is
+// positive definite; a last link without mass gives infinities.
 void factorise(const Multibody& body, std::span<double> matrix);
 void solve(const Multibody& body, std::span<const double> factors, std::span<double> x);
 

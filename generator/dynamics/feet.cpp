@@ -9,8 +9,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kFlat_m = 0.01;       // corners of a sole that can stand again are nearer than this,
-constexpr double kSettled_m_s = 0.5;   // and slower
+constexpr double kFlat_m = 0.01;      // corners of a sole that can stand again are nearer than this,
+constexpr double kSettled_m_s = 0.5;  // and slower
 constexpr double kPlannedNear_m = 0.02;
 constexpr double kPlannedSlow_m_s = 0.2;
 constexpr double kPlannedLevel = 0.97;  // cosine of 14 degrees
@@ -19,7 +19,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-void Feet::begin(const Figure& figure) {
+void Feet::begin(const DynamicFigure& figure) {
   figure_ = &figure;
   by_dof_.assign(at(figure.body.dof_count()), 0);
   clear();
@@ -79,7 +79,7 @@ bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environ
   return true;
 }
 
-std::vector<std::uint8_t> planned_stances(const Character& character, const Figure& figure,
+std::vector<std::uint8_t> planned_stances(const Character& character, const DynamicFigure& figure,
                                           const Environment& environment, const Motion& motion) {
   std::vector<std::uint8_t> stances(at(motion.frame_count), 0);
   std::vector<Rigid> world(character.joints().size());

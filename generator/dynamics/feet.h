@@ -14,7 +14,7 @@ namespace contort {
 
 class Feet {
  public:
-  void begin(const Figure& figure);
+  void begin(const DynamicFigure& figure);
 
   std::span<const int> soles() const { return soles_; }  // of the figure, in the order in which they landed
   std::span<const StandingFoot> places() const { return places_; }
@@ -30,7 +30,7 @@ class Feet {
 
  private:
   void mark();
-  const Figure* figure_ = nullptr;
+  const DynamicFigure* figure_ = nullptr;
   std::vector<int> soles_;
   std::vector<StandingFoot> places_;
   std::vector<char> by_dof_;
@@ -44,7 +44,7 @@ Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environ
 bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
 // Which soles stand in each frame of a motion: near the ground, level with it, and hardly moving. Bit i: sole i.
-std::vector<std::uint8_t> planned_stances(const Character& character, const Figure& figure,
+std::vector<std::uint8_t> planned_stances(const Character& character, const DynamicFigure& figure,
                                           const Environment& environment, const Motion& motion);
 
 }  // namespace contort

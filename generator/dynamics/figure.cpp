@@ -25,7 +25,7 @@ class FigureBuilder {
     find_roles();
   }
 
-  void build(Figure& figure) const {
+  void build(DynamicFigure& figure) const {
     for (const Leg& leg : legs_) figure.soles.push_back(sole_of(leg));
     add_strengths(figure);
     add_chains(figure);
@@ -65,7 +65,7 @@ class FigureBuilder {
     return sole;
   }
 
-  void add_strengths(Figure& figure) const {
+  void add_strengths(DynamicFigure& figure) const {
     for (const Link& link : figure.body.links()) {
       const Joint& own = joint(static_cast<int>(&link - figure.body.links().data()));
       const bool root = link.kind == JointKind::root;
@@ -74,7 +74,7 @@ class FigureBuilder {
     }
   }
 
-  void add_chains(Figure& figure) const {
+  void add_chains(DynamicFigure& figure) const {
     for (Sole& sole : figure.soles) {
       const Link& last = figure.body.links()[at(sole.link)];
       for (int k = last.dof + last.dof_count - 1; k >= kRootDofs; k = figure.body.parent_dof()[at(k)])
@@ -89,7 +89,7 @@ class FigureBuilder {
   }
 
   // A ball's axes are the character's own: about its side and about its front.
-  void add_handles(const Figure& figure, int first, int last, std::size_t most, std::vector<Handle>& out) const {
+  void add_handles(const DynamicFigure& figure, int first, int last, std::size_t most, std::vector<Handle>& out) const {
     std::size_t added = 0;
     for (int j = first; j <= last && added < most; ++j) {
       const Link& link = figure.body.links()[at(j)];
@@ -100,12 +100,13 @@ class FigureBuilder {
         continue;
       }
       const Quat parent_from_world = glm::conjugate(world_[at(link.parent)].q);
-      for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1)}) out.push_back({j, link.dof, parent_from_world * axis, true});
+      for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1)})
+        out.push_back({j, link.dof, parent_from_world * axis, true});
       added += 2;
     }
   }
 
-  ControlGroup limbs(const Figure& figure, Role role, std::string name) const {
+  ControlGroup limbs(const DynamicFigure& figure, Role role, std::string name) const {
     ControlGroup group{std::move(name), {}, kGreatestArms, false};
     for (std::size_t p = 0; p < roles_.size(); ++p) {
       const Part& part = character_.parts()[p];
@@ -118,7 +119,7 @@ class FigureBuilder {
     return group;
   }
 
-  ControlGroup back(const Figure& figure) const {
+  ControlGroup back(const DynamicFigure& figure) const {
     ControlGroup group{"back", {}, kGreatestBack, false};
     for (std::size_t p = 0; p < roles_.size(); ++p) {
       const Part& part = character_.parts()[p];
@@ -131,7 +132,7 @@ class FigureBuilder {
     return group;
   }
 
-  void add_groups(Figure& figure) const {
+  void add_groups(DynamicFigure& figure) const {
     ControlGroup arms = limbs(figure, Role::arm, "arms");
     // Without arms a head and a tail swing.
     if (arms.handles.empty()) arms = limbs(figure, Role::other, "limbs");
@@ -142,7 +143,7 @@ class FigureBuilder {
     if (!legs_.empty()) figure.groups.push_back(std::move(lower));
   }
 
-  void add_watched(Figure& figure) const {
+  void add_watched(DynamicFigure& figure) const {
     for (std::size_t j = 1; j < character_.joints().size(); ++j) {
       const Link& link = figure.body.links()[j];
       if (roles_[at(part_of(static_cast<int>(j)))] != Role::trunk) continue;
@@ -169,10 +170,11 @@ Load box_load(int link, const Rigid& link_from_box, const Vec3& size_m, double m
   return {link, mass_kg, link_from_box.p_m, turn * inertia * glm::transpose(turn)};
 }
 
-Figure build_figure(const Character& character, std::span<const Leg> legs, std::span<const Load> loads) {
-  Figure figure;
+DynamicFigure build_figure(const Character& character, std::span<const Leg> legs, std::span<const Load> loads) {
+  DynamicFigure figure;
   figure.body = Multibody::of(character);
-  for (const Load& load : loads) figure.body.add_mass(load.link, load.mass_kg, load.center_of_mass_m, load.inertia_kg_m2);
+  for (const Load& load : loads)
+    figure.body.add_mass(load.link, load.mass_kg, load.center_of_mass_m, load.inertia_kg_m2);
   figure.loads.assign(loads.begin(), loads.end());
   FigureBuilder(character, legs).build(figure);
   return figure;

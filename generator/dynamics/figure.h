@@ -34,20 +34,20 @@ struct Sole {
 // A direction in which control may accelerate: one freedom, or an axis of a ball.
 struct Handle {
   int link = 0;
-  int dof = 0;           // the freedom; a ball's first one
-  Vec3 axis{0.0};        // ball: in its parent's frame
+  int dof = 0;     // the freedom; a ball's first one
+  Vec3 axis{0.0};  // ball: in its parent's frame
   bool is_ball = false;
 };
 
 // Freedoms that control uses together, the smallest number that matters (seed D4).
 struct ControlGroup {
-  std::string name;             // "arms", "back", "lower_body"
+  std::string name;  // "arms", "back", "lower_body"
   std::vector<Handle> handles;
-  double greatest = 0.0;        // acceleration, rad/s^2 or m/s^2
-  bool moves_feet = false;      // legs must give way so that the feet stay
+  double greatest = 0.0;    // acceleration, rad/s^2 or m/s^2
+  bool moves_feet = false;  // legs must give way so that the feet stay
 };
 
-struct Figure {
+struct DynamicFigure {
   Multibody body;  // with its loads
   std::vector<Load> loads;
   std::vector<Sole> soles;           // as find_legs
@@ -57,6 +57,6 @@ struct Figure {
   std::vector<double> strength_high;
 };
 
-Figure build_figure(const Character& character, std::span<const Leg> legs, std::span<const Load> loads);
+DynamicFigure build_figure(const Character& character, std::span<const Leg> legs, std::span<const Load> loads);
 
 }  // namespace contort

@@ -26,7 +26,8 @@ void convex_hull(std::vector<Vec3>& points, std::vector<int>& hull) {
   hull.clear();
   const int count = static_cast<int>(points.size());
   const auto add = [&](int next, std::size_t kept) {
-    while (hull.size() > kept && area_above(points[at(hull[hull.size() - 2])], points[at(hull.back())], points[at(next)]) <= 0.0)
+    while (hull.size() > kept &&
+           area_above(points[at(hull[hull.size() - 2])], points[at(hull.back())], points[at(next)]) <= 0.0)
       hull.pop_back();
     hull.push_back(next);
   };
@@ -54,7 +55,7 @@ SpatialForce ground_force(const DynamicsScratch& dynamics, std::span<const doubl
   return {dynamics.world[0].rotation * Vec3(forces[3], forces[4], forces[5]), Vec3(forces[0], forces[1], forces[2])};
 }
 
-void find_support_area(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+void find_support_area(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
                        SupportArea& area) {
   area.corners_m.clear();
   for (const int s : standing) {
@@ -100,7 +101,7 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
 }
 
 // Multipliers (moment mu, force phi) with f_i = phi + mu x d_i and n_i = mu / price meet sum f = F, sum n + d x f = N.
-void GroundShare::prepare(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics) {
+void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics) {
   feet_.clear();
   dof_count_ = figure.body.dof_count();
   moves_.assign(standing.size() * at(dof_count_), 0);
@@ -119,7 +120,8 @@ void GroundShare::prepare(const Figure& figure, std::span<const int> standing, c
       for (int j = 0; j < 3; ++j) entry(i, j) += (i == j ? 1.0 / kMomentPrice + glm::dot(d, d) : 0.0) - d[i] * d[j];
     }
     // d x phi
-    entry(3, 1) += d.z, entry(3, 2) -= d.y, entry(4, 0) -= d.z, entry(4, 2) += d.x, entry(5, 0) += d.y, entry(5, 1) -= d.x;
+    entry(3, 1) += d.z, entry(3, 2) -= d.y, entry(4, 0) -= d.z, entry(4, 2) += d.x, entry(5, 0) += d.y,
+        entry(5, 1) -= d.x;
   }
   if (!feet_.empty()) factorise_symmetric(factors_, 6);
 }
@@ -138,14 +140,15 @@ SpatialForce GroundShare::share(std::size_t standing, const SpatialForce& net) c
   return {m.moment / kMomentPrice + glm::cross(d, force), force};
 }
 
-void GroundShare::efforts(const Figure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
+void GroundShare::efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
                           std::span<double> out) const {
   std::copy(forces.begin(), forces.end(), out.begin());
   std::fill_n(out.begin(), kRootDofs, 0.0);
   const SpatialForce net = ground_force(dynamics, forces);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
     const SpatialForce own = share(i, net);
-    for (const int dof : figure.soles[at(feet_[i].sole)].chain_dofs) out[at(dof)] -= dot(dynamics.freedoms[at(dof)], own);
+    for (const int dof : figure.soles[at(feet_[i].sole)].chain_dofs)
+      out[at(dof)] -= dot(dynamics.freedoms[at(dof)], own);
   }
 }
 

@@ -1,8 +1,8 @@
 // The ground's side of dynamics: the net force that it must supply, where that acts (zero moment point, ZMP), whether
 // standing soles can supply it, and how they share it.
 //
-// Soles that stand can only push. A figure tips about an edge of the convex hull of their corners, seen from above, when
-// the moment of the ground's force about that edge changes its sign. For level ground that is the ZMP leaving the
+// Soles that stand can only push. A figure tips about an edge of the convex hull of their corners, seen from above,
+// when the moment of the ground's force about that edge changes its sign. For level ground that is the ZMP leaving the
 // support polygon (M. Vukobratovic and B. Borovac, "Zero-Moment Point - thirty-five years of its life", 2004); as a
 // moment about a line in space it holds for soles at different heights and tilts as well, and it is linear in the
 // accelerations, without any division.
@@ -36,12 +36,12 @@ struct SupportArea {
 };
 
 // Of soles that stand, by index, at the placed pose.
-void find_support_area(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+void find_support_area(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
                        SupportArea& area);
 
 struct Balance {
-  Vec3 zmp_m{0.0};       // on the horizontal plane through the corners' mean
-  double margin_m = 0.0; // of the ZMP inside the area, < 0 outside; -infinity where the ground would have to pull
+  Vec3 zmp_m{0.0};        // on the horizontal plane through the corners' mean
+  double margin_m = 0.0;  // of the ZMP inside the area, < 0 outside; -infinity where the ground would have to pull
 };
 
 // Of a figure that needs this force; a vertical one below a fifth of the weight counts as pulling.
@@ -57,10 +57,10 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
 // the soles' centres. Efforts of joints above the legs do not depend on it.
 class GroundShare {
  public:
-  void prepare(const Figure& figure, std::span<const int> standing, const DynamicsScratch& dynamics);
+  void prepare(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics);
 
   // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
-  void efforts(const Figure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
+  void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
                std::span<double> out) const;
   // The same for one freedom.
   double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const;

@@ -1,5 +1,5 @@
-// What rigid bodies do by themselves: accelerations under given forces, and velocities after a blow, with soles that hold
-// on to the ground. Both are M x + J^T lambda = right, J x = wanted.
+// What rigid bodies do by themselves: accelerations under given forces, and velocities after a blow, with soles that
+// hold on to the ground. Both are M x + J^T lambda = right, J x = wanted.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace contort {
 struct ResponseScratch {
   std::vector<double> columns;  // M^-1 J^T, a row for each of J's
   std::vector<double> matrix;   // J M^-1 J^T
-  std::vector<double> push;     // lambda: forces or impulses of the ground, six a foot (linear at the sole, then angular)
+  std::vector<double> push;  // lambda: forces or impulses of the ground, six a foot (linear at the sole, then angular)
 };
 
 // x = M^-1 (x + J^T lambda) with J x = wanted; `factors` of M. Without rows x = M^-1 x.
@@ -24,15 +24,16 @@ void respond(const Multibody& body, std::span<const double> factors, const Suppo
 struct Blow {
   int frame = 0;
   int link = 0;
-  Vec3 point_m{0.0};       // in the link's frame
-  Vec3 impulse_N_s{0.0};   // in the world
+  Vec3 point_m{0.0};      // in the link's frame
+  Vec3 impulse_N_s{0.0};  // in the world
 };
 
 // Adds what a blow is as a generalised impulse, at the placed pose.
 void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Blow& blow, std::span<double> impulse);
 
-// Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than `fastest_rad_s`
-// (m/s of travels): people brace. Both keep the momentum of the blow, and so does what lies between them.
+// Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than
+// `fastest_rad_s` (m/s of travels): people brace. Both keep the momentum of the blow, and so does what lies between
+// them.
 void brace(std::span<const double> velocity, std::span<const double> stiff, double fastest_rad_s,
            std::span<double> change);
 

@@ -1,6 +1,6 @@
 // Joints near the ends of their ranges: a figure slows down before them and stops there. `held` marks the freedoms that
-// standing feet hold and that are left alone: all joints of a standing leg follow its foot, and braking a knee that is nearly
-// straight would throw the hips. Balls are not stopped.
+// standing feet hold and that are left alone: all joints of a standing leg follow its foot, and braking a knee that is
+// nearly straight would throw the hips. Balls are not stopped.
 #pragma once
 
 #include <span>

@@ -56,7 +56,8 @@ void factorise_inertia(const SpatialInertia& inertia, std::array<double, 36>& fa
     SpatialMotion unit;
     (k < 3 ? unit.angular : unit.linear)[static_cast<int>(k % 3)] = 1.0;
     const SpatialForce column = inertia * unit;
-    for (std::size_t i = 0; i < 6; ++i) factors[i * 6 + k] = i < 3 ? column.moment[static_cast<int>(i)] : column.force[static_cast<int>(i - 3)];
+    for (std::size_t i = 0; i < 6; ++i)
+      factors[i * 6 + k] = i < 3 ? column.moment[static_cast<int>(i)] : column.force[static_cast<int>(i - 3)];
   }
   factorise_symmetric(factors, 6);
 }
@@ -70,7 +71,7 @@ SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce
 
 }  // namespace
 
-std::vector<TouchPoint> touch_points(const Character& character, const Figure& figure) {
+std::vector<TouchPoint> touch_points(const Character& character, const DynamicFigure& figure) {
   std::vector<TouchPoint> points;
   for (const Sole& sole : figure.soles)
     for (const Vec3& corner : sole.corners_m) points.push_back({sole.link, corner, 0.0, true});
@@ -96,8 +97,8 @@ void fall_freely(const Multibody& body, std::span<const double> mass, LooseScrat
     for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[std::max(i, k) * n + std::min(i, k)] * change[k];
 }
 
-void push_off(const Figure& figure, std::span<const TouchPoint> points, const Environment& environment, double tick_s,
-              const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity) {
+void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
+              double tick_s, const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity) {
   const Vec3 root_m = dynamics.world[0].origin_m;
   find_velocities(figure.body, dynamics, velocity, scratch.velocity);
   scratch.contacts.clear();

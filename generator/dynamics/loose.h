@@ -1,6 +1,6 @@
 // A figure that does not stand: it flies, tips over an edge of its feet, or lies. Its root moves by the laws of motion
-// alone; joints go on as commanded, stiff against the ground. The ground is felt at corners and ends of colliders, which
-// may neither sink in nor be pulled, with Coulomb friction: impulses by projected Gauss-Seidel (J. J. Moreau's
+// alone; joints go on as commanded, stiff against the ground. The ground is felt at corners and ends of colliders,
+// which may neither sink in nor be pulled, with Coulomb friction: impulses by projected Gauss-Seidel (J. J. Moreau's
 // time-stepping; D. E. Stewart, "Rigid-body dynamics with friction and impact", SIAM Review 42, 2000).
 #pragma once
 
@@ -23,14 +23,14 @@ struct TouchPoint {
 };
 
 // Corners of soles, and corners and ends of all other colliders.
-std::vector<TouchPoint> touch_points(const Character& character, const Figure& figure);
+std::vector<TouchPoint> touch_points(const Character& character, const DynamicFigure& figure);
 
 struct LooseScratch {
   struct Contact {
     SpatialForce push[3];     // unit ones along the normal and two tangents, about the root's origin
     SpatialMotion answer[3];  // of the figure to them
     int link = 0;
-    double least_speed = 0.0;    // along the normal, m/s
+    double least_speed = 0.0;  // along the normal, m/s
     double impulse[3] = {0.0, 0.0, 0.0};
     bool is_sole = false;
   };
@@ -39,14 +39,14 @@ struct LooseScratch {
   std::array<double, 36> factors{};     // of the whole figure's inertia about the root's origin
 };
 
-// Root accelerations under no force but gravity, given those of the joints: overwrites the first six. `forces` are those
-// of inverse dynamics with the accelerations as they are, and are brought to 0 there; `mass` as in mass_matrix.
+// Root accelerations under no force but gravity, given those of the joints: overwrites the first six. `forces` are
+// those of inverse dynamics with the accelerations as they are, and are brought to 0 there; `mass` as in mass_matrix.
 void fall_freely(const Multibody& body, std::span<const double> mass, LooseScratch& scratch,
                  std::span<double> acceleration, std::span<double> forces);
 
 // Changes the root's velocity so that no point gets deeper into the ground within a tick. Needs a placed pose and the
 // composites of mass_matrix.
-void push_off(const Figure& figure, std::span<const TouchPoint> points, const Environment& environment, double tick_s,
-              const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity);
+void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
+              double tick_s, const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity);
 
 }  // namespace contort

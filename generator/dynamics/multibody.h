@@ -2,8 +2,8 @@
 //
 // Generalised velocity, `dof_count()` doubles: the root's velocity (world, m/s), its angular velocity (its own axes,
 // rad/s), then joint by joint a hinge's rate (rad/s), a travel's (m/s), or a ball's angular velocity (axes of the body
-// that it moves, rad/s). These are MuJoCo's coordinates. Generalised forces are dual to them: N in the world, N m in the
-// root's axes, and so on.
+// that it moves, rad/s). These are MuJoCo's coordinates. Generalised forces are dual to them: N in the world, N m in
+// the root's axes, and so on.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Between rates of a rotation vector and angular velocities along the axes of the body that it turns: the right Jacobian
-// of the exponential map and its inverse (J. Sola et al., "A micro Lie theory for state estimation in robotics", 2018,
-// equations 143 and 144).
+// Between rates of a rotation vector and angular velocities along the axes of the body that it turns: the right
+// Jacobian of the exponential map and its inverse (J. Sola et al., "A micro Lie theory for state estimation in
+// robotics", 2018, equations 143 and 144).
 #pragma once
 
 #include "generator/core/math.h"

@@ -21,7 +21,8 @@ Result<Load> build_load(const LoadDesc& desc, const Character& character, const 
   const int found = character.find_socket(desc.slot + "/" + desc.socket);
   if (found < 0) return unknown(pointer + "/socket", desc.socket, "socket of the part in " + desc.slot);
   const Socket& socket = character.sockets()[static_cast<std::size_t>(found)];
-  return box_load(socket.joint, socket.joint_from_socket * Rigid{kNoRotation, desc.position_m}, desc.size_m, desc.mass_kg);
+  return box_load(socket.joint, socket.joint_from_socket * Rigid{kNoRotation, desc.position_m}, desc.size_m,
+                  desc.mass_kg);
 }
 
 // What moves a part that has no joints of its own: the joint that carries its colliders or sockets.
@@ -32,7 +33,8 @@ int first_joint(const Character& character, const Part& part) {
   return 0;
 }
 
-Result<Blow> build_blow(const ImpactDesc& desc, const Character& character, const Quat& start, const std::string& pointer) {
+Result<Blow> build_blow(const ImpactDesc& desc, const Character& character, const Quat& start,
+                        const std::string& pointer) {
   const int part = character.find_part(desc.slot);
   if (part < 0) return unknown(pointer + "/slot", desc.slot, "slot of " + character.name());
   int joint = first_joint(character, character.parts()[static_cast<std::size_t>(part)]);

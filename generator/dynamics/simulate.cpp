@@ -239,8 +239,8 @@ class Simulation {
     project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
     find_forces(s_.acceleration, s_.forces);
     find_ground();
-    s_.control.correct({figure_, s_.dynamics, s_.mass, s_.feet.stands_by_dof(), s_.support, s_.area, s_.ground, weight_N_,
-                        s_.acceleration, s_.forces});
+    s_.control.correct({figure_, s_.dynamics, s_.mass, s_.feet.stands_by_dof(), s_.support, s_.area, s_.ground,
+                        weight_N_, s_.acceleration, s_.forces});
     s_.ground.efforts(figure_, s_.dynamics, s_.forces, s_.efforts);
     const bool tips = sole_count() > 0 && balance_of(s_.area, s_.dynamics, s_.forces, weight_N_).margin_m < kEdge_m;
     if (tips || exceeds_strength(figure_, s_.efforts)) hold_back();
@@ -348,12 +348,12 @@ class Simulation {
 
   const Character& character_;
   const DynamicsSetup& setup_;
-  const Figure& figure_;
+  const DynamicFigure& figure_;
   const Multibody& body_;
   const Environment& environment_;
   SimulationScratch& s_;
   Motion& motion_;
-  Target target_;
+  TargetMotion target_;
   std::vector<std::uint8_t> planned_;
   double tick_s_;
   double weight_N_;

@@ -18,7 +18,7 @@ namespace contort {
 struct DynamicsSetup {
   Mode mode = Mode::kinematic;
   int ticks_per_frame = 1;
-  Figure figure;
+  DynamicFigure figure;
   std::vector<TouchPoint> touches;
   std::vector<Blow> blows;
 };

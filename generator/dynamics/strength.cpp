@@ -10,7 +10,7 @@ constexpr double kRounding = 1e-9;  // share of a limit
 
 }  // namespace
 
-double affordable_share(const Figure& figure, std::span<const double> hold, std::span<const double> efforts) {
+double affordable_share(const DynamicFigure& figure, std::span<const double> hold, std::span<const double> efforts) {
   double share = 1.0;
   for (std::size_t i = kRootDofs; i < efforts.size(); ++i) {
     const double limit = efforts[i] > 0.0 ? figure.strength_high[i] : figure.strength_low[i];
@@ -23,14 +23,15 @@ double affordable_share(const Figure& figure, std::span<const double> hold, std:
   return share;
 }
 
-bool exceeds_strength(const Figure& figure, std::span<const double> efforts) {
+bool exceeds_strength(const DynamicFigure& figure, std::span<const double> efforts) {
   for (std::size_t i = kRootDofs; i < efforts.size(); ++i)
-    if (efforts[i] > figure.strength_high[i] * (1.0 + kRounding) || efforts[i] < figure.strength_low[i] * (1.0 + kRounding))
+    if (efforts[i] > figure.strength_high[i] * (1.0 + kRounding) ||
+        efforts[i] < figure.strength_low[i] * (1.0 + kRounding))
       return true;
   return false;
 }
 
-void clamp_to_strength(const Figure& figure, std::span<double> efforts) {
+void clamp_to_strength(const DynamicFigure& figure, std::span<double> efforts) {
   std::fill_n(efforts.begin(), kRootDofs, 0.0);
   for (std::size_t i = kRootDofs; i < efforts.size(); ++i)
     efforts[i] = std::clamp(efforts[i], figure.strength_low[i], figure.strength_high[i]);

@@ -1,6 +1,6 @@
-// Strength (seed D5): joints have no more effort than their limits. Where accelerations would need more, all of them are
-// taken back together along the way to the accelerations of holding still, as far as the first limit asks: one joint
-// alone cannot be taken back where legs form a closed chain.
+// Strength (seed D5): joints have no more effort than their limits. Where accelerations would need more, all of them
+// are taken back together along the way to the accelerations of holding still, as far as the first limit asks: one
+// joint alone cannot be taken back where legs form a closed chain.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@ namespace contort {
 
 // The largest share in [0, 1] of the way from `hold` to `efforts` at which no joint needs more than it has. 0 where
 // holding still needs too much already.
-double affordable_share(const Figure& figure, std::span<const double> hold, std::span<const double> efforts);
+double affordable_share(const DynamicFigure& figure, std::span<const double> hold, std::span<const double> efforts);
 
 // Whether any joint needs more than it has, by more than rounding.
-bool exceeds_strength(const Figure& figure, std::span<const double> efforts);
+bool exceeds_strength(const DynamicFigure& figure, std::span<const double> efforts);
 
 // Every effort into its limits; 0 for the root.
-void clamp_to_strength(const Figure& figure, std::span<double> efforts);
+void clamp_to_strength(const DynamicFigure& figure, std::span<double> efforts);
 
 }  // namespace contort

@@ -29,7 +29,8 @@ void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std
     point_jacobian(body, dynamics, foot.link, sole, rows.first(3 * n));
     angular_jacobian(body, dynamics, foot.link, rows.last(3 * n));
     const Quat now = rotation_of(link.rotation) * foot.link_from_sole.q;
-    const Vec3 off[2] = {sole - foot.world_from_sole.p_m, to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
+    const Vec3 off[2] = {sole - foot.world_from_sole.p_m,
+                         to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
     // Accelerations that the present velocities cause. Gravity is in them as one of the world.
     const Vec3 up(0.0, gravity_m_s2, 0.0);
     const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole) - up,

@@ -24,9 +24,9 @@ struct SupportRows {
   std::vector<double> factors;  // of keep_feet
 };
 
-// The rows at the pose and velocities of an inverse_dynamics with acceleration 0 and this gravity. Soles that have moved
-// are brought back as by a critically damped spring of this frequency (J. Baumgarte, "Stabilization of constraints and
-// integrals of motion in dynamical systems", 1972).
+// The rows at the pose and velocities of an inverse_dynamics with acceleration 0 and this gravity. Soles that have
+// moved are brought back as by a critically damped spring of this frequency (J. Baumgarte, "Stabilization of
+// constraints and integrals of motion in dynamical systems", 1972).
 void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std::span<const double> velocity,
                   double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support);
 
@@ -40,8 +40,8 @@ void project_on_support(const Multibody& body, double root_weight, SupportRows& 
 // foot has landed.
 void stop_feet(const Multibody& body, double root_weight, SupportRows& support, std::span<double> velocity);
 
-// Changes of acceleration that would move standing soles, with the legs giving way so that they stay: `legs` marks their
-// freedoms. prepare once for all of a tick.
+// Changes of acceleration that would move standing soles, with the legs giving way so that they stay: `legs` marks
+// their freedoms. prepare once for all of a tick.
 void prepare_keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support);
 void keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support, std::span<double> change);
 

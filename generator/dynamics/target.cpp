@@ -24,7 +24,7 @@ Cubic cubic(double a, double b, double m0, double m1, double u) {
 
 }  // namespace
 
-Target::Target(const Multibody& body, const Motion& motion)
+TargetMotion::TargetMotion(const Multibody& body, const Motion& motion)
     : rate_hz_(motion.rate_hz), frame_count_(motion.frame_count), coord_count_(motion.coord_count + 7) {
   for (int f = 0; f < frame_count_; ++f) {
     const Rigid& root = motion.root[static_cast<std::size_t>(f)];
@@ -45,24 +45,24 @@ Target::Target(const Multibody& body, const Motion& motion)
   }
 }
 
-Target::Between Target::between(double frame) const {
+TargetMotion::Between TargetMotion::between(double frame) const {
   const double clamped = std::clamp(frame, 0.0, static_cast<double>(frame_count_ - 1));
   const int before = std::min(static_cast<int>(std::floor(clamped)), std::max(frame_count_ - 2, 0));
   return {before, clamped - before, frame < 0.0 || frame > frame_count_ - 1 || frame_count_ < 2};
 }
 
 // Half of the way from the frame before to the one after: Catmull and Rom's slope. Ends have none.
-double Target::slope(int frame, int coord) const {
+double TargetMotion::slope(int frame, int coord) const {
   if (frame == 0 || frame == frame_count_ - 1) return 0.0;
   return 0.5 * (row(frame + 1)[coord] - row(frame - 1)[coord]);
 }
 
-Vec3 Target::turn_slope(int frame, int coord) const {
+Vec3 TargetMotion::turn_slope(int frame, int coord) const {
   if (frame == 0 || frame == frame_count_ - 1) return Vec3(0.0);
   return 0.5 * to_rotation_vector(glm::conjugate(quat_at(row(frame - 1) + coord)) * quat_at(row(frame + 1) + coord));
 }
 
-void Target::joint_at(const Link& link, double frame, double* coords, double* rates) const {
+void TargetMotion::joint_at(const Link& link, double frame, double* coords, double* rates) const {
   const Between at = between(frame);
   const int next = std::min(at.frame + 1, frame_count_ - 1);
   const double per_s = at.stands ? 0.0 : rate_hz_;
@@ -86,7 +86,7 @@ void Target::joint_at(const Link& link, double frame, double* coords, double* ra
   for (int k = 0; k < 3; ++k) rates[k] = angular[k];
 }
 
-void Target::root_at(double frame, Rigid& world_from_root, double* velocity) const {
+void TargetMotion::root_at(double frame, Rigid& world_from_root, double* velocity) const {
   Link place, turn;
   turn.kind = JointKind::ball, turn.coord = coord_count_ - 4;
   place.kind = JointKind::prismatic;
@@ -99,7 +99,7 @@ void Target::root_at(double frame, Rigid& world_from_root, double* velocity) con
   world_from_root.q = quat_at(q);
 }
 
-void Target::share_knots(const std::vector<int>& links) {
+void TargetMotion::share_knots(const std::vector<int>& links) {
   std::vector<int> all;
   for (const int link : links) all = merged_knots(all, knots(link));
   for (const int link : links) knots_[static_cast<std::size_t>(link)] = all;

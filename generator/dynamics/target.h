@@ -1,5 +1,5 @@
-// A target motion as a function of time, between its frames too: what tracking control follows. Poses pass through those
-// of the frames; rates are the poses' own derivatives, continuous over the frames.
+// A target motion as a function of time, between its frames too: what tracking control follows. Poses pass through
+// those of the frames; rates are the poses' own derivatives, continuous over the frames.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace contort {
 
-class Target {
+class TargetMotion {
  public:
   // Keeps no reference to the motion. At least one frame.
-  Target(const Multibody& body, const Motion& motion);
+  TargetMotion(const Multibody& body, const Motion& motion);
 
   double rate_hz() const { return rate_hz_; }
   int last_frame() const { return frame_count_ - 1; }
@@ -33,7 +33,7 @@ class Target {
 
  private:
   struct Between {
-    int frame = 0;     // the one before
+    int frame = 0;       // the one before
     double share = 0.0;  // of the way to the next one, [0, 1)
     bool stands = false;
   };

@@ -10,7 +10,7 @@ Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
 void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
-void track_root(const Target& target, double then, double ahead_s, const FigureState& state,
+void track_root(const TargetMotion& target, double then, double ahead_s, const FigureState& state,
                 std::span<double> acceleration) {
   Rigid goal;
   double rates[kRootDofs];
@@ -22,7 +22,7 @@ void track_root(const Target& target, double then, double ahead_s, const FigureS
       &acceleration[3]);
 }
 
-void track_joint(const Link& link, const Target& target, double then, double ahead_s, const FigureState& state,
+void track_joint(const Link& link, const TargetMotion& target, double then, double ahead_s, const FigureState& state,
                  double* acceleration) {
   const double* now = &state.coords[static_cast<std::size_t>(link.coord)];
   const double* velocity = &state.velocity[static_cast<std::size_t>(link.dof)];
@@ -36,7 +36,7 @@ void track_joint(const Link& link, const Target& target, double then, double ahe
 
 }  // namespace
 
-FigureState standing_start(const Multibody& body, const Target& target) {
+FigureState standing_start(const Multibody& body, const TargetMotion& target) {
   FigureState state;
   state.coords.resize(static_cast<std::size_t>(body.coord_count()));
   state.velocity.assign(static_cast<std::size_t>(body.dof_count()), 0.0);
@@ -47,7 +47,7 @@ FigureState standing_start(const Multibody& body, const Target& target) {
   return state;
 }
 
-void track(const Multibody& body, const Target& target, double frame, double tick_s, const FigureState& state,
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const FigureState& state,
            std::span<double> acceleration) {
   for (std::size_t i = 0; i < body.links().size(); ++i) {
     const Link& link = body.links()[i];

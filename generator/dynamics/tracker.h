@@ -15,10 +15,10 @@ struct FigureState {
 };
 
 // The target's pose at frame 0, at rest.
-FigureState standing_start(const Multibody& body, const Target& target);
+FigureState standing_start(const Multibody& body, const TargetMotion& target);
 
 // The accelerations of all freedoms at a time in frames, each joint by itself; tick_s is the time until the next call.
-void track(const Multibody& body, const Target& target, double frame, double tick_s, const FigureState& state,
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const FigureState& state,
            std::span<double> acceleration);
 
 // Semi-implicit Euler: velocities first, then poses with them.

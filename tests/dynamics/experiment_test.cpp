@@ -37,7 +37,7 @@ class Played {
     motion = generate(stage_);
   }
 
-  const Figure& figure() const { return stage_.dynamics->figure; }
+  const DynamicFigure& figure() const { return stage_.dynamics->figure; }
   const Character& character() const { return *stage_.character; }
 
   double peak_effort(const std::string& joint) const {
@@ -52,7 +52,8 @@ class Played {
   // Degrees from the target, forward positive: of balls about the side axis.
   double deviation_deg(const Joint& joint, int frame) const {
     const double* now = &motion.row(frame)[static_cast<std::size_t>(joint.coord)];
-    const double* goal = &motion.response.target_coords[static_cast<std::size_t>(frame * motion.coord_count + joint.coord)];
+    const double* goal =
+        &motion.response.target_coords[static_cast<std::size_t>(frame * motion.coord_count + joint.coord)];
     if (joint.kind != JointKind::ball) return (now[0] - goal[0]) * kDegPerRad;
     const Quat a(now[0], now[1], now[2], now[3]), b(goal[0], goal[1], goal[2], goal[3]);
     return -to_rotation_vector(a * glm::conjugate(b)).x * kDegPerRad;
@@ -72,7 +73,8 @@ class Played {
   double largest_deviation_deg(int first_frame = 0) const {
     double largest = 0.0;
     for_joints("", [&](const Joint& j, const Link&) {
-      for (int f = first_frame; f < motion.frame_count; ++f) largest = std::max(largest, std::fabs(deviation_deg(j, f)));
+      for (int f = first_frame; f < motion.frame_count; ++f)
+        largest = std::max(largest, std::fabs(deviation_deg(j, f)));
     });
     return largest;
   }
@@ -129,7 +131,8 @@ TEST(Experiment, WithFiveKilogramsTheArmsSwingForwardAndRelieveTheWaist) {
 }
 
 TEST(Experiment, WithEightKilogramsTheArmsSwingMoreAndTheWaistBalancesToo) {
-  const Played five(kB, Mode::dynamic, kTicks), tracked(kC, Mode::tracking, kTicks), controlled(kC, Mode::dynamic, kTicks);
+  const Played five(kB, Mode::dynamic, kTicks), tracked(kC, Mode::tracking, kTicks),
+      controlled(kC, Mode::dynamic, kTicks);
   EXPECT_LE(controlled.peak_effort("lumbar_flex"), 0.96 * tracked.peak_effort("lumbar_flex"));
   EXPECT_LE(controlled.peak_effort("hip_flex"), 0.96 * tracked.peak_effort("hip_flex"));
   EXPECT_GE(controlled.deviations_deg("shoulder").second, 1.3 * five.deviations_deg("shoulder").second);
@@ -157,7 +160,8 @@ TEST(Experiment, AfterABlowItKeepsItsBalanceAndReturnsWithinItsStrength) {
 TEST(Experiment, SagittalLoadsMoveBothSidesAlike) {
   const Played controlled(kC, Mode::dynamic, kTicks);
   const auto dof = [&](const char* name) {
-    return static_cast<std::size_t>(controlled.figure().body.links()[static_cast<std::size_t>(controlled.character().find_joint(name))].dof);
+    return static_cast<std::size_t>(
+        controlled.figure().body.links()[static_cast<std::size_t>(controlled.character().find_joint(name))].dof);
   };
   for (int f = 0; f < controlled.motion.frame_count; ++f) {
     EXPECT_LT(std::fabs(controlled.motion.response.stances[static_cast<std::size_t>(f)].zmp_m.x), 1e-6);

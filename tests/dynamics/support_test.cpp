@@ -157,7 +157,7 @@ class Squat {
 
   Stage stage_;
   Multibody body_;
-  Target target_;
+  TargetMotion target_;
   int ticks_;
   double tick_s_;
   FigureState state_;

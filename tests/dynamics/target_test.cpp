@@ -21,7 +21,7 @@ struct Sample {
   std::vector<double> velocity;
 };
 
-Sample sampled(const Multibody& body, const Target& target, double frame) {
+Sample sampled(const Multibody& body, const TargetMotion& target, double frame) {
   Sample out;
   out.coords.resize(static_cast<std::size_t>(body.coord_count()));
   out.velocity.resize(static_cast<std::size_t>(body.dof_count()));
@@ -55,7 +55,7 @@ TEST(Target, PassesThroughItsFramesAndItsRatesAreItsDerivatives) {
     ASSERT_TRUE(stage.ok());
     const Motion motion = generate(*stage);
     const Multibody body = Multibody::of(*stage->character);
-    const Target target(body, motion);
+    const TargetMotion target(body, motion);
     for (int f = 1; f < motion.frame_count - 1; f += 7) {
       const Sample there = sampled(body, target, f);
       for (std::size_t c = 0; c < there.coords.size(); ++c) EXPECT_NEAR(there.coords[c], motion.row(f)[c], 1e-12);
@@ -76,7 +76,7 @@ TEST(Target, StandsStillBeforeItsStartAndAfterItsEnd) {
   const Result<Stage> stage = build_stage(scene("human_reaches"), stock_library());
   const Motion motion = generate(*stage);
   const Multibody body = Multibody::of(*stage->character);
-  const Target target(body, motion);
+  const TargetMotion target(body, motion);
   for (const double frame : {-3.0, motion.frame_count + 5.0}) {
     const Sample there = sampled(body, target, frame);
     for (const double rate : there.velocity) EXPECT_EQ(rate, 0.0);
@@ -89,7 +89,7 @@ TEST(Target, LegsOfOneChainShareTheirKnots) {
   const Result<Stage> stage = build_stage(scene("mech_walk_aim"), stock_library());
   const Motion motion = generate(*stage);
   const Multibody body = Multibody::of(*stage->character);
-  Target target(body, motion);
+  TargetMotion target(body, motion);
   const int left = stage->character->find_joint("leg_left/knee"), right = stage->character->find_joint("leg_right/knee");
   EXPECT_NE(target.knots(left), target.knots(right));
   const std::vector<int> both = merged_knots(target.knots(left), target.knots(right));

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <regex>
 
 #include "tests/guards/source_text.h"
 
@@ -85,6 +86,21 @@ TEST(Hygiene, FilesAreShort) {
       EXPECT_LE(lines, kMaxLines) << file.path << " is too long for one sitting: split it";
     }
   }
+}
+
+// Two structs of one name in one namespace are undefined behaviour as soon as they meet in one program, and no compiler
+// tells.
+TEST(Hygiene, HeadersDefineEachTypeOnce) {
+  const std::regex definition(R"(\n(?:struct|class|enum class) ([A-Z]\w*)(?: final)?(?: ?:[^;{]*)? \{)");
+  std::map<std::string, std::string> home;
+  for (const SourceFile& file : project_files()) {
+    if (!file.path.ends_with(".h") || file.path.starts_with("tests/")) continue;
+    for (std::sregex_iterator it(file.text.begin(), file.text.end(), definition), end; it != end; ++it) {
+      const auto [other, is_new] = home.emplace((*it)[1], file.path);
+      EXPECT_TRUE(is_new) << (*it)[1] << " is in " << other->second << " and in " << file.path;
+    }
+  }
+  EXPECT_GT(home.size(), 100U);
 }
 
 TEST(Hygiene, ShellScriptsParse) {
