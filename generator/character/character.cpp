@@ -10,6 +10,11 @@
 
 namespace contort {
 
+int freedom_count(JointKind kind) {
+  if (kind == JointKind::root) return 6;
+  return kind == JointKind::ball ? 3 : 1;
+}
+
 int coord_size(JointKind kind) {
   switch (kind) {
     case JointKind::root: return 0;

@@ -51,6 +51,9 @@ struct Joint {
 // 1 for hinges and prismatic joints, 4 for balls, 0 for the root.
 int coord_size(JointKind kind);
 
+// How many numbers its rate has: 6 for the root, 3 for balls, else 1.
+int freedom_count(JointKind kind);
+
 struct Collider {
   std::string name;     // "arm_left/forearm", or "object:rifle/barrel"
   int joint = 0;        // The joint that moves it.

@@ -111,9 +111,9 @@ void DynamicControl::prepare_columns(const ControlTick& tick, const ControlGroup
   for (std::size_t h = 0; h < group.handles.size(); ++h) {
     put_unit(group.handles[h], tick.figure, tick.dynamics, columns_[h].acceleration);
     if (group.moves_feet && tick.support.count > 0) {
-      if (!legs_ready_) prepare_keep_feet(tick.figure.body, tick.legs, tick.support);
+      if (!legs_ready_) prepare_keep_feet(tick.legs, tick.support);
       legs_ready_ = true;
-      keep_feet(tick.figure.body, tick.legs, tick.support, columns_[h].acceleration);
+      keep_feet(tick.legs, tick.support, columns_[h].acceleration);
     }
     multiply(tick.figure.body, tick.mass, columns_[h].acceleration, columns_[h].forces);
   }

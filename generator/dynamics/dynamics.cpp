@@ -79,6 +79,15 @@ void start_at_root(std::span<const double> velocity, std::span<const double> acc
                              up - glm::cross(angular, linear)};
 }
 
+// Of a product with a vector that is nearly empty.
+void add_columns(std::size_t n, std::span<const double> matrix, std::span<const double> x, std::span<double> out) {
+  std::ranges::fill(out, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (x[k] == 0.0) continue;
+    for (std::size_t i = 0; i < n; ++i) out[i] += matrix[std::max(i, k) * n + std::min(i, k)] * x[k];
+  }
+}
+
 Quat turned(const Quat& q, const Vec3& rate, double time_s) {
   return glm::normalize(q * from_rotation_vector(rate * time_s));
 }
@@ -156,6 +165,7 @@ void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<doub
 void multiply(const Multibody& body, std::span<const double> matrix, std::span<const double> x, std::span<double> out) {
   const auto n = at(body.dof_count());
   const auto parent = body.parent_dof();
+  if (std::ranges::count(x, 0.0) + 3 >= static_cast<std::ptrdiff_t>(n)) return add_columns(n, matrix, x, out);
   for (std::size_t k = 0; k < n; ++k) {
     const double* row = &matrix[k * n];
     double sum = row[k] * x[k];

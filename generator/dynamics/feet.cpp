@@ -12,7 +12,10 @@ namespace {
 constexpr double kFlat_m = 0.01;      // corners of a sole that can stand again are nearer than this,
 constexpr double kSettled_m_s = 0.5;  // and slower
 constexpr double kPlannedNear_m = 0.02;
-constexpr double kPlannedSlow_m_s = 0.2;
+constexpr double kPlannedSlide_m_s = 0.1;  // feet of recorded motion do slide
+constexpr double kPlannedRise_m_s = 0.03;  // but one that rises has been lifted: to hold it would fight its own leg
+constexpr double kSoft_s = 0.15;           // a sole becomes firm within this
+constexpr double kLeastFirm = 0.1;
 constexpr double kPlannedLevel = 0.97;  // cosine of 14 degrees
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -67,6 +70,10 @@ Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environ
   return place;
 }
 
+double gap_m(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment) {
+  return environment.nearest_ground(sole_place(sole, dynamics).p_m).distance_m;
+}
+
 bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment) {
   const Placement& link = dynamics.world[at(sole.link)];
   const SpatialMotion& v = dynamics.velocity[at(sole.link)];
@@ -90,7 +97,9 @@ std::vector<std::uint8_t> planned_stances(const Character& character, const Dyna
       const Rigid sole = world[at(figure.soles[i].link)] * figure.soles[i].link_from_sole;
       const Surface ground = environment.nearest_ground(sole.p_m);
       const Vec3 speed = f > 0 ? motion.rate_hz * (sole.p_m - before[i]) : Vec3(0.0);
-      const bool slow = glm::dot(speed, speed) < kPlannedSlow_m_s * kPlannedSlow_m_s;
+      const double rise = glm::dot(speed, ground.normal);
+      const double slide2 = glm::dot(speed, speed) - rise * rise;
+      const bool slow = std::fabs(rise) < kPlannedRise_m_s && slide2 < kPlannedSlide_m_s * kPlannedSlide_m_s;
       const bool level = glm::dot(sole.q * Vec3(0, 1, 0), ground.normal) > kPlannedLevel;
       if (slow && level && std::fabs(ground.distance_m) < kPlannedNear_m)
         stances[at(f)] |= static_cast<std::uint8_t>(1U << i);
@@ -98,6 +107,24 @@ std::vector<std::uint8_t> planned_stances(const Character& character, const Dyna
     }
   }
   return stances;
+}
+
+double firmness(std::span<const std::uint8_t> stances, int sole, int frame, double rate_hz) {
+  const int soft = static_cast<int>(kSoft_s * rate_hz), last = static_cast<int>(stances.size()) - 1;
+  int nearest = soft;  // frames to one in which it does not stand; before and after the motion it does
+  for (int away = 0; away < nearest; ++away)
+    for (const int f : {frame - away, frame + away})
+      if (f >= 0 && f <= last && (stances[at(f)] >> sole & 1) == 0) nearest = away;
+  return soft > 0 ? std::max(kLeastFirm, static_cast<double>(nearest) / soft) : 1.0;
+}
+
+void soften(const DynamicFigure& figure, std::span<const std::uint8_t> stances, int frame, double rate_hz,
+            std::span<double> firmness_squared, std::span<double> ease) {
+  for (std::size_t i = 0; i < figure.soles.size(); ++i) {
+    const double firm = firmness(stances, static_cast<int>(i), frame, rate_hz);
+    firmness_squared[i] = firm * firm;
+    for (const int dof : figure.soles[i].leg_dofs) ease[at(dof)] = 1.0 / (firm * firm);
+  }
 }
 
 }  // namespace contort

@@ -40,11 +40,22 @@ class Feet {
 Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics);
 Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
+// How high a sole's middle is above the ground.
+double gap_m(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
+
 // Whether all corners of a sole are near the ground and slow. Needs the velocities of inverse_dynamics.
 bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
 // Which soles stand in each frame of a motion: near the ground, level with it, and hardly moving. Bit i: sole i.
 std::vector<std::uint8_t> planned_stances(const Character& character, const DynamicFigure& figure,
                                           const Environment& environment, const Motion& motion);
+
+// How firmly a sole stands in a frame of such stances, (0, 1]: less from when it landed and until it is lifted, so that
+// weight comes and goes softly. A leg that is about to leave must not move the hips.
+double firmness(std::span<const std::uint8_t> stances, int sole, int frame, double rate_hz);
+
+// That, squared, by sole; and by freedom how easily legs give way (support.h): the less firm, the more.
+void soften(const DynamicFigure& figure, std::span<const std::uint8_t> stances, int frame, double rate_hz,
+            std::span<double> firmness_squared, std::span<double> ease);
 
 }  // namespace contort

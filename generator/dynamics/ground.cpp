@@ -100,8 +100,10 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
   return share;
 }
 
-// Multipliers (moment mu, force phi) with f_i = phi + mu x d_i and n_i = mu / price meet sum f = F, sum n + d x f = N.
-void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics) {
+// Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm mu / price meet sum f = F, sum n +
+// d x f = N.
+void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> standing, std::span<const double> firmness,
+                          const DynamicsScratch& dynamics) {
   feet_.clear();
   dof_count_ = figure.body.dof_count();
   moves_.assign(standing.size() * at(dof_count_), 0);
@@ -114,14 +116,16 @@ void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> stan
     for (const Vec3& corner : sole.corners_m) center += 0.25 * corner;
     const Vec3 d = link.origin_m + link.rotation * center - dynamics.world[0].origin_m;
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
-    feet_.push_back({s, d});
+    const double firm = firmness[at(s)];
+    const Vec3 e = firm * d;
+    feet_.push_back({s, d, firm});
     for (int i = 0; i < 3; ++i) {
-      entry(3 + i, 3 + i) += 1.0;
-      for (int j = 0; j < 3; ++j) entry(i, j) += (i == j ? 1.0 / kMomentPrice + glm::dot(d, d) : 0.0) - d[i] * d[j];
+      entry(3 + i, 3 + i) += firm;
+      for (int j = 0; j < 3; ++j) entry(i, j) += (i == j ? firm / kMomentPrice + glm::dot(d, e) : 0.0) - d[i] * e[j];
     }
     // d x phi
-    entry(3, 1) += d.z, entry(3, 2) -= d.y, entry(4, 0) -= d.z, entry(4, 2) += d.x, entry(5, 0) += d.y,
-        entry(5, 1) -= d.x;
+    entry(3, 1) += e.z, entry(3, 2) -= e.y, entry(4, 0) -= e.z, entry(4, 2) += e.x, entry(5, 0) += e.y,
+        entry(5, 1) -= e.x;
   }
   if (!feet_.empty()) factorise_symmetric(factors_, 6);
 }
@@ -136,8 +140,9 @@ SpatialForce GroundShare::multipliers(const SpatialForce& net) const {
 SpatialForce GroundShare::share(std::size_t standing, const SpatialForce& net) const {
   const SpatialForce m = multipliers(net);
   const Vec3& d = feet_[standing].center_m;
-  const Vec3 force = m.force + glm::cross(m.moment, d);
-  return {m.moment / kMomentPrice + glm::cross(d, force), force};
+  const double firm = feet_[standing].firmness;
+  const Vec3 force = firm * (m.force + glm::cross(m.moment, d));
+  return {firm / kMomentPrice * m.moment + glm::cross(d, force), force};
 }
 
 void GroundShare::efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,

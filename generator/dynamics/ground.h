@@ -57,7 +57,9 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
 // the soles' centres. Efforts of joints above the legs do not depend on it.
 class GroundShare {
  public:
-  void prepare(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics);
+  // `firmness` by sole of the figure: the cost of a sole's forces is divided by it.
+  void prepare(const DynamicFigure& figure, std::span<const int> standing, std::span<const double> firmness,
+               const DynamicsScratch& dynamics);
 
   // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
   void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
@@ -72,6 +74,7 @@ class GroundShare {
   struct Foot {
     int sole = 0;
     Vec3 center_m{0.0};  // from the root's origin
+    double firmness = 1.0;
   };
   SpatialForce multipliers(const SpatialForce& net) const;
   std::vector<Foot> feet_;

@@ -13,9 +13,12 @@ void respond(const Multibody& body, std::span<const double> factors, const Suppo
   solve(body, factors, x);
   scratch.push.assign(m, 0.0);
   if (m == 0) return;
-  scratch.columns.assign(support.rows.begin(), support.rows.begin() + static_cast<std::ptrdiff_t>(m * n));
+  scratch.rows.assign(m * n, 0.0);
   scratch.matrix.resize(m * m);
-  const auto row = [&](std::size_t i) { return std::span<const double>(support.rows).subspan(i * n, n); };
+  for (const int dof : support.dofs)
+    for (std::size_t i = 0; i < m; ++i) scratch.rows[i * n + static_cast<std::size_t>(dof)] = support.column(dof)[i];
+  scratch.columns = scratch.rows;
+  const auto row = [&](std::size_t i) { return std::span<const double>(scratch.rows).subspan(i * n, n); };
   const auto column = [&](std::size_t i) { return std::span(scratch.columns).subspan(i * n, n); };
   for (std::size_t i = 0; i < m; ++i) {
     solve(body, factors, column(i));

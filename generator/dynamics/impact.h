@@ -11,6 +11,7 @@
 namespace contort {
 
 struct ResponseScratch {
+  std::vector<double> rows;     // J
   std::vector<double> columns;  // M^-1 J^T, a row for each of J's
   std::vector<double> matrix;   // J M^-1 J^T
   std::vector<double> push;  // lambda: forces or impulses of the ground, six a foot (linear at the sole, then angular)

@@ -33,6 +33,15 @@ void solve_symmetric(std::span<double> matrix, int n, std::span<double> x) {
   solve_factorised(matrix, n, x);
 }
 
+void add_square(std::span<const double> v, double weight, std::span<double> matrix) {
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double scaled = weight * v[i];
+    if (scaled == 0.0) continue;
+    double* row = &matrix[i * v.size()];
+    for (std::size_t j = 0; j <= i; ++j) row[j] += scaled * v[j];
+  }
+}
+
 double dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];

@@ -15,6 +15,9 @@ void solve_factorised(std::span<const double> factors, int n, std::span<double> 
 // Both.
 void solve_symmetric(std::span<double> matrix, int n, std::span<double> x);
 
+// The lower triangle of A += weight * v v^T.
+void add_square(std::span<const double> v, double weight, std::span<double> matrix);
+
 double dot(std::span<const double> a, std::span<const double> b);
 
 }  // namespace contort

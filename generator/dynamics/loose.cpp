@@ -69,6 +69,11 @@ SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce
   return {Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5])};
 }
 
+void move_root(const DynamicsScratch& dynamics, const SpatialMotion& change, std::span<double> velocity) {
+  const Vec3 turn = glm::transpose(dynamics.world[0].rotation) * change.angular;
+  for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
+}
+
 }  // namespace
 
 std::vector<TouchPoint> touch_points(const Character& character, const DynamicFigure& figure) {
@@ -95,6 +100,27 @@ void fall_freely(const Multibody& body, std::span<const double> mass, LooseScrat
   for (std::size_t k = 0; k < kRootDofs; ++k) acceleration[k] += change[k];
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[std::max(i, k) * n + std::min(i, k)] * change[k];
+}
+
+SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
+                         std::span<const double> velocity) {
+  const auto n = at(body.dof_count());
+  double root[kRootDofs] = {};
+  for (std::size_t r = 0; r < kRootDofs; ++r)
+    for (std::size_t k = 0; k < n; ++k) root[r] += mass[std::max(r, k) * n + std::min(r, k)] * velocity[k];
+  return {dynamics.world[0].rotation * Vec3(root[3], root[4], root[5]), Vec3(root[0], root[1], root[2])};
+}
+
+void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
+                  const SpatialForce& momentum, LooseScratch& scratch, std::span<double> velocity) {
+  const SpatialForce now = momentum_of(body, dynamics, mass, velocity);
+  factorise_inertia(dynamics.composite[0], scratch.factors);
+  move_root(dynamics, moved_by(scratch.factors, {momentum.moment - now.moment, momentum.force - now.force}), velocity);
+}
+
+SpatialForce weight_of(const DynamicsScratch& dynamics) {
+  const Vec3 down(0.0, -kGravity_m_s2, 0.0);
+  return {glm::cross(dynamics.composite[0].first_moment, down), dynamics.composite[0].mass_kg * down};
 }
 
 void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
@@ -138,9 +164,7 @@ void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, c
         contact.impulse[k] = now;
         change += (now - before) * contact.answer[k];
       }
-  const Mat3 world_to_root = glm::transpose(dynamics.world[0].rotation);
-  const Vec3 turn = world_to_root * change.angular;
-  for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
+  move_root(dynamics, change, velocity);
 }
 
 }  // namespace contort

@@ -44,6 +44,19 @@ struct LooseScratch {
 void fall_freely(const Multibody& body, std::span<const double> mass, LooseScratch& scratch,
                  std::span<double> acceleration, std::span<double> forces);
 
+// The whole figure's momentum about the root's origin, world axes; `mass` as in mass_matrix.
+SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
+                         std::span<const double> velocity);
+
+// Gives the root the velocity with which the figure has this momentum, whatever its joints do. In free motion nothing
+// else is integrated: an explicit step through a fast tumble would blow up, and momentum cannot. Needs the composites
+// of mass_matrix.
+void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
+                  const SpatialForce& momentum, LooseScratch& scratch, std::span<double> velocity);
+
+// What gravity adds to it in a second.
+SpatialForce weight_of(const DynamicsScratch& dynamics);
+
 // Changes the root's velocity so that no point gets deeper into the ground within a tick. Needs a placed pose and the
 // composites of mass_matrix.
 void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,

@@ -6,15 +6,10 @@ namespace {
 
 Mat3 cross_matrix(const Vec3& a) { return {Vec3(0.0, a.z, -a.y), Vec3(-a.z, 0.0, a.x), Vec3(a.y, -a.x, 0.0)}; }
 
-int dofs_of(JointKind kind) {
-  if (kind == JointKind::root) return kRootDofs;
-  return kind == JointKind::ball ? 3 : 1;
-}
-
 Link link_of(const Joint& joint) {
   Link link;
   link.kind = joint.kind, link.parent = joint.parent, link.coord = joint.coord;
-  link.dof_count = dofs_of(joint.kind);
+  link.dof_count = freedom_count(joint.kind);
   link.rest = glm::mat3_cast(joint.parent_from_joint.q);
   link.axis = link.rest * joint.axis;
   link.origin_m = joint.parent_from_joint.p_m;

@@ -13,7 +13,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double kRootPrice = 1e-3;      // of its accelerations, a joint's cost 1: the root goes where the legs say
+constexpr double kRootEase = 1e3;        // against a joint's 1: the root goes where the legs say
 constexpr double kFootStiffness = 15.0;  // rad/s, of soles that have drifted
 constexpr double kLandingGap_m = 0.03;   // a sole that is meant to stand and is nearer than this has landed
 constexpr double kEdge_m = 0.005;        // of the zero moment point from the edge, for which tracking gives way
@@ -50,6 +50,7 @@ class Simulation {
       for (const Blow& blow : setup_.blows)
         if (blow.frame == frame_) strike(blow);
       place_figure();
+      soften(figure_, planned_, frame_, motion_.rate_hz, s_.firmness, s_.ease);
       if (!loose_) plan_feet(false);
       // The last frame is looked at, but not left.
       const bool last = frame_ + 1 == motion_.frame_count;
@@ -80,7 +81,11 @@ class Simulation {
     s_.state = standing_start(body_, target_);
     s_.control.begin(figure_, tick_s_);
     s_.feet.begin(figure_);
+    s_.ease.assign(n, 1.0);
+    std::fill_n(s_.ease.begin(), kRootDofs, kRootEase);
+    s_.firmness.assign(figure_.soles.size(), 1.0);
     frame_ = 0;
+    soften(figure_, planned_, frame_, motion_.rate_hz, s_.firmness, s_.ease);
     place_figure();
     plan_feet(true);
   }
@@ -104,6 +109,7 @@ class Simulation {
     s_.feet.clear();
     s_.control.rest();
     loose_ = true;
+    has_momentum_ = false;
     outside_s_ = 0.0;
   }
 
@@ -112,7 +118,7 @@ class Simulation {
     bool changed = false;
     for (int i = 0; i < sole_count(); ++i) {
       const bool stands = s_.feet.stands(i), shall = is_planned(i);
-      const bool lands = shall && !stands && (at_once || gap_m(figure_.soles[at(i)]) < kLandingGap_m);
+      const bool lands = shall && !stands && (at_once || gap_m(figure_.soles[at(i)], s_.dynamics, environment_) < kLandingGap_m);
       if (stands && !shall) s_.feet.lift(i);
       if (lands) land(i);
       changed = changed || lands || (stands && !shall);
@@ -121,14 +127,10 @@ class Simulation {
     s_.control.rest();
     if (!s_.feet.none()) {
       find_rows();
-      stop_feet(body_, kRootPrice, s_.support, s_.state.velocity);
+      stop_feet(s_.ease, s_.support, s_.state.velocity);
     } else if (is_dynamic() && sole_count() > 0) {
       let_go();
     }
-  }
-
-  double gap_m(const Sole& sole) const {
-    return environment_.nearest_ground(sole_place(sole, s_.dynamics).p_m).distance_m;
   }
 
   // The forces of no acceleration at all, with the velocities and accelerations of all links.
@@ -162,6 +164,7 @@ class Simulation {
     brace(s_.state.velocity, s_.hold, kFastest_rad_s, change);
     for (std::size_t k = 0; k < change.size(); ++k) s_.state.velocity[k] += change[k];
     s_.control.rest();
+    has_momentum_ = false;
   }
 
   // The change of velocity with joints that do not resist and feet that stay.
@@ -170,8 +173,8 @@ class Simulation {
     std::ranges::fill(change, 0.0);
     add_impulse(body_, s_.dynamics, blow, change);
     std::vector<double>& stay = s_.support.wanted;
-    for (std::size_t r = 0; r < stay.size(); ++r)
-      stay[r] = -dot(std::span(s_.support.rows).subspan(r * change.size(), change.size()), s_.state.velocity);
+    soles_moved_by(s_.support, s_.state.velocity, stay);
+    for (double& speed : stay) speed = -speed;
     respond(body_, s_.factors, s_.support, stay, s_.response, change);
   }
 
@@ -201,6 +204,7 @@ class Simulation {
     slow_at_ends(character_, body_, s_.feet.stands_by_dof(), s_.state, tick_s_, s_.tracked);
     if (is_dynamic()) {
       mass_matrix(body_, s_.dynamics, s_.mass);
+      if (loose_) carry_momentum();
       if (loose_ && !fallen_) try_to_stand();
       if (loose_ || !stand()) fall();
       s_.record.control(s_.control.added(), 1.0 / setup_.ticks_per_frame);
@@ -215,7 +219,7 @@ class Simulation {
   void follow() {
     find_rows();
     s_.acceleration = s_.tracked;
-    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    project_on_support(s_.ease, s_.support, s_.acceleration);
     inverse_dynamics(body_, s_.state.velocity, s_.acceleration, kGravity_m_s2, s_.dynamics, s_.forces);
     find_ground();
     if (!s_.feet.none()) s_.record.balance(balance_of(s_.area, s_.dynamics, s_.forces, weight_N_));
@@ -223,7 +227,7 @@ class Simulation {
 
   void find_ground() {
     find_support_area(figure_, s_.feet.soles(), s_.dynamics, s_.area);
-    s_.ground.prepare(figure_, s_.feet.soles(), s_.dynamics);
+    s_.ground.prepare(figure_, s_.feet.soles(), s_.firmness, s_.dynamics);
     s_.ground.efforts(figure_, s_.dynamics, s_.forces, s_.efforts);
   }
 
@@ -236,7 +240,7 @@ class Simulation {
   bool stand() {
     find_rows();
     s_.acceleration = s_.tracked;
-    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    project_on_support(s_.ease, s_.support, s_.acceleration);
     find_forces(s_.acceleration, s_.forces);
     find_ground();
     s_.control.correct({figure_, s_.dynamics, s_.mass, s_.feet.stands_by_dof(), s_.support, s_.area, s_.ground,
@@ -257,7 +261,7 @@ class Simulation {
   // joints give what they have and the rest follows.
   void hold_back() {
     std::ranges::fill(s_.hold, 0.0);
-    project_on_support(body_, kRootPrice, s_.support, s_.hold);
+    project_on_support(s_.ease, s_.support, s_.hold);
     find_forces(s_.hold, s_.hold_forces);
     s_.ground.efforts(figure_, s_.dynamics, s_.hold_forces, s_.hold_efforts);
     const double share = std::min(affordable_share(figure_, s_.hold_efforts, s_.efforts),
@@ -299,6 +303,25 @@ class Simulation {
       s_.efforts[k] = s_.hold_efforts[k] + share * (s_.efforts[k] - s_.hold_efforts[k]);
   }
 
+  // From the pose before to this one. Its moment is kept about a point of the world.
+  void carry_momentum() {
+    if (!has_momentum_) return;
+    const SpatialForce here{momentum_.moment - glm::cross(s_.state.root.p_m, momentum_.force), momentum_.force};
+    set_momentum(body_, s_.dynamics, s_.mass, here, s_.loose, s_.state.velocity);
+  }
+
+  // Joints go as they are told, weight and ground change the momentum, and the root follows from both.
+  void move_loosely(SpatialForce momentum) {
+    const SpatialForce weight = weight_of(s_.dynamics);
+    momentum += {tick_s_ * weight.moment, tick_s_ * weight.force};
+    set_momentum(body_, s_.dynamics, s_.mass, momentum, s_.loose, s_.state.velocity);
+    push_off(figure_, setup_.touches, environment_, tick_s_, s_.dynamics, s_.loose, s_.state.velocity);
+    momentum_ = momentum_of(body_, s_.dynamics, s_.mass, s_.state.velocity);
+    momentum_.moment += glm::cross(s_.state.root.p_m, momentum_.force);
+    has_momentum_ = true;
+    see_how_it_lies();
+  }
+
   // Root accelerations of free fall, and the efforts of the joints.
   void fly(std::span<double> acceleration, std::span<double> efforts) {
     find_forces(acceleration, efforts);
@@ -314,10 +337,10 @@ class Simulation {
     if (s_.feet.none()) return;
     s_.hold_efforts = s_.state.velocity;
     find_rows();
-    stop_feet(body_, kRootPrice, s_.support, s_.state.velocity);
+    stop_feet(s_.ease, s_.support, s_.state.velocity);
     find_rows();
     s_.acceleration = s_.tracked;
-    project_on_support(body_, kRootPrice, s_.support, s_.acceleration);
+    project_on_support(s_.ease, s_.support, s_.acceleration);
     find_forces(s_.acceleration, s_.forces);
     find_support_area(figure_, s_.feet.soles(), s_.dynamics, s_.area);
     loose_ = balance_of(s_.area, s_.dynamics, s_.forces, weight_N_).margin_m < 0.0;
@@ -329,10 +352,10 @@ class Simulation {
   // ---- moving on
 
   void move() {
+    const SpatialForce momentum = loose_ ? momentum_of(body_, s_.dynamics, s_.mass, s_.state.velocity) : SpatialForce{};
     for (std::size_t k = 0; k < s_.acceleration.size(); ++k) s_.state.velocity[k] += tick_s_ * s_.acceleration[k];
     stop_at_ends(character_, body_, s_.feet.stands_by_dof(), tick_s_, s_.state);
-    if (loose_) push_off(figure_, setup_.touches, environment_, tick_s_, s_.dynamics, s_.loose, s_.state.velocity);
-    if (loose_) see_how_it_lies();
+    if (loose_) move_loosely(momentum);
     integrate(body_, s_.state.velocity, tick_s_, s_.state.root, s_.state.coords);
   }
 
@@ -360,6 +383,8 @@ class Simulation {
   int frame_ = 0;
   bool loose_ = false;
   bool fallen_ = false;
+  bool has_momentum_ = false;
+  SpatialForce momentum_;  // of a loose figure, about the world's origin
   double outside_s_ = 0.0;
 };
 

@@ -39,7 +39,9 @@ struct SimulationScratch {
   FigureState state;
   Feet feet;
   Recorder record;
-  std::vector<double> tracked, acceleration, forces, bias, efforts, hold, hold_forces, hold_efforts, mass, factors;
+  std::vector<double> firmness;  // by sole
+  std::vector<double> tracked, acceleration, forces, bias, efforts, ease, hold, hold_forces, hold_efforts, mass,
+      factors;
 };
 
 // Moves `motion`, which is the target, as a figure with mass would: its poses become the figure's, its response tells

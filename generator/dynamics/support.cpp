@@ -1,7 +1,6 @@
 #include "generator/dynamics/support.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "generator/dynamics/linear.h"
 
@@ -11,96 +10,108 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-Quat rotation_of(const Mat3& m) { return glm::quat_cast(m); }
+// Columns of one foot: rows [6 f, 6 f + 6).
+void add_foot(const Multibody& body, const StandingFoot& foot, const Vec3& sole_m, int first_row,
+              const DynamicsScratch& dynamics, SupportRows& support) {
+  const Vec3 from_root_m = sole_m - dynamics.world[0].origin_m;
+  const Link& last = body.links()[at(foot.link)];
+  for (int j = last.dof + last.dof_count - 1; j >= 0; j = body.parent_dof()[at(j)]) {
+    const SpatialMotion& freedom = dynamics.freedoms[at(j)];
+    const Vec3 moved = freedom.linear + glm::cross(freedom.angular, from_root_m);
+    double* column = &support.columns[at(j * support.count + first_row)];
+    for (int k = 0; k < 3; ++k) column[k] = moved[k], column[3 + k] = freedom.angular[k];
+  }
+}
+
+// Wanted accelerations: those that the present velocities cause taken back, and the springs.
+void want_to_stay(const StandingFoot& foot, const Vec3& sole_m, double frequency, const Vec3& up_m_s2,
+                  const DynamicsScratch& dynamics, double* wanted) {
+  const Placement& link = dynamics.world[at(foot.link)];
+  const SpatialMotion& v = dynamics.velocity[at(foot.link)];
+  const Quat now = glm::quat_cast(link.rotation) * foot.link_from_sole.q;
+  const Vec3 off[2] = {sole_m - foot.world_from_sole.p_m,
+                       to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
+  const Vec3 speed[2] = {v.linear + glm::cross(v.angular, sole_m - dynamics.world[0].origin_m), v.angular};
+  // Gravity is in the accelerations as one of the world.
+  const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole_m) - up_m_s2,
+                        dynamics.acceleration[at(foot.link)].angular};
+  for (int r = 0; r < 6; ++r) {
+    const int part = r / 3, k = r % 3;
+    wanted[r] = -bias[part][k] - 2.0 * frequency * speed[part][k] - frequency * frequency * off[part][k];
+  }
+}
+
+bool moves_a_foot(const SupportRows& support, int dof) {
+  return std::ranges::any_of(support.column(dof), [](double v) { return v != 0.0; });
+}
+
+// x + E J^T (J E J^T)^-1 (wanted - J x), E: ease; wanted = 0 where none is given
+void project(std::span<const double> ease, std::span<const double> wanted, SupportRows& support, std::span<double> x) {
+  const auto m = at(support.count);
+  if (m == 0) return;
+  support.scratch.resize(m * m + m);
+  const std::span<double> matrix = std::span(support.scratch).first(m * m), force = std::span(support.scratch).last(m);
+  std::ranges::fill(matrix, 0.0);
+  soles_moved_by(support, x, force);
+  for (std::size_t i = 0; i < m; ++i) force[i] = (wanted.empty() ? 0.0 : wanted[i]) - force[i];
+  for (const int dof : support.dofs) add_square(support.column(dof), ease[at(dof)], matrix);
+  solve_symmetric(matrix, support.count, force);
+  for (const int dof : support.dofs) x[at(dof)] += ease[at(dof)] * dot(support.column(dof), force);
+}
 
 }  // namespace
 
 void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std::span<const double> velocity,
                   double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support) {
-  const auto n = at(body.dof_count());
   support.count = 6 * static_cast<int>(feet.size());
-  support.rows.resize(at(support.count) * n);
+  support.columns.assign(velocity.size() * at(support.count), 0.0);
   support.wanted.resize(at(support.count));
   for (std::size_t f = 0; f < feet.size(); ++f) {
-    const StandingFoot& foot = feet[f];
-    const Placement& link = dynamics.world[at(foot.link)];
-    const Vec3 sole = link.origin_m + link.rotation * foot.link_from_sole.p_m;
-    const std::span<double> rows = std::span(support.rows).subspan(6 * f * n, 6 * n);
-    point_jacobian(body, dynamics, foot.link, sole, rows.first(3 * n));
-    angular_jacobian(body, dynamics, foot.link, rows.last(3 * n));
-    const Quat now = rotation_of(link.rotation) * foot.link_from_sole.q;
-    const Vec3 off[2] = {sole - foot.world_from_sole.p_m,
-                         to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
-    // Accelerations that the present velocities cause. Gravity is in them as one of the world.
-    const Vec3 up(0.0, gravity_m_s2, 0.0);
-    const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole) - up,
-                          dynamics.acceleration[at(foot.link)].angular};
-    for (std::size_t r = 0; r < 6; ++r) {
-      const int k = static_cast<int>(r % 3);
-      const double speed = dot(rows.subspan(r * n, n), velocity);
-      support.wanted[6 * f + r] =
-          -bias[r / 3][k] - 2.0 * frequency_rad_s * speed - frequency_rad_s * frequency_rad_s * off[r / 3][k];
-    }
+    const Placement& link = dynamics.world[at(feet[f].link)];
+    const Vec3 sole_m = link.origin_m + link.rotation * feet[f].link_from_sole.p_m;
+    add_foot(body, feet[f], sole_m, static_cast<int>(6 * f), dynamics, support);
+    want_to_stay(feet[f], sole_m, frequency_rad_s, Vec3(0.0, gravity_m_s2, 0.0), dynamics, &support.wanted[6 * f]);
+  }
+  support.dofs.clear();
+  for (int dof = 0; dof < body.dof_count(); ++dof)
+    if (moves_a_foot(support, dof)) support.dofs.push_back(dof);
+}
+
+void soles_moved_by(const SupportRows& support, std::span<const double> x, std::span<double> out) {
+  std::ranges::fill(out, 0.0);
+  for (const int dof : support.dofs) {
+    const std::span<const double> column = support.column(dof);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += x[at(dof)] * column[i];
   }
 }
 
-namespace {
-
-// a + W^-1 J^T (J W^-1 J^T)^-1 (b - J a), b = 0 where none is wanted
-void project(const Multibody& body, double root_weight, std::span<const double> wanted, SupportRows& support,
-             std::span<double> acceleration) {
-  const auto n = at(body.dof_count()), m = at(support.count);
-  if (m == 0) return;
-  support.scratch.resize(m * m + m);
-  const std::span<double> matrix = std::span(support.scratch).first(m * m), force = std::span(support.scratch).last(m);
-  const auto row = [&](std::size_t r) { return std::span<const double>(support.rows).subspan(r * n, n); };
-  const double root_share = 1.0 / root_weight;
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j <= i; ++j)
-      matrix[i * m + j] = root_share * dot(row(i).first(kRootDofs), row(j).first(kRootDofs)) +
-                          dot(row(i).subspan(kRootDofs), row(j).subspan(kRootDofs));
-    force[i] = (wanted.empty() ? 0.0 : wanted[i]) - dot(row(i), acceleration);
-  }
-  solve_symmetric(matrix, support.count, force);
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t k = 0; k < n; ++k) acceleration[k] += (k < kRootDofs ? root_share : 1.0) * row(i)[k] * force[i];
+void project_on_support(std::span<const double> ease, SupportRows& support, std::span<double> acceleration) {
+  project(ease, support.wanted, support, acceleration);
 }
 
-}  // namespace
-
-void project_on_support(const Multibody& body, double root_weight, SupportRows& support,
-                        std::span<double> acceleration) {
-  project(body, root_weight, support.wanted, support, acceleration);
-}
-
-void stop_feet(const Multibody& body, double root_weight, SupportRows& support, std::span<double> velocity) {
-  project(body, root_weight, {}, support, velocity);
+void stop_feet(std::span<const double> ease, SupportRows& support, std::span<double> velocity) {
+  project(ease, {}, support, velocity);
 }
 
 // (J_l J_l^T + damping): a straight knee would have the legs answer without bound
-void prepare_keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support) {
-  const auto n = at(body.dof_count()), m = at(support.count);
+void prepare_keep_feet(std::span<const char> legs, SupportRows& support) {
+  const auto m = at(support.count);
   constexpr double kDamping = 1e-6;
   support.factors.assign(m * m, 0.0);
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = i == j ? kDamping : 0.0;
-      for (std::size_t k = kRootDofs; k < n; ++k)
-        if (legs[k] != 0) sum += support.rows[i * n + k] * support.rows[j * n + k];
-      support.factors[i * m + j] = sum;
-    }
+  for (std::size_t i = 0; i < m; ++i) support.factors[i * m + i] = kDamping;
+  for (const int dof : support.dofs)
+    if (legs[at(dof)] != 0) add_square(support.column(dof), 1.0, support.factors);
   factorise_symmetric(support.factors, support.count);
 }
 
-void keep_feet(const Multibody& body, std::span<const char> legs, SupportRows& support, std::span<double> change) {
-  const auto n = at(body.dof_count()), m = at(support.count);
-  support.scratch.resize(std::max(support.scratch.size(), m));
-  const std::span<double> force = std::span(support.scratch).first(m);
-  for (std::size_t i = 0; i < m; ++i) force[i] = -dot(std::span(support.rows).subspan(i * n, n), change);
+void keep_feet(std::span<const char> legs, SupportRows& support, std::span<double> change) {
+  support.scratch.resize(std::max(support.scratch.size(), at(support.count)));
+  const std::span<double> force = std::span(support.scratch).first(at(support.count));
+  soles_moved_by(support, change, force);
+  for (double& f : force) f = -f;
   solve_factorised(support.factors, support.count, force);
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t k = kRootDofs; k < n; ++k)
-      if (legs[k] != 0) change[k] += support.rows[i * n + k] * force[i];
+  for (const int dof : support.dofs)
+    if (legs[at(dof)] != 0) change[at(dof)] += dot(support.column(dof), force);
 }
 
 }  // namespace contort

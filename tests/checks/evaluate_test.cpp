@@ -49,9 +49,30 @@ Motion aimed(const Character& character, double margin) {
   return motion;
 }
 
+Motion strained(const Character& character, double margin) {
+  Motion motion = small::moved_by_dynamics(character);
+  const Joint& lift = small::joint_of(character, "arm_left/lift");
+  motion.response.efforts[small::freedom_of(character, lift)] = lift.strength_high * (1.0 - margin);
+  return motion;
+}
+
+Motion unbalanced(const Character& character, double margin) {
+  Motion motion = small::moved_by_dynamics(character);
+  motion.response.stances[0].margin_m = margin;
+  return motion;
+}
+
+Motion late(const Character& character, double margin) {
+  Motion motion = small::moved_by_dynamics(character, 60);
+  motion.response.impacts = {{0, 1, {}, {}}};
+  small::set(motion, 59, small::joint_of(character, "arm_left/lift"), 3.0 * kRadPerDeg - margin);
+  return motion;
+}
+
 const std::map<std::string, Exemplar>& exemplars() {
   static const std::map<std::string, Exemplar> all = {
-      {"joint_range", lifted}, {"angular_velocity", hurried}, {"self_collision", squeezed}, {"aim_error", aimed}};
+      {"joint_range", lifted},    {"angular_velocity", hurried}, {"self_collision", squeezed}, {"aim_error", aimed},
+      {"joint_torque", strained}, {"balance", unbalanced},       {"tracking_error", late}};
   return all;
 }
 
@@ -83,7 +104,7 @@ TEST(Manifest, SubjectsOfACheckHaveDifferentNamesAndUnits) {
     ASSERT_TRUE(character);
     for (const CheckDef& check : all_checks()) {
       const std::vector<std::string> subjects = small::subjects_of(std::string(check.name), *character);
-      EXPECT_GE(subjects.size(), character->parts().size()) << check.name;
+      EXPECT_GE(subjects.size(), check.name == "balance" ? 1U : character->parts().size()) << check.name;
       EXPECT_EQ(std::set<std::string>(subjects.begin(), subjects.end()).size(), subjects.size()) << check.name;
       EXPECT_FALSE(check.subject(*character, 0).unit.empty());
       EXPECT_GT(check.scale, 0.0);
@@ -101,7 +122,8 @@ Stage staged(const Spec& spec) {
 std::vector<Stage> stages() {
   std::vector<Stage> all;
   for (const NamedScene& named : all_scenes()) all.push_back(staged(scene(named.name)));
-  for (int i = 0; i < 4; ++i) all.push_back(staged(draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, i)));
+  for (int i = 0; i < 4; ++i)
+    all.push_back(staged(draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, i)));
   return all;
 }
 

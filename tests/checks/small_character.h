@@ -103,6 +103,28 @@ inline void set(Motion& motion, int frame, const Joint& joint, const Quat& q) {
   out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
 }
 
+// At rest, as if dynamics had made it: on its feet, without any effort.
+inline Motion moved_by_dynamics(const Character& character, int frames = 1) {
+  Motion motion = at_rest(character, frames);
+  Response& response = motion.response;
+  for (const Joint& joint : character.joints()) response.dof_count += freedom_count(joint.kind);
+  response.target_coords = motion.coords, response.target_root = motion.root;
+  const auto count = static_cast<std::size_t>(frames) * static_cast<std::size_t>(response.dof_count);
+  response.efforts.assign(count, 0.0), response.control.assign(count, 0.0);
+  response.stances.assign(static_cast<std::size_t>(frames), {Footing::standing, false, 3, 3, {}, 0.1});
+  return motion;
+}
+
+// The first freedom of a joint.
+inline std::size_t freedom_of(const Character& character, const Joint& joint) {
+  int first = 0;
+  for (const Joint& other : character.joints()) {
+    if (&other == &joint) break;
+    first += freedom_count(other.kind);
+  }
+  return static_cast<std::size_t>(first);
+}
+
 inline const CheckDef& check_named(const std::string& name) {
   for (const CheckDef& check : all_checks())
     if (check.name == name) return check;

@@ -1,0 +1,38 @@
+// balance: how far inside the support area the zero moment point is, in motions that dynamics made. Where the figure
+// does not stand although its target does, there is no such point, and a distance stands for what happens.
+#include <algorithm>
+
+#include "checks/check.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kTipping_m = -0.05;  // on an edge of its feet
+constexpr double kAirborne_m = -0.1;  // off the ground
+constexpr double kFallen_m = -1.0;    // and as low as any margin gets
+
+double margin_of(const Stance& stance) {
+  if (stance.footing == Footing::fallen) return kFallen_m;
+  if (stance.footing == Footing::tipping) return std::clamp(stance.margin_m, kFallen_m, kTipping_m);
+  if (stance.footing == Footing::airborne) return kAirborne_m;
+  return std::max(stance.margin_m, kFallen_m);
+}
+
+}  // namespace
+
+int balance_subject_count(const Character&) { return 1; }
+
+Subject balance_subject(const Character&, int) { return {"figure", "m"}; }
+
+void balance_measure(const CheckInput& in, MarginFold& fold) {
+  const std::vector<Stance>& stances = in.motion.response.stances;
+  for (std::size_t f = 0; f < stances.size(); ++f) {
+    const Stance& stance = stances[f];
+    const bool flies_as_planned = stance.planned == 0 && stance.footing != Footing::fallen;
+    const bool lands_later = stance.standing == 0 && stance.footing == Footing::standing;
+    if (!flies_as_planned && !lands_later) fold.report(0, static_cast<int>(f), margin_of(stance));
+  }
+}
+
+}  // namespace contort
