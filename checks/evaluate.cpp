@@ -26,6 +26,19 @@ void append_findings(const CheckDef& check, const Character& character, const Ma
   }
 }
 
+// Tipping, lying, or off the ground although its target stands.
+bool has_lost_balance(const Stance& stance) {
+  if (stance.footing == Footing::standing) return false;
+  return stance.footing != Footing::airborne || stance.planned != 0;
+}
+
+// The motion's end where it never does.
+int first_without_balance(const Motion& motion) {
+  const std::vector<Stance>& stances = motion.response.stances;
+  const auto lost = std::find_if(stances.begin(), stances.end(), has_lost_balance);
+  return lost == stances.end() ? motion.frame_count : static_cast<int>(lost - stances.begin());
+}
+
 }  // namespace
 
 Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
@@ -59,6 +72,9 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
     check.measure({character, motion, world_, settings_}, fold);
     append_findings(check, character, fold, findings);
   }
+  // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
+  const int lost = first_without_balance(motion);
+  std::erase_if(findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& l, const Finding& r) { return l.first_frame < r.first_frame; });
   return findings;

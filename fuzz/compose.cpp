@@ -13,17 +13,7 @@ namespace contort {
 
 namespace {
 
-double fraction(int raw) { return static_cast<double>(raw) / kLattice; }
-
-// One of `count`; raw = kLattice is the last one, not one past it.
-std::size_t pick(int raw, std::size_t count) {
-  return std::min(count - 1, static_cast<std::size_t>(raw) * count / (kLattice + 1));
-}
-
-// Whole numbers from low to high.
-int between(int raw, int low, int high) {
-  return low + static_cast<int>(pick(raw, static_cast<std::size_t>(high - low + 1)));
-}
+constexpr int kTimeToReturn = 50;  // frames in which a figure may come back to its target
 
 // Mostly the default, else one of a few: 0.5, 2, 0.8, 1.25.
 double speed_of(int raw) {
@@ -316,6 +306,8 @@ Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, con
   if (raw.interrupted < kLattice / 3 && !spec.sequences.empty())
     for (const RawInterrupt& interrupt : raw.interrupts)
       spec.interrupts.push_back(compose_interrupt(interrupt, *character, parts, spec));
+  spec.dynamics = compose_dynamics(raw.dynamics, *character);
+  if (spec.dynamics.mode != Mode::kinematic) spec.hold_frames += kTimeToReturn;
   return spec;
 }
 

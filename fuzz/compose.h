@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/compose_dynamics.h"
+#include "fuzz/raw.h"
 #include "generator/character/library.h"
 #include "generator/spec.h"
 
 namespace contort {
 
-inline constexpr int kLattice = 10000;  // every raw number is in [0, kLattice]
 inline constexpr std::size_t kRawValues = 24;
 inline constexpr std::size_t kRawParts = 16;
 inline constexpr std::size_t kRawObjects = 4;
@@ -52,6 +53,7 @@ struct RawSpec {
   std::array<int, kRawGround> ground{};
   std::array<int, kRawParts> parts{};
   std::array<int, kRawObjects> objects{};
+  std::array<int, kRawDynamics> dynamics{};
   std::vector<std::vector<RawClip>> sequences;
   std::vector<RawInterrupt> interrupts;
 };

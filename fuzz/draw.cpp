@@ -67,6 +67,7 @@ rc::Gen<RawSpec> raw_spec() {
       rc::gen::set(&RawSpec::ground, rc::gen::container<std::array<int, kRawGround>>(lattice())),
       rc::gen::set(&RawSpec::parts, rc::gen::container<std::array<int, kRawParts>>(lattice())),
       rc::gen::set(&RawSpec::objects, rc::gen::container<std::array<int, kRawObjects>>(lattice())),
+      rc::gen::set(&RawSpec::dynamics, rc::gen::container<std::array<int, kRawDynamics>>(lattice())),
       rc::gen::set(&RawSpec::sequences, list_up_to(2, list_up_to(3, raw_clip()))),
       rc::gen::set(&RawSpec::interrupts, list_up_to(2, raw_interrupt())));
 }

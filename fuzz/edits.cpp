@@ -83,6 +83,12 @@ void remove_attachments(Spec& spec, int first, int count) {
   remove_numbered(spec.character.attachments, 0, first, count);
 }
 
+int count_impacts(const Spec& spec) { return static_cast<int>(spec.dynamics.impacts.size()); }
+void remove_impacts(Spec& spec, int first, int count) { remove_numbered(spec.dynamics.impacts, 0, first, count); }
+
+int count_loads(const Spec& spec) { return static_cast<int>(spec.dynamics.loads.size()); }
+void remove_loads(Spec& spec, int first, int count) { remove_numbered(spec.dynamics.loads, 0, first, count); }
+
 int count_swaps(const Spec& spec) { return static_cast<int>(spec.character.parts.size()); }
 void remove_swaps(Spec& spec, int first, int count) { remove_numbered(spec.character.parts, 0, first, count); }
 
@@ -101,6 +107,8 @@ constexpr UnitKind kUnitKinds[] = {
     {"sequences", count_sequences, remove_sequences},
     {"clips", count_clips, remove_clips},
     {"actions", count_actions, remove_actions},
+    {"impacts", count_impacts, remove_impacts},
+    {"loads", count_loads, remove_loads},
     {"attachments", count_attachments, remove_attachments},
     {"swaps", count_swaps, remove_swaps},
     {"params", count_params, remove_params},
@@ -147,6 +155,13 @@ std::vector<Edit> default_edits(const Spec& spec) {
   edits.push_back([](Spec& x) { x.environment = plain_spec.environment; });
   edits.push_back([](Spec& x) { x.environment.ground = plain_spec.environment.ground; });
   edits.push_back([](Spec& x) { x.environment.obstacles.clear(); });
+  edits.push_back([](Spec& x) { x.dynamics = plain_spec.dynamics; });
+  edits.push_back([](Spec& x) { x.dynamics.mode = Mode::tracking; });
+  edits.push_back([](Spec& x) { x.dynamics.ticks_per_frame = plain_spec.dynamics.ticks_per_frame; });
+  for (std::size_t i = 0; i < spec.dynamics.impacts.size(); ++i)
+    edits.push_back([=](Spec& x) {
+      if (i < x.dynamics.impacts.size()) x.dynamics.impacts[i].frame = 0;  // an edit before this may have cleared them
+    });
   for (std::size_t i = 0; i < spec.interrupts.size(); ++i) {
     edits.push_back([=](Spec& x) { x.interrupts[i].enter = Enter::front; });
     edits.push_back([=](Spec& x) { x.interrupts[i].resume = true; });
@@ -175,6 +190,11 @@ std::vector<Edit> default_edits(const Spec& spec) {
 std::vector<NumberRef> numbers_of(const Spec& spec) {
   std::vector<NumberRef> numbers;
   for_places(spec, [&](std::size_t s, std::size_t c, std::size_t a) { add_param_numbers(spec, s, c, a, numbers); });
+  for (std::size_t i = 0; i < spec.dynamics.loads.size(); ++i)
+    numbers.push_back({[=](Spec& x) -> double& { return x.dynamics.loads[i].mass_kg; }, LoadDesc{}.mass_kg, 2.0});
+  for (std::size_t i = 0; i < spec.dynamics.impacts.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      numbers.push_back({[=](Spec& x) -> double& { return x.dynamics.impacts[i].impulse_N_s[k]; }, 0.0, 2.0});
   return numbers;
 }
 

@@ -1,6 +1,24 @@
 #include "generator/stage.h"
 
+#include <algorithm>
+
 namespace contort {
+
+namespace {
+
+// A figure with mass keeps its knees bent by 12 degrees: on a straight leg it could not control its height.
+constexpr double kSoftKnees = 0.006;  // of the leg's length
+
+void place_hips(const Spec& spec, Stage& stage) {
+  for (Leg& leg : stage.legs) {
+    const double soft_m = spec.dynamics.mode == Mode::kinematic ? 0.0 : kSoftKnees * leg.length_m;
+    const double lower_m = std::max(spec.start.lower_m, soft_m);
+    leg.home_m.z -= spec.start.ahead_m, leg.length_m -= lower_m;
+    stage.bends = stage.bends || spec.start.ahead_m != 0.0 || lower_m != 0.0;
+  }
+}
+
+}  // namespace
 
 Result<Stage> build_stage(const Spec& spec, const Library& library) {
   Result<Character> character = build_character(spec.character, library);
@@ -27,8 +45,7 @@ Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> cha
   stage.timeline = std::move(timeline).value();
   stage.rate_hz = spec.rate_hz;
   stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), Vec3(spec.start.position_m.x, 0.0, spec.start.position_m.z)};
-  stage.bends = spec.start.ahead_m != 0.0 || spec.start.lower_m != 0.0;
-  for (Leg& leg : stage.legs) leg.home_m.z -= spec.start.ahead_m, leg.length_m -= spec.start.lower_m;
+  place_hips(spec, stage);
   stage.hold_frames = spec.hold_frames;
   // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
   stage.most_frames =

@@ -61,6 +61,20 @@ constexpr NamedScene kScenes[] = {
       {"action":"look_at","slot":"head","duration_frames":200,"blend_in_frames":15,"params":{"target_m":[2,0.5,4]}},
       {"action":"aim","slot":"tail","duration_frames":120,"blend_in_frames":15,"params":{"target_m":[0,4,-4]}},
       {"action":"hit_reaction","slot":"trunk","start_frame":90,"duration_frames":40,"params":{"azimuth_deg":90}}]}]}]})"},
+    {"human_tracking", R"({"format":"contort.spec/1","character":{"name":"human"},"hold_frames":20,"sequences":[{"clips":[{"actions":[
+      {"action":"walk","slot":"waist","duration_frames":120,"params":{"speed_m_s":0.7}},
+      {"action":"pose","slot":"arm_right","duration_frames":40,"params":{"shoulder_deg":[-60,0,20],"elbow_deg":70}}]}]}],
+      "dynamics":{"mode":"tracking","impacts":[{"frame":30,"slot":"head","impulse_N_s":[2,0,-3]}]}})"},
+    {"human_dynamic", R"({"format":"contort.spec/1","character":{"name":"human"},"rate_hz":30,"start":{"ahead_m":0.04,
+      "lower_m":0.005},"hold_frames":30,"sequences":[{"clips":[{"actions":[
+      {"action":"squat","slot":"waist","duration_frames":40,"params":{"share":0.3,"lean_deg":40,"back_m":0.21}}]}]}],
+      "dynamics":{"mode":"dynamic","loads":[{"slot":"torso","socket":"back","mass_kg":8}],
+      "impacts":[{"frame":10,"slot":"arm_left","impulse_N_s":[1,0,-3]}]}})"},
+    {"mech_falls", R"({"format":"contort.spec/1","character":{"name":"mech"},"environment":{"ground":{"type":"slope","slope_deg":6}},
+      "hold_frames":120,"dynamics":{"mode":"dynamic","impacts":[{"frame":5,"slot":"torso","impulse_N_s":[900,100,1500]}]}})"},
+    {"quadruped_dynamic", R"({"format":"contort.spec/1","character":{"name":"quadruped"},"hold_frames":60,"sequences":[{"clips":[
+      {"actions":[{"action":"walk","slot":"hips","duration_frames":120,"params":{"speed_m_s":0.5}}]}]}],
+      "dynamics":{"mode":"dynamic","loads":[{"slot":"trunk","socket":"back","mass_kg":4}]}})"},
 };
 
 }  // namespace

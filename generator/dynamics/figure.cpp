@@ -70,6 +70,7 @@ class FigureBuilder {
       const Joint& own = joint(static_cast<int>(&link - figure.body.links().data()));
       const bool root = link.kind == JointKind::root;
       figure.strength_low.insert(figure.strength_low.end(), at(link.dof_count), root ? 0.0 : own.strength_low);
+      figure.fastest.insert(figure.fastest.end(), at(link.dof_count), root ? 0.0 : own.max_speed);
       figure.strength_high.insert(figure.strength_high.end(), at(link.dof_count), root ? 0.0 : own.strength_high);
     }
   }

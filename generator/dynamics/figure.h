@@ -55,6 +55,7 @@ struct DynamicFigure {
   std::vector<int> watched;          // freedoms whose load is relieved: the back's and the hips'
   std::vector<double> strength_low;  // by freedom, <= 0: N m, N; of the root: 0
   std::vector<double> strength_high;
+  std::vector<double> fastest;  // by freedom, rad/s or m/s; of the root: 0
 };
 
 DynamicFigure build_figure(const Character& character, std::span<const Leg> legs, std::span<const Load> loads);

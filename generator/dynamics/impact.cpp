@@ -30,11 +30,11 @@ void respond(const Multibody& body, std::span<const double> factors, const Suppo
     for (std::size_t k = 0; k < n; ++k) x[k] += column(i)[k] * scratch.push[i];
 }
 
-void brace(std::span<const double> velocity, std::span<const double> stiff, double fastest_rad_s,
+void brace(std::span<const double> velocity, std::span<const double> stiff, std::span<const double> fastest,
            std::span<double> change) {
   double share = 1.0;
   for (std::size_t k = kRootDofs; k < change.size(); ++k) {
-    const double most = std::max(fastest_rad_s, std::fabs(velocity[k]));
+    const double most = std::max(fastest[k], std::fabs(velocity[k]));
     const double room = change[k] > 0.0 ? most - velocity[k] : most + velocity[k];
     if (std::fabs(change[k]) > room) share = std::min(share, room / std::fabs(change[k]));
   }

@@ -32,10 +32,10 @@ struct Blow {
 // Adds what a blow is as a generalised impulse, at the placed pose.
 void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Blow& blow, std::span<double> impulse);
 
-// Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than
-// `fastest_rad_s` (m/s of travels): people brace. Both keep the momentum of the blow, and so does what lies between
-// them.
-void brace(std::span<const double> velocity, std::span<const double> stiff, double fastest_rad_s,
+// Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than it can be
+// (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the blow, and so does what
+// lies between them.
+void brace(std::span<const double> velocity, std::span<const double> stiff, std::span<const double> fastest,
            std::span<double> change);
 
 }  // namespace contort

@@ -20,7 +20,6 @@ constexpr double kEdge_m = 0.005;        // of the zero moment point from the ed
 constexpr double kTips_m = 0.03;         // the zero moment point this far outside cannot be brought back
 constexpr double kTips_s = 0.2;          // nor one that is outside for so long
 constexpr double kBlow_s = 0.02;         // a blow takes so long: what weight presses on a foot meanwhile holds it
-constexpr double kFastest_rad_s = 20.0;  // a joint that a blow would move faster is braced
 constexpr double kLying_cos = 0.5;       // a trunk 60 degrees from its target's up has fallen
 constexpr double kLimp_per_s = 10.0;     // damping of joints after a fall
 
@@ -118,7 +117,8 @@ class Simulation {
     bool changed = false;
     for (int i = 0; i < sole_count(); ++i) {
       const bool stands = s_.feet.stands(i), shall = is_planned(i);
-      const bool lands = shall && !stands && (at_once || gap_m(figure_.soles[at(i)], s_.dynamics, environment_) < kLandingGap_m);
+      const bool lands =
+          shall && !stands && (at_once || gap_m(figure_.soles[at(i)], s_.dynamics, environment_) < kLandingGap_m);
       if (stands && !shall) s_.feet.lift(i);
       if (lands) land(i);
       changed = changed || lands || (stands && !shall);
@@ -161,7 +161,7 @@ class Simulation {
       answer(blow, change);
     }
     find_stiff_answer(blow, s_.hold);
-    brace(s_.state.velocity, s_.hold, kFastest_rad_s, change);
+    brace(s_.state.velocity, s_.hold, figure_.fastest, change);
     for (std::size_t k = 0; k < change.size(); ++k) s_.state.velocity[k] += change[k];
     s_.control.rest();
     has_momentum_ = false;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "tests/checks/small_character.h"
 
@@ -99,6 +100,19 @@ TEST(TrackingError, WhatControlDoesForLoadsAndBalanceIsNoError) {
   small::set(judged.motion, 50, judged.joint("arm_left/lift"), 0.4);
   judged.motion.response.control[50 * static_cast<std::size_t>(judged.motion.response.dof_count)] = 0.1;
   EXPECT_GT(judged.margin("tracking_error", "arm_left/lift"), 0.0);
+}
+
+TEST(DynamicsChecks, OnlyTheLossOfBalanceIsAFindingFromThenOn) {
+  for (const int lost : {3, 8}) {
+    Judged judged(10);
+    small::set(judged.motion, 5, judged.joint("arm_left/lift"), 2.0);
+    judged.motion.response.stances[static_cast<std::size_t>(lost)].footing = Footing::tipping;
+    Evaluator evaluator;
+    std::set<std::string> checks;
+    for (const Finding& finding : evaluator.judge(judged.character, judged.motion)) checks.insert(finding.check);
+    EXPECT_TRUE(checks.contains("balance"));
+    EXPECT_EQ(checks.contains("joint_range"), lost == 8);
+  }
 }
 
 TEST(DynamicsChecks, JudgeNothingInKinematicMotions) {

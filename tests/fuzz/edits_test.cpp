@@ -86,10 +86,22 @@ RC_GTEST_PROP(Edits, DefaultsAreReachedByApplyingAllEdits, ()) {
   }
 }
 
+TEST(Edits, EveryEditStandsOnItsOwnAndAfterAllOthers) {
+  Spec spec = spec_of({pose_use("arm_right", {{"elbow_deg", 80.0}})});
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.loads = {{"torso", "back", {}, {}, 3.0}};
+  spec.dynamics.impacts = {{3, "head", "", {}, {1, 2, 3}}, {9, "torso", "", {}, {3, 2, 1}}};
+  Spec all = spec;
+  for (const Edit& edit : default_edits(spec)) edit(all);
+  EXPECT_EQ(all.dynamics.loads.size() + all.dynamics.impacts.size(), 0U);
+  EXPECT_EQ(all.dynamics.ticks_per_frame, 0);
+}
+
 TEST(Edits, KindsGoFromCoarseToFine) {
   std::vector<std::string> names;
   for (const UnitKind& kind : unit_kinds()) names.push_back(kind.name);
-  const std::vector<std::string> expected = {"interrupts", "sequences", "clips", "actions", "attachments", "swaps", "params"};
+  const std::vector<std::string> expected = {"interrupts", "sequences", "clips", "actions", "impacts",
+                                             "loads", "attachments", "swaps", "params"};
   EXPECT_EQ(names, expected);
 }
 

@@ -33,6 +33,7 @@ void remove(Spec& spec, const std::vector<std::string>& actions) {
 // Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is below.
 Spec drawn(std::int64_t index) {
   Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 21, index);
+  spec.dynamics = {};  // laws of what actions make; control decides by thresholds
   remove(spec, {"aim"});
   return spec;
 }
@@ -160,6 +161,8 @@ Spec mirrored(const Spec& spec) {
   out.character.parts.clear();
   for (const auto& [slot, part] : spec.character.parts) out.character.parts[other_side(slot)] = part;
   for (AttachmentDesc& attachment : out.character.attachments) attachment.slot = other_side(attachment.slot);
+  for (InterruptDesc& interrupt : out.interrupts)
+    if (!interrupt.when.slot.empty()) interrupt.when.slot = other_side(interrupt.when.slot);
   for_sequences(out, [&](SequenceDesc& sequence) {
     for (ClipDesc& clip : sequence.clips)
       for (ActionUse& use : clip.actions) {

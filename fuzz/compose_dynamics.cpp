@@ -1,0 +1,66 @@
+#include "fuzz/compose_dynamics.h"
+
+#include <cmath>
+
+#include "fuzz/raw.h"
+#include "generator/core/detmath.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kHeaviestLoad = 0.25;    // of the figure's mass
+constexpr double kHardestBlow_m_s = 1.0;  // of impulse a kilogram; a push that a person recovers from is 0.1
+constexpr int kLastBlow = 90;             // frame
+
+double mass_kg(const Character& character) {
+  double sum = 0.0;
+  for (const Joint& joint : character.joints()) sum += joint.mass_kg;
+  return sum;
+}
+
+double rounded(double value, double step) { return step * std::round(value / step); }
+
+// Evenly over the magnitudes' roots, so that half of the loads and blows are below a quarter of the greatest.
+double drawn_up_to(double most, int raw) { return most * fraction(raw) * fraction(raw); }
+
+LoadDesc compose_load(const int* raw, const Character& character) {
+  const Socket& socket = character.sockets()[pick(raw[0], character.sockets().size())];
+  const std::size_t slash = socket.name.find('/');
+  LoadDesc load;
+  load.slot = socket.name.substr(0, slash);
+  load.socket = socket.name.substr(slash + 1);
+  load.mass_kg = std::max(0.5, rounded(drawn_up_to(kHeaviestLoad * mass_kg(character), raw[1]), 0.5));
+  return load;
+}
+
+ImpactDesc compose_impact(const int* raw, const Character& character) {
+  ImpactDesc impact;
+  impact.frame = between(raw[0], 0, kLastBlow);
+  impact.slot = character.parts()[pick(raw[1], character.parts().size())].slot;
+  const double size = std::max(1.0, drawn_up_to(kHardestBlow_m_s * mass_kg(character), raw[2]));
+  const double height = 2.0 * fraction(raw[3]) - 1.0, across = std::sqrt(1.0 - height * height);
+  const det::SinCos around = det::sincos(2.0 * kPi * fraction(raw[4]));
+  const Vec3 blow = size * Vec3(across * around.sin, height, across * around.cos);
+  for (int i = 0; i < 3; ++i) impact.impulse_N_s[i] = rounded(blow[i], 0.5) + 0.0;
+  return impact;
+}
+
+}  // namespace
+
+DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Character& character) {
+  DynamicsDesc dynamics;
+  const std::size_t kind = pick(raw[0], 32);
+  if (kind > 1) return dynamics;
+  dynamics.mode = kind == 0 ? Mode::tracking : Mode::dynamic;
+  for (std::size_t i = 0; i < pick(raw[1], 3) && !character.sockets().empty(); ++i) {
+    LoadDesc load = compose_load(&raw[3 + 2 * i], character);
+    if (!load.slot.starts_with("object:")) dynamics.loads.push_back(std::move(load));
+  }
+  // Tracking alone has neither strength nor balance to answer a blow with.
+  for (std::size_t i = 0; i < pick(raw[2], 3) && dynamics.mode == Mode::dynamic; ++i)
+    dynamics.impacts.push_back(compose_impact(&raw[7 + 5 * i], character));
+  return dynamics;
+}
+
+}  // namespace contort
