@@ -39,23 +39,37 @@ Result<int> run_program(const std::vector<std::string>& command) {
 
 void add_render(CLI::App& app, Context& context) {
   struct Options {
-    std::string input;
+    std::vector<std::string> inputs;
     std::string output;
-    std::string subject;
+    std::vector<std::string> labels;
+    std::string frames;
+    std::string azimuth_deg;
     int tiles = 8;
+    bool rows = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Draw a case or spec as a film strip (PNG)");
-  command->add_option("FILE", options->input, "Case or spec file")->required();
+  command->add_option("FILE", options->inputs, "Case or spec file; several with --rows")->required();
   command->add_option("-o,--output", options->output, "The picture")->required();
   command->add_option("--tiles", options->tiles, "Frames on the strip")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  command->add_option("--frames", options->frames, "Which frames, instead of a choice: 0,4,8")->type_name("LIST");
+  command->add_option("--azimuth", options->azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
+      ->type_name("DEGREES");
+  command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
+  command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
+      ->allow_extra_args(false);
   command->footer("Example: contort render docs/examples/reach_hand.json -o strip.png");
   command->callback([options, &context] {
-    std::vector<std::string> call = {renderer_path(), options->input, "-o",
-                                     options->output, "--tiles",      std::to_string(options->tiles)};
+    std::vector<std::string> call = {renderer_path(), "-o", options->output, "--tiles", std::to_string(options->tiles)};
+    if (options->rows) call.push_back("--rows");
+    if (!options->frames.empty()) call.insert(call.end(), {"--frames", options->frames});
+    if (!options->azimuth_deg.empty()) call.insert(call.end(), {"--azimuth", options->azimuth_deg});
+    for (const std::string& label : options->labels) call.insert(call.end(), {"--label", label});
     for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+    call.push_back("--");  // A file may be called --rows.
+    call.insert(call.end(), options->inputs.begin(), options->inputs.end());
     const Result<int> code = run_program(call);
     if (!code) return context.fail(code.issue(), kInternal);
     context.exit_code = *code;

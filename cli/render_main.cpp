@@ -1,12 +1,18 @@
-// contort-render: draws film strips. One call draws one (FILE -o PNG) or many (--many FILE PNG FILE PNG …) with one
-// OpenGL context. `contort render` and `contort report` start it.
+// contort-render: draws film strips. One call draws one (FILE -o PNG), a row for each of several files (--rows FILE… -o
+// PNG), or many strips (--many FILE PNG FILE PNG …) with one OpenGL context. `contort render` and `contort report`
+// start it.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <optional>
 
 #include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "renders/frames.h"
 #include "renders/raster/strip.h"
 
 namespace contort::cli {
@@ -17,8 +23,16 @@ struct Options {
   std::vector<std::string> files;
   std::string output;
   std::vector<std::string> libraries;
+  std::vector<std::string> labels;
+  std::vector<int> frames;
+  std::string azimuth_deg;  // as it was written; "": none is given
   bool many = false;
+  bool rows = false;
   int tiles = 8;
+  std::optional<double> azimuth_rad() const {
+    if (azimuth_deg.empty()) return std::nullopt;
+    return std::strtod(azimuth_deg.c_str(), nullptr) * kRadPerDeg;
+  }
 };
 
 // The finding that the strip is about: the one that a case expects; of a spec, the deepest.
@@ -44,7 +58,70 @@ Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Op
       input->stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
   strip.environment = &stage->environment;
+  strip.dynamics = &input->spec.dynamics;
+  strip.frames = options.frames;
+  strip.azimuth_rad = options.azimuth_rad();
+  if (!options.labels.empty()) strip.title = options.labels.front();
   return renderer.render(strip, png);
+}
+
+// A file of several, and what it makes.
+struct Performed {
+  std::string file;
+  Spec spec;
+  Stage stage;
+  Motion motion;
+};
+
+Result<std::vector<Performed>> perform_all(const Library& library, const std::vector<std::string>& files) {
+  std::vector<Performed> all;
+  for (const std::string& file : files) {
+    Result<SpecInput> input = read_spec_input(file);
+    if (!input) return input.issue();
+    Result<Stage> stage = build_stage(input->spec, library);
+    if (!stage) return Issue{stage.issue().code, stage.issue().pointer, file + ": " + stage.issue().text};
+    Motion motion = generate(*stage);
+    all.push_back({file, std::move(input->spec), std::move(stage).value(), std::move(motion)});
+  }
+  return all;
+}
+
+// Those of the command line, or spread over the shortest of the motions.
+std::vector<int> frames_of(const Options& options, const std::vector<Performed>& all) {
+  if (!options.frames.empty()) return options.frames;
+  int shortest = all.front().motion.frame_count;
+  for (const Performed& one : all) shortest = std::min(shortest, one.motion.frame_count);
+  return spread_frames(shortest, options.tiles);
+}
+
+std::string command_of(const Options& options, const std::vector<int>& frames) {
+  std::string command = "contort render";
+  for (const std::string& file : options.files) command += " " + shell_quoted(file);
+  command += " --rows --frames ";
+  for (const int frame : frames) command += (&frame == frames.data() ? "" : ",") + std::to_string(frame);
+  if (!options.azimuth_deg.empty()) command += " --azimuth " + shell_quoted(options.azimuth_deg);
+  for (const std::string& label : options.labels) command += " --label " + shell_quoted(label);
+  for (const std::string& folder : options.libraries) command += " --library " + shell_quoted(folder);
+  return command;
+}
+
+Result<StripDone> draw_all(StripRenderer& renderer, const Library& library, const Options& options) {
+  const Result<std::vector<Performed>> all = perform_all(library, options.files);
+  if (!all) return all.issue();
+  RowsInput input;
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    const Performed& one = (*all)[i];
+    const std::string name = std::filesystem::path(one.file).stem().string();
+    input.rows.push_back({{.character = *one.stage.character,
+                           .motion = one.motion,
+                           .environment = &one.stage.environment,
+                           .dynamics = &one.spec.dynamics},
+                          options.labels.empty() ? name : options.labels[i]});
+  }
+  input.frames = frames_of(options, *all);
+  input.azimuth_rad = options.azimuth_rad();
+  input.replay_command = command_of(options, input.frames);
+  return renderer.render_rows(input, options.output);
 }
 
 int fail(const Issue& issue, int code) {
@@ -54,8 +131,15 @@ int fail(const Issue& issue, int code) {
 
 // Input faults are the user's, the rest (no OpenGL, an unwritable picture) the machine's.
 int code_of(const Issue& issue) {
-  const bool ours = issue.code.rfind("render.", 0) == 0 || issue.code == "file.unwritable";
+  const bool asked = issue.code == "render.bad_frame" || issue.code == "render.bad_size";
+  const bool ours = (issue.code.rfind("render.", 0) == 0 && !asked) || issue.code == "file.unwritable";
   return ours ? kInternal : kBadInput;
+}
+
+int report(const Result<StripDone>& done) {
+  if (!done) return fail(done.issue(), code_of(done.issue()));
+  for (const Issue& warning : done->warnings) std::fprintf(stderr, "contort: %s\n", to_line(warning).c_str());
+  return kClean;
 }
 
 int run(const Options& options) {
@@ -64,16 +148,27 @@ int run(const Options& options) {
   Result<StripRenderer> renderer = StripRenderer::create();
   if (!renderer) return fail(renderer.issue(), kInternal);
   StripRenderer drawing = std::move(renderer).value();
+  if (options.rows) return report(draw_all(drawing, *library, options));
+  if (!options.many) return report(draw(drawing, *library, options, options.files.front(), options.output));
   int code = kClean;
-  for (std::size_t i = 0; i < options.files.size(); i += options.many ? 2 : 1) {
-    const Result<StripDone> done =
-        draw(drawing, *library, options, options.files[i], options.many ? options.files[i + 1] : options.output);
-    if (!done)
-      code = fail(done.issue(), code_of(done.issue()));
-    else
-      for (const Issue& warning : done->warnings) std::fprintf(stderr, "contort: %s\n", to_line(warning).c_str());
-  }
+  for (std::size_t i = 0; i < options.files.size(); i += 2)
+    if (const int one = report(draw(drawing, *library, options, options.files[i], options.files[i + 1])); one != kClean)
+      code = one;
   return code;
+}
+
+// Why the arguments do not fit together, "" where they do.
+std::string misfit(const Options& options) {
+  const std::size_t files = options.files.size();
+  if (options.many && options.rows) return "--many and --rows exclude each other";
+  if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
+  if (!options.many && options.output.empty()) return "expected -o PNG";
+  if (!options.many && !options.rows && files > 1)
+    return "found " + std::to_string(files) + " files: with --rows they become the rows of one picture";
+  if (!options.labels.empty() && (options.many || options.labels.size() != files))
+    return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(files) +
+           " files, expected one for each";
+  return "";
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -82,8 +177,14 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("FILE", options.files, "Case or spec; with --many: FILE PNG pairs")->required();
   app.add_option("-o,--output", options.output, "The picture");
   app.add_option("--library", options.libraries, "Folder with parts, objects, characters and actions; may be repeated")
-      ->expected(1);
+      ->allow_extra_args(false);
   app.add_option("--tiles", options.tiles, "Frames on the strip")->check(CLI::Range(1, 64));
+  app.add_option("--frames", options.frames, "Which frames: 0,4,8")->delimiter(',')->allow_extra_args(false);
+  app.add_option("--azimuth", options.azimuth_deg, "Look from here")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->check(refuse_nan);
+  app.add_option("--label", options.labels, "Title of the strip, or of the rows in turn")->allow_extra_args(false);
+  app.add_flag("--rows", options.rows, "A row for each FILE");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");
   try {
     app.parse(argc, argv);
@@ -92,9 +193,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail({"usage", "", error.what()}, kBadInput);
   }
-  const bool right =
-      options.many ? options.files.size() % 2 == 0 : options.files.size() == 1 && !options.output.empty();
-  if (!right) return fail({"usage", "", "expected FILE -o PNG, or --many FILE PNG FILE PNG …"}, kBadInput);
+  if (const std::string why = misfit(options); !why.empty()) return fail({"usage", "", why}, kBadInput);
   return run(options);
 }
 

@@ -97,10 +97,14 @@ Camera moved(Camera camera, const Vec3& by_m) {
   return camera;
 }
 
+Camera StripCamera::at(const Vec3& anchor_m) const { return follows ? moved(camera, anchor_m) : camera; }
+
+View view_from(double azimuth_rad) { return {azimuth_rad, kElevation_rad}; }
+
 std::vector<View> probe_views() {
   std::vector<View> views;
   for (const int degrees : {30, -30, 60, -60, 0, 90, -90, 120, -120, 150, -150, 180})
-    views.push_back({degrees * kRadPerDeg, kElevation_rad});
+    views.push_back(view_from(degrees * kRadPerDeg));
   return views;
 }
 

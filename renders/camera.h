@@ -33,12 +33,16 @@ Camera frame_points(std::span<const Vec3> points, const View& view, double aspec
 // picture of each frame, `anchors` the places on the ground that the figure is at.
 struct StripCamera {
   Camera camera;
-  bool follows = false;  // true: add a frame's anchor to eye_m and center_m.
+  bool follows = false;  // true: it stands as far from a frame's anchor as `camera` from the origin.
+  Camera at(const Vec3& anchor_m) const;
 };
 StripCamera frame_strip(std::span<const std::vector<Vec3>> points, std::span<const Vec3> anchors, const View& view,
                         double aspect);
 
 Camera moved(Camera camera, const Vec3& by_m);
+
+// From an azimuth, and as far above as all views of ours.
+View view_from(double azimuth_rad);
 
 // 12 azimuths, 30 degrees apart, in order of preference: from the front left corner outward.
 std::vector<View> probe_views();

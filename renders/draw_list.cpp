@@ -9,7 +9,8 @@ namespace {
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
 constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Of the other one of a pair: red on red hides which is which.
 constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
-constexpr Vec3 kGhostColor{0.22, 0.27, 0.36};
+constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};
+constexpr Vec3 kPaleColor{0.80, 0.80, 0.79};
 constexpr double kMarkerRadius_m = 0.038;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -90,16 +91,21 @@ Figure make_figure(const Character& character, const Highlight& highlight) {
   return figure;
 }
 
+void add_instance(DrawList& list, const DrawInstance& instance) {
+  if (within_reach(instance.world_from_mesh))
+    list.instances.push_back(instance);
+  else
+    list.complete = false;
+}
+
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look) {
   for (const FigurePiece& piece : figure.pieces) {
-    const Rigid& place = world[at(piece.joint)];
-    if (!within_reach(place)) {
-      list.complete = false;
-    } else if (look == Look::solid) {
-      list.instances.push_back({piece.mesh, place, piece.color, piece.highlight, piece.ghost});
-    } else if (!piece.ghost) {
-      list.instances.push_back({piece.mesh, place, kGhostColor, 0, true});
-    }
+    const Rigid& at_joint = world[at(piece.joint)];
+    const bool pale = look == Look::pale && piece.highlight == 0;
+    if (look != Look::ghost)
+      add_instance(list, {piece.mesh, at_joint, pale ? kPaleColor : piece.color, piece.highlight, piece.ghost});
+    else if (!piece.ghost)
+      add_instance(list, {piece.mesh, at_joint, kGhostColor, 0, true});
   }
 }
 

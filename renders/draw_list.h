@@ -21,6 +21,7 @@ struct DrawInstance {
   int highlight =
       0;  // 0: none. n > 0: a thing that a finding is about (see highlight_groups); it shines through what hides it.
   bool ghost = false;  // Translucent.
+  bool mark = false;   // A sign: it has no shadow, and shines through what hides it unless it is translucent.
 };
 
 // Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
@@ -58,7 +59,14 @@ struct Figure {
 // at each highlighted joint.
 Figure make_figure(const Character& character, const Highlight& highlight);
 
-enum class Look { solid, ghost };
+enum class Look {
+  solid,  // in its own colours
+  pale,   // nearly white, but for what is highlighted: the figure that a ghost belongs to
+  ghost,  // grey and translucent, without highlight
+};
+
+// Appends one instance; one without a finite place is left out, and the list not complete.
+void add_instance(DrawList& list, const DrawInstance& instance);
 
 // Appends the figure in the pose `world` (world_from_joint, one per joint).
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look = Look::solid);

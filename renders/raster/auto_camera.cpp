@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "renders/scenery.h"
+
 namespace contort {
 namespace {
 
 constexpr int kWidth = 96;
 constexpr int kHeight = 72;
+constexpr double kAroundFigure_m = 1.0;  // A few steps of a stair.
 
 // Of a pair, a chest has many more pixels than the hand in it: the sum alone would hide the hand. So the one that shows
 // least decides, and the sum between nearly equal views.
@@ -72,6 +75,13 @@ Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span
   const auto chosen =
       std::find_if(probes->begin(), probes->end(), [&](const Probe& probe) { return probe.score >= enough * best; });
   return ProbedView{chosen->view, any ? chosen->visible_pixels : 0};
+}
+
+Result<ProbedView> choose_view(Renderer& renderer, const Story& story, const Shots& shots, std::size_t tile,
+                               std::optional<double> azimuth_rad) {
+  std::vector<View> views = views_of(environment_of(story), shots.anchors[tile], kAroundFigure_m);
+  if (azimuth_rad) views = {view_from(*azimuth_rad)};
+  return best_view(renderer, shots.lists[tile], shots.meshes, views);
 }
 
 }  // namespace contort

@@ -13,10 +13,19 @@ namespace {
 
 constexpr int kOversampling = 2;  // See halve_and_flip.
 constexpr float kGhostAlpha = 0.42f;
+constexpr float kFigureAlpha = 0.5f;        // Of the ghost of a whole figure.
+constexpr float kMarkAlpha = 0.55f;         // Of translucent marks, which are seen as they are and not at their rims.
+constexpr double kGhostSetback_m = 0.03;    // Away from the eye: a figure that coincides with its ghost hides it.
 constexpr float kObstacleAlpha = 0.42f;     // A figure behind two walls stays clear.
 constexpr float kShapedGroundAlpha = 0.6f;  // More hides feet behind a rise, less hides the rise.
 constexpr float kShineThroughAlpha = 0.4f;  // More looks as if nothing were in front.
 constexpr float kShadowAlpha = 0.20f;
+
+bool is_ghost_figure(const DrawInstance& instance) {
+  return instance.ghost && !instance.mark && instance.highlight == 0;
+}
+
+bool casts_shadow(const DrawInstance& instance) { return !instance.ghost && !instance.mark; }
 
 glm::mat4 float_matrix(const Rigid& place, const Vec3& origin_m) {
   glm::dmat4 matrix = glm::mat4_cast(place.q);
@@ -172,6 +181,7 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int wid
   draw_ground(list, eye);
   draw_translucent(list, eye);
   draw_obstacles(list, eye);
+  draw_ghost_figure(list, eye);
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
   gl_.Disable(GL_DEPTH_TEST);
@@ -222,7 +232,7 @@ Result<Done> Renderer::draw_shadow_map(const DrawList& list, const Eye& eye) {
   begin_solid(eye);
   set_matrix(solid_, "clip_from_world", eye.light_from_world);
   for (const DrawInstance& instance : list.instances)
-    if (!instance.ghost) draw_instance(instance, eye, {.lit = false});
+    if (casts_shadow(instance)) draw_instance(instance, eye, {.lit = false});
   gl_.Disable(GL_DEPTH_TEST);
   return Done{};
 }
@@ -283,7 +293,7 @@ void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
   gl_.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
   begin_solid(eye);
   for (const DrawInstance& instance : list.instances)
-    if (!instance.ghost)
+    if (casts_shadow(instance))
       draw_instance(instance, eye, {.alpha = kShadowAlpha, .lit = false, .flatten = &flatten, .color = &kBlack});
   gl_.Disable(GL_STENCIL_TEST);
 }
@@ -291,10 +301,29 @@ void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
 void Renderer::draw_translucent(const DrawList& list, const Eye& eye) {
   begin_solid(eye);
   for (const DrawInstance& instance : list.instances)
-    if (instance.ghost) draw_instance(instance, eye, {.alpha = kGhostAlpha, .rim = 0.45f});
+    if (instance.ghost && !is_ghost_figure(instance))
+      draw_instance(instance, eye,
+                    instance.mark ? Paint{.alpha = kMarkAlpha} : Paint{.alpha = kGhostAlpha, .rim = 0.45f});
   gl_.DepthFunc(GL_GREATER);  // Only where something is in front.
   for (const DrawInstance& instance : list.instances)
-    if (instance.highlight > 0) draw_instance(instance, eye, {.alpha = kShineThroughAlpha});
+    if (instance.highlight > 0 || (instance.mark && !instance.ghost))
+      draw_instance(instance, eye, {.alpha = kShineThroughAlpha});
+  gl_.DepthFunc(GL_LESS);
+}
+
+// Grey and of one layer: depth alone first, or limbs behind limbs would add up to black.
+void Renderer::draw_ghost_figure(const DrawList& list, const Eye& eye) {
+  const Vec3 back_m = -kGhostSetback_m * glm::normalize(eye.at);
+  begin_solid(eye);
+  for (const bool show : {false, true}) {
+    gl_.DepthMask(show ? GL_FALSE : GL_TRUE);
+    gl_.DepthFunc(show ? GL_LEQUAL : GL_LESS);
+    for (DrawInstance instance : list.instances) {
+      if (!is_ghost_figure(instance)) continue;
+      instance.world_from_mesh.p_m += back_m;
+      draw_instance(instance, eye, {.alpha = show ? kFigureAlpha : 0.0f});
+    }
+  }
   gl_.DepthFunc(GL_LESS);
 }
 

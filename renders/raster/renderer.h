@@ -65,6 +65,7 @@ class Renderer {
   void draw_obstacles(const DrawList& list, const Eye& eye);
   void draw_hiding(const DrawList& list, const Eye& eye);
   void draw_translucent(const DrawList& list, const Eye& eye);
+  void draw_ghost_figure(const DrawList& list, const Eye& eye);
   void begin_solid(const Eye& eye);
   void draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint);
   void draw_range(const DrawInstance& instance);

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "checks/fold.h"
 #include "generator/character/character.h"
 #include "generator/core/result.h"
+#include "generator/dynamics/dynamics_desc.h"
 #include "generator/motion/motion.h"
 #include "generator/world/environment.h"
+#include "renders/shots.h"
 
 namespace contort {
 
@@ -28,6 +31,25 @@ struct StripInput {
   const Motion* ghost = nullptr;  // Drawn translucent behind, frame by frame: the motion that was aimed for.
   std::string font = kStripFont;
   const Environment* environment = nullptr;  // Null: a level plane at height 0.
+  const DynamicsDesc* dynamics = nullptr;    // Of the spec: its loads are drawn. Null: none.
+  std::vector<int> frames{};                 // Empty: `tiles` of them are chosen.
+  std::optional<double> azimuth_rad{};       // Where to look from, see View. None: from where most is seen.
+};
+
+// Several motions below one another: what one and the same action becomes under different conditions.
+struct StripRow {
+  Story story;
+  std::string label;  // above the row, at its start
+};
+
+struct RowsInput {
+  std::vector<StripRow> rows;           // 1 to 16
+  std::vector<int> frames;              // Of every row, 1 to 16; their numbers are in the tiles' corners.
+  std::optional<double> azimuth_rad{};  // As in StripInput; chosen for the first row's middle tile.
+  std::string replay_command{};
+  int tile_width = 176;  // Pixels, in [96, 2048].
+  int tile_height = 208;
+  std::string font = kStripFont;
 };
 
 struct StripDone {
@@ -46,8 +68,12 @@ class StripRenderer {
 
   // Writes one PNG: a header, and a tile per frame. All tiles have one camera, chosen to show the highlight at the
   // worst frame; it moves along only with a figure that travels. Equal input, Mesa and font version: equal bytes.
-  // Codes: render.no_frames, render.wrong_motion, render.bad_size, render.png, render.gl_error, file.unwritable.
+  // Codes: render.no_frames, render.wrong_motion, render.bad_frame, render.bad_size, render.png, render.gl_error,
+  // file.unwritable.
   Result<StripDone> render(const StripInput& input, const std::string& png_path);
+
+  // The same, a row for each motion without header and captions, and one camera for all of them.
+  Result<StripDone> render_rows(const RowsInput& input, const std::string& png_path);
 
   std::string description() const;  // OpenGL version and driver.
 

@@ -146,6 +146,37 @@ TEST(Renderer, DrawsGhostsThinly) {
   EXPECT_LT(thin, solid / 2);
 }
 
+DrawInstance ghost_ball(double z_m) {
+  DrawInstance ghost = Scene::ball(z_m, 0);
+  ghost.ghost = true;
+  return ghost;
+}
+
+TEST(Renderer, DrawsGhostsAsOneLayer) {
+  EXPECT_EQ(draw(list_of({ghost_ball(0.5), ghost_ball(0.0)})), draw(list_of({ghost_ball(0.5)})));
+}
+
+TEST(Renderer, HidesAGhostInItsFigure) {
+  EXPECT_EQ(draw(list_of({Scene::ball(0.5, 0), ghost_ball(0.5)})), draw(list_of({Scene::ball(0.5, 0)})));
+}
+
+TEST(Renderer, LetsMarksShineThroughAndGivesThemNoShadow) {
+  const auto mark = [](double y_m, double z_m, bool ghost = false) {
+    DrawInstance ball = Scene::ball(z_m, 0);
+    ball.world_from_mesh.p_m.y = y_m;
+    ball.mark = true, ball.ghost = ghost;
+    return ball;
+  };
+  EXPECT_GT(redness(draw(list_of({Scene().wall, mark(1.0, -0.5)}))), 1000);
+  EXPECT_EQ(redness(draw(list_of({Scene().wall, mark(1.0, -0.5, true)}))), 0);
+  DrawInstance thing = mark(0.35, 0.0);
+  thing.mark = false;
+  const Image empty = draw({}, front(30.0));
+  const int with_shadow = differing_pixels(empty, draw(list_of({thing}), front(30.0)));
+  const int without = differing_pixels(empty, draw(list_of({mark(0.35, 0.0)}), front(30.0)));
+  EXPECT_LT(without, with_shadow - 50);
+}
+
 TEST(Renderer, CountsWhatIsVisible) {
   const Scene scene;
   const std::unique_ptr<Renderer> renderer = make_renderer();

@@ -1,0 +1,15 @@
+// Arrows, as triangles.
+#pragma once
+
+#include "generator/character/shape.h"
+#include "generator/core/math.h"
+
+namespace contort {
+
+// From the origin along +Y, with its point at `length_m` > 0: a shaft with a cone on it. Short ones are thinner.
+Triangles arrow_triangles(double length_m);
+
+// world_from_mesh of such an arrow from a point along a unit vector.
+Rigid arrow_place(const Vec3& from_m, const Vec3& along);
+
+}  // namespace contort

@@ -1,0 +1,91 @@
+// Pictures from the command line.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+#include "tests/corpus/sample_cases.h"
+
+namespace contort {
+
+namespace {
+
+const std::string kRoot = CONTORT_SOURCE_DIR;
+const std::string kSquat = kRoot + "/docs/experiments/squat/";
+
+class Render : public testing::Test {
+ protected:
+  // "" where it was drawn, else the one line that says why not.
+  std::string refusal(std::vector<std::string> arguments) {
+    std::filesystem::remove(picture());
+    arguments.insert(arguments.begin(), {"--library", kSquat + "actions", "render"});
+    arguments.insert(arguments.end(), {"-o", picture()});
+    const Ran ran = contort_program(arguments);
+    EXPECT_EQ(ran.code == 0, std::filesystem::exists(picture()));
+    EXPECT_TRUE(ran.code == 0 || ran.code == 2) << ran.code;
+    EXPECT_EQ(lines_of(ran.err).size(), ran.code == 0 ? 0U : 1U) << ran.err;
+    return ran.err;
+  }
+  std::string picture() const { return folder_ / "picture.png"; }
+
+  // Width and height, from the header.
+  std::pair<int, int> size() const {
+    const std::string bytes = slurp(picture());
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = at; i < at + 4; ++i) value = 256 * value + static_cast<unsigned char>(bytes.at(i));
+      return value;
+    };
+    return {number(16), number(20)};
+  }
+
+  const std::string a_ = kSquat + "a_nothing_added.json", c_ = kSquat + "c_8_kg.json";
+  TempFolder folder_;
+};
+
+TEST_F(Render, DrawsARowForEachFile) {
+  EXPECT_EQ(refusal({a_, c_, "--rows", "--frames", "0,20,32"}), "");
+  EXPECT_EQ(size(), std::make_pair(3 * 178 + 2, 2 * 234 + 2));
+  const std::string plain = slurp(picture());
+  EXPECT_EQ(refusal({"--rows", a_, c_, "--frames", "0,20,32", "--label", "(a)", "--label", "(c)"}), "");
+  EXPECT_NE(slurp(picture()), plain);
+  EXPECT_EQ(refusal({a_, "--rows", "--tiles", "5"}), "");
+  EXPECT_EQ(size(), std::make_pair(5 * 178 + 2, 234 + 2));
+}
+
+TEST_F(Render, DrawsTheFramesThatAreAskedFor) {
+  EXPECT_EQ(refusal({c_, "--frames", "4,8", "--azimuth", "-90", "--label", "carries 8 kg"}), "");
+  EXPECT_EQ(size().first, 2 * 322 + 2);
+}
+
+TEST_F(Render, SaysWhatDoesNotFitTogether) {
+  EXPECT_NE(refusal({a_, c_}).find("--rows"), std::string::npos);
+  EXPECT_NE(refusal({a_, c_, "--rows", "--label", "(a)"}).find("found 1 labels for 2 files"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--label", "(a)", "--label", "(b)"}).find("found 2 labels for 1 files"), std::string::npos);
+}
+
+TEST_F(Render, SaysWhichFramesThereAre) {
+  EXPECT_NE(refusal({a_, "--frames", "86"}).find("frames 0 to 85"), std::string::npos);
+  const std::string in_row = refusal({a_, c_, "--rows", "--frames", "0,86"});
+  EXPECT_NE(in_row.find("a_nothing_added"), std::string::npos);
+  EXPECT_NE(in_row.find("frames 0 to 85"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--frames", "0,-1"}), "");
+  EXPECT_NE(refusal({a_, "--rows", "--tiles", "17"}).find("render.bad_size"), std::string::npos);
+}
+
+TEST_F(Render, RefusesWhatIsNoNumber) {
+  for (const char* frames : {"x", "0,x", "1.5", "0;1"}) EXPECT_NE(refusal({a_, "--frames", frames}), "") << frames;
+  for (const char* azimuth : {"nan", "east", "400"}) EXPECT_NE(refusal({a_, "--azimuth", azimuth}), "") << azimuth;
+}
+
+TEST_F(Render, NamesTheFileThatCannotBeRead) {
+  EXPECT_NE(refusal({a_, folder_ / "missing.json", "--rows"}).find("missing.json"), std::string::npos);
+  spill(folder_ / "bad.json", R"({"format":"contort.spec/1","character":{"name":"nobody"}})");
+  EXPECT_NE(refusal({a_, folder_ / "bad.json", "--rows"}).find("bad.json"), std::string::npos);
+}
+
+TEST_F(Render, TakesSeveralLibraries) {
+  EXPECT_EQ(refusal({a_, "--frames", "0", "--library", kRoot + "/docs/examples/own_actions"}), "");
+}
+
+}  // namespace
+
+}  // namespace contort
