@@ -1,11 +1,14 @@
-// Rigid-body dynamics beside MuJoCo's on the same character, in one process: alternating slices of a millisecond, and the
-// median of their ratios, because clocks of shared machines wander by 15 %. 256 states, so that no branch is learnt.
+// Rigid-body dynamics beside MuJoCo's on the same character, in one process: alternating slices of a millisecond, and
+// the median of their ratios, because clocks of shared machines wander by 15 %. 256 states, so that no branch is
+// learnt.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <vector>
 
+#include "generator/generate.h"
 #include "tests/dynamics/mujoco_model.h"
+#include "tests/scenes.h"
 
 namespace contort {
 namespace {
@@ -98,10 +101,40 @@ void compare_on(const char* name, const Character& character) {
       });
 }
 
+// A whole tick of a squat with a load and a blow, beside mj_inverse on random states of the same figure.
+void compare_tick(Mode mode) {
+  Spec spec = scene("human_dynamic");
+  spec.dynamics.mode = mode, spec.dynamics.ticks_per_frame = 4;
+  const Stage stage = *build_stage(spec, stock_library());
+  Stage still = stage;
+  still.dynamics = nullptr;
+  const Motion target = generate(still);
+  const int ticks = (target.frame_count - 1) * 4 + 1;
+  testing::MujocoModel theirs(*stage.character);
+  std::mt19937_64 random(1);
+  theirs.set(stage.dynamics->figure.body, testing::any_state(stage.dynamics->figure.body, random));
+  SimulationScratch scratch;
+  Motion motion;
+  std::vector<double> times, peers, ratios;
+  for (int i = 0; i < 101; ++i) {
+    int none = 0;
+    motion = target;
+    times.push_back(
+        slice(1, none, [&](int) { simulate(*stage.character, *stage.dynamics, stage.environment, scratch, motion); }) /
+        ticks);
+    peers.push_back(slice(300, none, [&](int) { mj_inverse(theirs.model(), theirs.data()); }));
+    ratios.push_back(times.back() / peers.back());
+  }
+  for (std::vector<double>* v : {&times, &peers, &ratios}) std::ranges::sort(*v);
+  std::printf("%-22s ours %6.2f us   mj_inverse %6.2f us   ratio %.3f\n",
+              mode == Mode::dynamic ? "dynamic tick" : "tracking tick", 1e6 * times[50], 1e6 * peers[50], ratios[50]);
+}
+
 }  // namespace
 }  // namespace contort
 
 int main() {
   for (const char* name : {"human", "mech", "quadruped"})
     contort::compare_on(name, *contort::build_character({name, {}, {}}, contort::stock_library()));
+  for (const contort::Mode mode : {contort::Mode::tracking, contort::Mode::dynamic}) contort::compare_tick(mode);
 }

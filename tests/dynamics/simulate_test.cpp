@@ -135,6 +135,64 @@ TEST(Simulate, TwoMinutesOfSquatsStayBounded) {
   }
 }
 
+ActionUse held_crouch(int frames) {
+  ActionUse crouch = use("crouch", "waist", 0, frames, {{"share", 0.3}, {"lean_deg", 65.0}, {"back_m", 0.3}});
+  crouch.speed = 4.0;  // down in a quarter of the time, then held
+  return crouch;
+}
+
+// Against fixed thresholds, and without a lag, relief once shook the arms by 100 degrees. Down after 2 s; a second
+// later.
+TEST(Simulate, ReliefOfALoadThatStaysComesToRest) {
+  Spec spec = standing("human", Mode::dynamic, 0);
+  spec.start.ahead_m = 0.04;
+  spec.sequences = {sequence({held_crouch(240)})};
+  spec.dynamics.loads = {{"torso", "back", {0, 0, -0.075}, {0.3, 0.4, 0.15}, 12.0}};
+  const Motion motion = played(spec);
+  EXPECT_FALSE(has(motion, Footing::tipping));
+  const auto n = static_cast<std::size_t>(motion.response.dof_count);
+  double largest = 0.0, change = 0.0;
+  for (std::size_t f = 90; f < 120; ++f)
+    for (std::size_t k = 0; k < n; ++k) {
+      largest = std::max(largest, std::fabs(motion.response.control[f * n + k]));
+      change =
+          std::max(change, std::fabs(motion.response.control[(f + 1) * n + k] - motion.response.control[f * n + k]));
+    }
+  EXPECT_GT(largest, 1.0);            // it is there,
+  EXPECT_LT(change, 0.05 * largest);  // and still
+}
+
+// Without a share of strength that is always bearable it once fought the 15 N m of a load on an upright back.
+TEST(Simulate, ALoadThatIsBearableAnywayChangesNothing) {
+  Spec spec = standing("human", Mode::dynamic, 60);
+  spec.start.ahead_m = 0.04;
+  spec.dynamics.loads = {{"torso", "back", {0, 0, -0.075}, {0.3, 0.4, 0.15}, 8.0}};
+  for (const double added : played(spec).response.control) ASSERT_EQ(added, 0.0);
+}
+
+// Clamping joints one by one once tore the feet apart: with weak legs the squat is slower, but its soles stay.
+TEST(Simulate, WithLittleStrengthASquatIsHeldBackAsAWhole) {
+  Spec spec = standing("human", Mode::dynamic, 30);
+  spec.start.ahead_m = 0.04;
+  spec.sequences = {sequence({use("squat", "waist", 0, 40, {{"share", 0.3}, {"lean_deg", 40.0}, {"back_m", 0.21}})})};
+  const Stage stage = *build_stage(spec, stock_library());
+  DynamicsSetup weak = *stage.dynamics;
+  for (double& limit : weak.figure.strength_low) limit *= 0.5;
+  for (double& limit : weak.figure.strength_high) limit *= 0.5;
+  Stage still = stage;
+  still.dynamics = nullptr;
+  Motion motion = generate(still);
+  SimulationScratch scratch;
+  simulate(*stage.character, weak, stage.environment, scratch, motion);
+  EXPECT_TRUE(is_finite(motion));
+  EXPECT_FALSE(has(motion, Footing::fallen));
+  for (std::size_t k = 0; k < motion.response.efforts.size(); ++k) {
+    const std::size_t dof = k % static_cast<std::size_t>(motion.response.dof_count);
+    const bool flagged = motion.response.stances[k / static_cast<std::size_t>(motion.response.dof_count)].overpowered;
+    EXPECT_TRUE(flagged || motion.response.efforts[k] <= weak.figure.strength_high[dof] * (1 + 1e-9)) << k;
+  }
+}
+
 TEST(Simulate, NamesThatAreNotThereAreErrorsWithPointers) {
   const auto issue_of = [](const DynamicsDesc& dynamics) {
     Spec spec = standing("human", Mode::dynamic, 1);
