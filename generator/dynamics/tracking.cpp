@@ -77,7 +77,7 @@ void subdivide(std::span<const double> target, int first, int last, double toler
 
 void sort_unique(std::vector<int>& frames) {
   std::ranges::sort(frames);
-  frames.erase(std::ranges::unique(frames).begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());  // clang++ 14 has no std::ranges::unique
 }
 
 }  // namespace

@@ -18,6 +18,8 @@
 // Mesa 22.3 leaks 160 bytes with every context, whatever the order of calls; LeakSanitizer would fail the process.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }  // a clean run prints nothing
 #endif
 
 namespace contort {
