@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "checks/check.h"
-#include "generator/gltf/sample.h"
+#include "generator/asset/sample.h"
 
 namespace contort {
 
 namespace {
 
-double limit_of(const GltfNode& node, const SpeedLimits& limits) {
+double limit_of(const AssetNode& node, const SpeedLimits& limits) {
   for (const std::string& name : {node.label, node.name})
     if (const auto found = limits.of_node.find(name); found != limits.of_node.end()) return found->second;
   return limits.max_rad_s;
@@ -33,7 +33,7 @@ const CheckDef& angular_velocity() {
   return all_checks().front();
 }
 
-void add_channel(const GltfNode& node, const std::vector<SpeedInterval>& intervals, const SpeedLimits& limits,
+void add_channel(const AssetNode& node, const std::vector<SpeedInterval>& intervals, const SpeedLimits& limits,
                  ClipSpeeds& out) {
   MarginFold fold(1, CheckSettings{}.merge_gap_frames);
   const double limit = limit_of(node, limits);
@@ -57,9 +57,9 @@ void add_channel(const GltfNode& node, const std::vector<SpeedInterval>& interva
 
 }  // namespace
 
-std::vector<ClipSpeeds> check_clip_speeds(const GltfAsset& asset, const SpeedLimits& limits, const std::string& name) {
+std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name) {
   std::vector<ClipSpeeds> all;
-  for (const GltfClip& clip : asset.clips) {
+  for (const AssetClip& clip : asset.clips) {
     if (!name.empty() && clip.name != name && clip.label != name) continue;
     ClipSpeeds out;
     out.clip = clip.label;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "checks/fold.h"
-#include "generator/gltf/asset.h"
+#include "generator/asset/asset.h"
 
 namespace contort {
 
@@ -35,7 +35,6 @@ struct ClipSpeeds {
 };
 
 // With `name` empty, all clips. Nothing fails: a clip without rotations has a peak of 0.
-std::vector<ClipSpeeds> check_clip_speeds(const GltfAsset& asset, const SpeedLimits& limits,
-                                          const std::string& name = "");
+std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name = "");
 
 }  // namespace contort

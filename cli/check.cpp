@@ -97,7 +97,7 @@ void print_clip(const ClipSpeeds& clip) {
 void check_gltf(const Options& options, Context& context) {
   const Result<SpeedLimits> limits = limits_of(options, context);
   if (!limits) return context.fail(limits.issue());
-  const Result<GltfAsset> asset = read_gltf(options.file);
+  const Result<Asset> asset = read_gltf(options.file);
   if (!asset) return context.fail(asset.issue());
   const std::vector<ClipSpeeds> clips = check_clip_speeds(*asset, *limits, options.clip);
   if (clips.empty())

@@ -28,7 +28,7 @@ Result<std::vector<Mat4>> read_bind_matrices(const tinygltf::Skin& skin, Accesso
   return out;
 }
 
-Result<GltfSkin> read_skin(const tinygltf::Skin& skin, AccessorReader& accessors, const std::string& pointer) {
+Result<AssetSkin> read_skin(const tinygltf::Skin& skin, AccessorReader& accessors, const std::string& pointer) {
   std::set<int> seen;
   for (std::size_t i = 0; i < skin.joints.size(); ++i)
     if (!seen.insert(skin.joints[i]).second)
@@ -36,22 +36,22 @@ Result<GltfSkin> read_skin(const tinygltf::Skin& skin, AccessorReader& accessors
                    "node " + std::to_string(skin.joints[i]) + " stands in the list twice"};
   Result<std::vector<Mat4>> matrices = read_bind_matrices(skin, accessors, pointer);
   if (!matrices) return matrices.issue();
-  return GltfSkin{skin.name, skin.skeleton, skin.joints, std::move(matrices).value()};
+  return AssetSkin{skin.name, skin.skeleton, skin.joints, std::move(matrices).value()};
 }
 
 // ---- clips
 
-bool read_path(const std::string& text, GltfPath& out) {
-  if (text == "translation") out = GltfPath::translation;
-  if (text == "rotation") out = GltfPath::rotation;
-  if (text == "scale") out = GltfPath::scale;
+bool read_path(const std::string& text, ChannelPath& out) {
+  if (text == "translation") out = ChannelPath::translation;
+  if (text == "rotation") out = ChannelPath::rotation;
+  if (text == "scale") out = ChannelPath::scale;
   return text == "translation" || text == "rotation" || text == "scale";
 }
 
-bool read_interpolation(const std::string& text, GltfInterpolation& out) {
-  if (text == "STEP") out = GltfInterpolation::step;
-  if (text == "LINEAR") out = GltfInterpolation::linear;
-  if (text == "CUBICSPLINE") out = GltfInterpolation::cubic_spline;
+bool read_interpolation(const std::string& text, Interpolation& out) {
+  if (text == "STEP") out = Interpolation::step;
+  if (text == "LINEAR") out = Interpolation::linear;
+  if (text == "CUBICSPLINE") out = Interpolation::cubic_spline;
   return text == "STEP" || text == "LINEAR" || text == "CUBICSPLINE";
 }
 
@@ -66,8 +66,8 @@ Result<Done> check_times(const std::vector<double>& times, const std::string& po
 }
 
 // Makes the rotations exactly unit; tangents stay. False, with the key's number, where one is no rotation at all.
-bool normalize_rotations(GltfChannel& channel, std::size_t& bad_key) {
-  const bool is_spline = channel.interpolation == GltfInterpolation::cubic_spline;
+bool normalize_rotations(AssetChannel& channel, std::size_t& bad_key) {
+  const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
   for (std::size_t key = 0; key < channel.times_s.size(); ++key) {
     double* q = channel.values.data() + 4 * (is_spline ? 3 * key + 1 : key);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -85,13 +85,13 @@ class ClipReader {
   ClipReader(const tinygltf::Animation& animation, AccessorReader& accessors, std::string pointer)
       : animation_(animation), accessors_(accessors), pointer_(std::move(pointer)) {}
 
-  Result<std::vector<GltfChannel>> read() {
-    std::vector<GltfChannel> out;
+  Result<std::vector<AssetChannel>> read() {
+    std::vector<AssetChannel> out;
     for (std::size_t i = 0; i < animation_.channels.size(); ++i) {
       const tinygltf::AnimationChannel& channel = animation_.channels[i];
       // No node: for extensions. Morph weights move no joint.
       if (channel.target_node < 0 || channel.target_path == "weights") continue;
-      Result<GltfChannel> read = read_channel(channel, pointer_ + "/channels/" + std::to_string(i));
+      Result<AssetChannel> read = read_channel(channel, pointer_ + "/channels/" + std::to_string(i));
       if (!read) return read.issue();
       if (!read->times_s.empty()) out.push_back(std::move(read).value());  // else nothing is said about the node
     }
@@ -99,8 +99,8 @@ class ClipReader {
   }
 
  private:
-  Result<GltfChannel> read_channel(const tinygltf::AnimationChannel& channel, const std::string& pointer) {
-    GltfChannel out;
+  Result<AssetChannel> read_channel(const tinygltf::AnimationChannel& channel, const std::string& pointer) {
+    AssetChannel out;
     out.node = channel.target_node;
     if (!read_path(channel.target_path, out.path))
       return Issue{"gltf.unsupported", pointer + "/target/path",
@@ -115,13 +115,13 @@ class ClipReader {
     return out;
   }
 
-  Result<Done> read_sampler(int index, GltfChannel& out) {
+  Result<Done> read_sampler(int index, AssetChannel& out) {
     const tinygltf::AnimationSampler& sampler = animation_.samplers[static_cast<std::size_t>(index)];
     const std::string pointer = pointer_ + "/samplers/" + std::to_string(index);
     if (!read_interpolation(sampler.interpolation, out.interpolation))
       return Issue{"gltf.unsupported", pointer + "/interpolation", "allowed are STEP, LINEAR and CUBICSPLINE"};
     const std::size_t keys = accessors_.count(sampler.input);
-    const std::size_t rows = out.interpolation == GltfInterpolation::cubic_spline ? 3 : 1;
+    const std::size_t rows = out.interpolation == Interpolation::cubic_spline ? 3 : 1;
     const std::size_t outputs = accessors_.count(sampler.output);
     if (outputs % rows != 0 || outputs / rows != keys)
       return Issue{"gltf.bad_accessor", accessor_pointer(sampler.output) + "/count",
@@ -131,7 +131,7 @@ class ClipReader {
     return read_values(sampler.output, outputs, out);
   }
 
-  Result<Done> read_times(int accessor, std::size_t keys, GltfChannel& out) {
+  Result<Done> read_times(int accessor, std::size_t keys, AssetChannel& out) {
     if (!accessors_.has_data(accessor)) return Done{};  // a place that some extension fills in
     Result<std::vector<double>> times = accessors_.read(accessor, ElementKind::scalar, keys);
     if (!times) return times.issue();
@@ -139,8 +139,8 @@ class ClipReader {
     return check_times(out.times_s, accessor_pointer(accessor));
   }
 
-  Result<Done> read_values(int accessor, std::size_t count, GltfChannel& out) {
-    const bool is_rotation = out.path == GltfPath::rotation;
+  Result<Done> read_values(int accessor, std::size_t count, AssetChannel& out) {
+    const bool is_rotation = out.path == ChannelPath::rotation;
     Result<std::vector<double>> values =
         accessors_.read(accessor, is_rotation ? ElementKind::vec4 : ElementKind::vec3, count, is_rotation);
     if (!values) return values.issue();
@@ -157,10 +157,10 @@ class ClipReader {
   const tinygltf::Animation& animation_;
   AccessorReader& accessors_;
   std::string pointer_;
-  std::set<std::pair<int, GltfPath>> targets_;
+  std::set<std::pair<int, ChannelPath>> targets_;
 };
 
-void find_range(GltfClip& clip) {
+void find_range(AssetClip& clip) {
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
     const std::vector<double>& times = clip.channels[i].times_s;
     clip.first_s = i == 0 ? times.front() : std::min(clip.first_s, times.front());
@@ -170,9 +170,9 @@ void find_range(GltfClip& clip) {
 
 }  // namespace
 
-Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset) {
+Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset) {
   for (const tinygltf::Skin& skin : model.skins) {
-    Result<GltfSkin> read = read_skin(skin, accessors, "/skins/" + std::to_string(asset.skins.size()));
+    Result<AssetSkin> read = read_skin(skin, accessors, "/skins/" + std::to_string(asset.skins.size()));
     if (!read) return read.issue();
     for (const int joint : skin.joints) asset.nodes[static_cast<std::size_t>(joint)].is_joint = true;
     asset.skins.push_back(std::move(read).value());
@@ -180,7 +180,7 @@ Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors,
   return Done{};
 }
 
-Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset) {
+Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset) {
   std::vector<std::string> names;
   for (const tinygltf::Animation& animation : model.animations) names.push_back(animation.name);
   std::vector<std::string> labels = unique_labels(names);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "generator/asset/asset.h"
 #include "generator/core/result.h"
 #include "generator/gltf/accessor.h"
-#include "generator/gltf/asset.h"
 
 namespace contort {
 
@@ -21,13 +21,13 @@ std::vector<std::string> unique_labels(std::span<const std::string> names);
 bool decompose(std::span<const double> matrix, Trs& out);
 
 // Fills nodes and order. Codes gltf.bad_node, .not_unit, .two_parents, .cycle.
-Result<Done> read_nodes(const tinygltf::Model& model, GltfAsset& asset);
+Result<Done> read_nodes(const tinygltf::Model& model, Asset& asset);
 
-// Fills skins and GltfNode::is_joint. Codes gltf.bad_skin and those of AccessorReader.
-Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset);
+// Fills skins and AssetNode::is_joint. Codes gltf.bad_skin and those of AccessorReader.
+Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset);
 
 // Fills clips. Codes gltf.bad_index, .unsupported, .duplicate_channel, .bad_times, .bad_accessor, .not_unit and those
 // of AccessorReader.
-Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, GltfAsset& asset);
+Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset);
 
 }  // namespace contort

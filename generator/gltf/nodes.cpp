@@ -68,7 +68,7 @@ Result<Trs> read_transform(const tinygltf::Node& node, const std::string& pointe
 
 // ---- the forest
 
-Result<Done> read_parents(const tinygltf::Model& model, GltfAsset& asset) {
+Result<Done> read_parents(const tinygltf::Model& model, Asset& asset) {
   for (std::size_t parent = 0; parent < model.nodes.size(); ++parent) {
     const std::vector<int>& children = model.nodes[parent].children;
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -96,7 +96,7 @@ void visit_tree(const tinygltf::Model& model, int root, std::vector<int>& order)
 }
 
 // With one parent each, the nodes that no root leads to are those on a circle and below one.
-Result<Done> read_order(const tinygltf::Model& model, GltfAsset& asset) {
+Result<Done> read_order(const tinygltf::Model& model, Asset& asset) {
   for (std::size_t i = 0; i < asset.nodes.size(); ++i)
     if (asset.nodes[i].parent < 0) visit_tree(model, static_cast<int>(i), asset.order);
   if (asset.order.size() == asset.nodes.size()) return Done{};
@@ -146,7 +146,7 @@ std::vector<std::string> unique_labels(std::span<const std::string> names) {
   return labels;
 }
 
-Result<Done> read_nodes(const tinygltf::Model& model, GltfAsset& asset) {
+Result<Done> read_nodes(const tinygltf::Model& model, Asset& asset) {
   std::vector<std::string> names;
   for (const tinygltf::Node& node : model.nodes) names.push_back(node.name);
   std::vector<std::string> labels = unique_labels(names);

@@ -44,8 +44,8 @@ Result<tinygltf::Model> to_model(const GltfDocument& document) {
   return Issue{"gltf.unreadable", "", "tinygltf: " + error};
 }
 
-Result<GltfAsset> to_asset(const tinygltf::Model& model) {
-  GltfAsset asset;
+Result<Asset> to_asset(const tinygltf::Model& model) {
+  Asset asset;
   AccessorReader accessors(model);
   if (const auto read = read_nodes(model, asset); !read) return read.issue();
   if (const auto read = read_skins(model, accessors, asset); !read) return read.issue();
@@ -53,7 +53,7 @@ Result<GltfAsset> to_asset(const tinygltf::Model& model) {
   return asset;
 }
 
-Result<GltfAsset> read_container(const GltfContainer& container, const std::string& folder) {
+Result<Asset> read_container(const GltfContainer& container, const std::string& folder) {
   if (const auto scanned = scan_json(container.json); !scanned) return scanned.issue();
   const Result<GltfDocument> document = check_document(container.json);
   if (!document) return document.issue();
@@ -80,7 +80,7 @@ Result<std::string> read_regular_file(const std::string& path) {
 
 }  // namespace
 
-Result<GltfAsset> read_gltf(const std::string& path) {
+Result<Asset> read_gltf(const std::string& path) {
   const Result<std::string> text = read_regular_file(path);
   if (!text) return text.issue();
   const auto bytes = std::as_bytes(std::span(*text));
@@ -94,7 +94,7 @@ Result<GltfAsset> read_gltf(const std::string& path) {
   return read_container(container, folder.empty() ? "." : folder);
 }
 
-Result<GltfAsset> parse_glb(std::span<const std::byte> bytes) {
+Result<Asset> parse_glb(std::span<const std::byte> bytes) {
   const Result<GltfContainer> container = split_glb(bytes);
   if (!container) return container.issue();
   return read_container(*container, "");

@@ -1,5 +1,5 @@
 // Reads .glb and .gltf: nodes, skins and clips. Files are hostile until proven otherwise: whatever the bytes are, the
-// answer is a checked GltfAsset or one Issue, within the limits of limits.h. Images are never opened.
+// answer is a checked Asset or one Issue, within the limits of limits.h. Images are never opened.
 //
 // Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. What it forbids
 // and we let through, because it has one harmless meaning and exporters do it: accessors of 0 elements (a channel of 0
@@ -11,15 +11,15 @@
 #include <span>
 #include <string>
 
+#include "generator/asset/asset.h"
 #include "generator/core/result.h"
-#include "generator/gltf/asset.h"
 
 namespace contort {
 
 // Buffers may be files in the folder of `path` or below it. Codes "gltf.*", with JSON pointers into the glTF document.
-Result<GltfAsset> read_gltf(const std::string& path);
+Result<Asset> read_gltf(const std::string& path);
 
 // A GLB in memory; all of its buffers must be inside. Reads no file.
-Result<GltfAsset> parse_glb(std::span<const std::byte> bytes);
+Result<Asset> parse_glb(std::span<const std::byte> bytes);
 
 }  // namespace contort

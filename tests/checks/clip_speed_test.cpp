@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kHigh = 1e9;  // no limit
 
-GltfAsset one_node(const std::string& name = "elbow") {
-  GltfAsset asset;
-  GltfNode node;
+Asset one_node(const std::string& name = "elbow") {
+  Asset asset;
+  AssetNode node;
   node.name = name;
   node.label = name;
   asset.nodes = {node};
@@ -25,20 +25,20 @@ GltfAsset one_node(const std::string& name = "elbow") {
   return asset;
 }
 
-void add_row(GltfChannel& channel, const Quat& q) {
+void add_row(AssetChannel& channel, const Quat& q) {
   for (const double v : {q.x, q.y, q.z, q.w}) channel.values.push_back(v);
 }
 
-GltfChannel turning(const std::vector<double>& times_s, const std::vector<double>& angles_rad,
-                    GltfInterpolation interpolation = GltfInterpolation::linear, int node = 0) {
-  GltfChannel channel{node, GltfPath::rotation, interpolation, times_s, {}};
+AssetChannel turning(const std::vector<double>& times_s, const std::vector<double>& angles_rad,
+                     Interpolation interpolation = Interpolation::linear, int node = 0) {
+  AssetChannel channel{node, ChannelPath::rotation, interpolation, times_s, {}};
   for (const double angle : angles_rad) add_row(channel, axis_angle(Vec3(0, 0, 1), angle));
   return channel;
 }
 
 // Cubic keys about Z; all tangents have the given rate of the angle, as a rate of the quaternion.
-GltfChannel spline(const std::vector<double>& times_s, const std::vector<double>& angles_rad, double rate_rad_s) {
-  GltfChannel channel{0, GltfPath::rotation, GltfInterpolation::cubic_spline, times_s, {}};
+AssetChannel spline(const std::vector<double>& times_s, const std::vector<double>& angles_rad, double rate_rad_s) {
+  AssetChannel channel{0, ChannelPath::rotation, Interpolation::cubic_spline, times_s, {}};
   for (const double angle : angles_rad) {
     const double half = 0.5 * angle;
     const Quat tangent = Quat(-std::sin(half), 0, 0, std::cos(half)) * (0.5 * rate_rad_s);
@@ -49,14 +49,14 @@ GltfChannel spline(const std::vector<double>& times_s, const std::vector<double>
   return channel;
 }
 
-ClipSpeeds speeds(const GltfChannel& channel, double limit_rad_s = kHigh) {
-  GltfAsset asset = one_node();
+ClipSpeeds speeds(const AssetChannel& channel, double limit_rad_s = kHigh) {
+  Asset asset = one_node();
   asset.clips[0].channels = {channel};
   return check_clip_speeds(asset, {limit_rad_s, {}}).at(0);
 }
 
 TEST(ClipSpeed, LinearAndStepTakeTheAngleBetweenNeighbouringKeys) {
-  for (const GltfInterpolation how : {GltfInterpolation::linear, GltfInterpolation::step}) {
+  for (const Interpolation how : {Interpolation::linear, Interpolation::step}) {
     const ClipSpeeds s = speeds(turning({0, 0.5, 0.75, 2.0}, {0, 0.2, 0.5, 0.4}, how));
     EXPECT_NEAR(s.peak_rad_s, 0.3 / 0.25, 1e-12);
     EXPECT_EQ(s.peak_node, "elbow");
@@ -67,7 +67,7 @@ TEST(ClipSpeed, LinearAndStepTakeTheAngleBetweenNeighbouringKeys) {
 }
 
 TEST(ClipSpeed, TheSignOfAQuaternionIsNoMotion) {
-  GltfChannel channel{0, GltfPath::rotation, GltfInterpolation::linear, {0, 1, 2}, {}};
+  AssetChannel channel{0, ChannelPath::rotation, Interpolation::linear, {0, 1, 2}, {}};
   const Quat q = axis_angle(Vec3(0, 0, 1), 0.1);
   for (const Quat& key : {Quat(1, 0, 0, 0), -q, q}) add_row(channel, key);
   const ClipSpeeds s = speeds(channel);
@@ -108,7 +108,7 @@ TEST(ClipSpeed, AFindingIsAnEpisodeOfKeyIntervals) {
 }
 
 TEST(ClipSpeed, ALimitIsForItsNodeByLabelOrName) {
-  GltfAsset asset = one_node("knee");
+  Asset asset = one_node("knee");
   asset.nodes[0].label = "knee#0";
   asset.clips[0].channels = {turning({0, 1}, {0, 1})};
   const auto findings = [&](const SpeedLimits& limits) { return check_clip_speeds(asset, limits)[0].findings.size(); };
@@ -135,7 +135,7 @@ TEST(ClipSpeed, ASplineWithKeysAtOneTimeIsStillSampledInside) {
 }
 
 TEST(ClipSpeed, OnlyTheClipThatWasAskedForIsChecked) {
-  GltfAsset asset = one_node();
+  Asset asset = one_node();
   asset.clips[0].channels = {turning({0, 1}, {0, 1})};
   asset.clips.push_back({"walk", "walk#1", {turning({0, 1}, {0, 2})}, 0, 1});
   EXPECT_EQ(check_clip_speeds(asset, {kHigh, {}}).size(), 2U);
@@ -148,8 +148,8 @@ TEST(ClipSpeed, OnlyTheClipThatWasAskedForIsChecked) {
 }
 
 TEST(ClipSpeed, AClipWithoutRotationsHasNoPeak) {
-  GltfAsset asset = one_node();
-  asset.clips[0].channels = {{0, GltfPath::translation, GltfInterpolation::linear, {0, 1}, {0, 0, 0, 9, 9, 9}}};
+  Asset asset = one_node();
+  asset.clips[0].channels = {{0, ChannelPath::translation, Interpolation::linear, {0, 1}, {0, 0, 0, 9, 9, 9}}};
   const ClipSpeeds s = check_clip_speeds(asset, {0.1, {}})[0];
   EXPECT_EQ(s.peak_rad_s, 0.0);
   EXPECT_EQ(s.peak_node, "");
@@ -173,7 +173,7 @@ TEST_P(RealFile, HasThePeakThatTheManifestNames) {
   const RealPeak& expected = GetParam();
   const std::string assets = std::string(CONTORT_SOURCE_DIR) + "/../shared/assets/";
   if (!std::filesystem::exists(assets + "MANIFEST.tsv")) GTEST_SKIP() << "no " << assets << "MANIFEST.tsv";
-  const Result<GltfAsset> asset = read_gltf(assets + "gltf/characters/" + expected.file);
+  const Result<Asset> asset = read_gltf(assets + "gltf/characters/" + expected.file);
   ASSERT_TRUE(asset) << to_line(asset.issue());
   ClipSpeeds fastest;
   for (const ClipSpeeds& clip : check_clip_speeds(*asset, {kHigh, {}}))

@@ -10,8 +10,8 @@
 #include <map>
 #include <sstream>
 
+#include "generator/asset/sample.h"
 #include "generator/gltf/read.h"
-#include "generator/gltf/sample.h"
 
 namespace contort {
 namespace {
@@ -45,8 +45,8 @@ std::vector<ManifestRow> manifest() {
 }
 
 // Read once for all tests but the one that takes the time.
-const Result<GltfAsset>& cached(const std::string& path) {
-  static std::map<std::string, Result<GltfAsset>> read;
+const Result<Asset>& cached(const std::string& path) {
+  static std::map<std::string, Result<Asset>> read;
   const auto found = read.find(path);
   return found != read.end() ? found->second : read.emplace(path, read_gltf(path)).first->second;
 }
@@ -85,7 +85,7 @@ struct Measured {
   double named_deg_s = -1.0;
 };
 
-Measured measure(const GltfAsset& asset, const Peak& wanted) {
+Measured measure(const Asset& asset, const Peak& wanted) {
   Measured out;
   for (std::size_t clip = 0; clip < asset.clips.size(); ++clip)
     for (const ChannelSpeeds& channel : joint_speeds(asset.clips[clip])) {
@@ -200,7 +200,7 @@ TEST(SharedAssets, EveryClipGivesFinitePoses) {
   for (const std::string& path : all_gltf_files()) {
     const auto& asset = cached(path);
     if (!asset.ok()) continue;
-    for (const GltfClip& clip : asset->clips)
+    for (const AssetClip& clip : asset->clips)
       for (int i = -1; i <= 5; ++i)
         for (const Trs& trs : pose(*asset, clip, clip.first_s + i * 0.25 * (clip.last_s - clip.first_s))) {
           const double sum = glm::dot(trs.translation, trs.translation) + glm::dot(trs.scale, trs.scale);

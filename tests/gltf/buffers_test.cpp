@@ -30,7 +30,7 @@ class GltfFiles : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
   // small_arm as text beside its buffer.
-  Result<GltfAsset> read_with_uri(const std::string& uri) const {
+  Result<Asset> read_with_uri(const std::string& uri) const {
     Json root = small_arm().document();
     root["buffers"][0]["uri"] = uri;
     write("asset/arm.gltf", root.dump());

@@ -17,16 +17,16 @@ using testing::Json;
 using testing::pack_glb;
 using testing::small_arm;
 
-GltfAsset read(const GlbBuilder& builder) {
+Asset read(const GlbBuilder& builder) {
   const auto result = parse_glb(builder.glb());
   EXPECT_TRUE(result.ok()) << to_line(result.issue());
-  return result.ok() ? *result : GltfAsset{};
+  return result.ok() ? *result : Asset{};
 }
 
 // ---- nodes
 
 TEST(ReadGltf, GivesNodesAsTheFileHasThem) {
-  const GltfAsset asset = read(small_arm());
+  const Asset asset = read(small_arm());
   ASSERT_EQ(asset.nodes.size(), 4U);
   EXPECT_EQ(asset.nodes[1].name, "lower");
   EXPECT_EQ(asset.nodes[1].label, "lower");
@@ -40,16 +40,16 @@ TEST(ReadGltf, GivesNodesAsTheFileHasThem) {
 TEST(ReadGltf, OrdersParentsBeforeChildrenWhateverTheFileDoes) {
   GlbBuilder b;
   b.root["nodes"] = {Json::object(), {{"children", {0, 3}}}, {{"children", {1}}}, Json::object()};
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   EXPECT_EQ(asset.order, (std::vector<int>{2, 1, 0, 3}));
 }
 
 TEST(ReadGltf, MakesLabelsForUnnamedAndDuplicateNodes) {
   GlbBuilder b;
   b.root["nodes"] = {{{"name", "hand"}}, Json::object(), {{"name", "hand"}}, {{"name", "hand#0"}}, {{"name", ""}}};
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   std::vector<std::string> labels;
-  for (const GltfNode& node : asset.nodes) labels.push_back(node.label);
+  for (const AssetNode& node : asset.nodes) labels.push_back(node.label);
   EXPECT_EQ(labels, (std::vector<std::string>{"hand#0#0", "#1", "hand#2", "hand#0", "#4"}));
   EXPECT_EQ(asset.nodes[0].name, "hand");
 }
@@ -124,7 +124,7 @@ TEST(ReadGltf, KeepsMatricesOfScaleZeroFinite) {
 // ---- skins
 
 TEST(ReadGltf, GivesSkinsAndMarksTheirJoints) {
-  const GltfAsset asset = read(small_arm());
+  const Asset asset = read(small_arm());
   ASSERT_EQ(asset.skins.size(), 1U);
   EXPECT_EQ(asset.skins[0].joints, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(asset.skins[0].skeleton, 0);
@@ -137,7 +137,7 @@ TEST(ReadGltf, TakesIdentityWhereASkinHasNoBindMatrices) {
   GlbBuilder b = small_arm();
   b.root["skins"][0].erase("inverseBindMatrices");
   b.root["skins"][0].erase("skeleton");
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   EXPECT_EQ(asset.skins[0].joint_from_mesh, std::vector<Mat4>(3, Mat4(1.0)));
   EXPECT_EQ(asset.skins[0].skeleton, -1);
 }
@@ -145,17 +145,17 @@ TEST(ReadGltf, TakesIdentityWhereASkinHasNoBindMatrices) {
 // ---- clips
 
 TEST(ReadGltf, GivesClipsWithTheirKeys) {
-  const GltfAsset asset = read(small_arm());
+  const Asset asset = read(small_arm());
   ASSERT_EQ(asset.clips.size(), 2U);
   EXPECT_EQ(asset.clips[0].label, "wave");
-  const GltfChannel& turn = asset.clips[0].channels[0];
+  const AssetChannel& turn = asset.clips[0].channels[0];
   EXPECT_EQ(turn.node, 0);
-  EXPECT_EQ(turn.path, GltfPath::rotation);
-  EXPECT_EQ(turn.interpolation, GltfInterpolation::linear);
+  EXPECT_EQ(turn.path, ChannelPath::rotation);
+  EXPECT_EQ(turn.interpolation, Interpolation::linear);
   EXPECT_EQ(turn.times_s, (std::vector<double>{0.0, 1.0}));
   EXPECT_NEAR(turn.values[4], 0.70710678, 1e-8);
-  const GltfChannel& move = asset.clips[1].channels[0];
-  EXPECT_EQ(move.interpolation, GltfInterpolation::step);
+  const AssetChannel& move = asset.clips[1].channels[0];
+  EXPECT_EQ(move.interpolation, Interpolation::step);
   EXPECT_EQ(move.values, (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 2, 3}));
   EXPECT_EQ(asset.clips[1].first_s, 0.25);
   EXPECT_EQ(asset.clips[1].last_s, 2.0);
@@ -164,14 +164,14 @@ TEST(ReadGltf, GivesClipsWithTheirKeys) {
 TEST(ReadGltf, TakesLinearWhereASamplerDoesNotSay) {
   GlbBuilder b = small_arm();
   b.root["animations"][1]["samplers"][0].erase("interpolation");
-  EXPECT_EQ(read(b).clips[1].channels[0].interpolation, GltfInterpolation::linear);
+  EXPECT_EQ(read(b).clips[1].channels[0].interpolation, Interpolation::linear);
 }
 
 TEST(ReadGltf, LeavesOutWhatMovesNoNode) {
   GlbBuilder b = small_arm();
   b.root["animations"][0]["channels"][0]["target"]["path"] = "weights";
   b.root["animations"][1]["channels"][0]["target"].erase("node");
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   ASSERT_EQ(asset.clips.size(), 2U);
   EXPECT_TRUE(asset.clips[0].channels.empty());
   EXPECT_TRUE(asset.clips[1].channels.empty());
@@ -192,7 +192,7 @@ TEST(ReadGltf, LeavesOutChannelsWithoutKeys) {
   GlbBuilder b = small_arm();
   b.root["accessors"][1]["count"] = 0;
   b.root["accessors"][2]["count"] = 0;
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   EXPECT_TRUE(asset.clips[0].channels.empty());
   EXPECT_EQ(asset.clips[1].channels.size(), 1U);
 }
@@ -220,7 +220,7 @@ TEST(ReadGltf, ReadsRotationsAsNormalisedIntegers) {
                          b.add(row(std::int16_t{}, 32767), 5122, "VEC4", 4, true),
                          b.add(row(std::uint16_t{}, 65535), 5123, "VEC4", 4, true)};
   for (std::size_t i = 0; i < 4; ++i) b.add_channel(i, 0, "rotation", time, outputs[i]);
-  const GltfAsset asset = read(b);
+  const Asset asset = read(b);
   const double tolerance[] = {4e-3, 2e-3, 2e-5, 1e-5};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(asset.clips[i].channels[0].values[2], z, tolerance[i]);
@@ -279,7 +279,7 @@ RC_GTEST_PROP(ReadGltfProperty, KeysComeBackAsTheyAre, ()) {
   b.add_channel(0, 0, "translation", b.add_scalars(times), b.add_vec3(values));
   const auto result = parse_glb(b.glb());
   RC_ASSERT(result.ok());
-  const GltfChannel& channel = result->clips[0].channels[0];
+  const AssetChannel& channel = result->clips[0].channels[0];
   RC_ASSERT(channel.times_s == std::vector<double>(times.begin(), times.end()));
   RC_ASSERT(channel.values == std::vector<double>(values.begin(), values.end()));
 }
@@ -287,7 +287,7 @@ RC_GTEST_PROP(ReadGltfProperty, KeysComeBackAsTheyAre, ()) {
 TEST(ReadGltf, ReadsTheSmallestFile) {
   const auto result = parse_glb(pack_glb("{\"asset\":{\"version\":\"2.0\"}}", {}));
   ASSERT_TRUE(result.ok());
-  EXPECT_EQ(*result, GltfAsset{});
+  EXPECT_EQ(*result, Asset{});
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <limits>
 #include <set>
 
+#include "generator/asset/sample.h"
 #include "generator/core/detmath.h"
 #include "generator/gltf/read.h"
-#include "generator/gltf/sample.h"
 #include "generator/motion/kinematics.h"
 #include "tests/gltf/glb_builder.h"
 
@@ -67,12 +67,12 @@ Motion swinging(const Character& character, int frames) {
   return out;
 }
 
-GltfAsset written(const Character& character, const Motion& motion) {
+Asset written(const Character& character, const Motion& motion) {
   const auto bytes = write_glb(character, motion, {});
   EXPECT_TRUE(bytes.ok()) << to_line(bytes.issue());
-  const auto asset = bytes.ok() ? parse_glb(*bytes) : Result<GltfAsset>(bytes.issue());
+  const auto asset = bytes.ok() ? parse_glb(*bytes) : Result<Asset>(bytes.issue());
   EXPECT_TRUE(asset.ok()) << to_line(asset.issue());
-  return asset.ok() ? *asset : GltfAsset{};
+  return asset.ok() ? *asset : Asset{};
 }
 
 Json document_of(const std::vector<std::byte>& glb) {
@@ -82,7 +82,7 @@ Json document_of(const std::vector<std::byte>& glb) {
   return Json::parse(text.substr(20, length));
 }
 
-std::vector<Rigid> world_of(const GltfAsset& asset, const std::vector<Trs>& local) {
+std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Rigid> out(local.size());
   for (const int node : asset.order) {
     const auto i = static_cast<std::size_t>(node);
@@ -96,7 +96,7 @@ std::vector<Rigid> world_of(const GltfAsset& asset, const std::vector<Trs>& loca
 // Node by node and frame by frame, what a viewer shows is what the kinematics say.
 void expect_same_places(const Character& character) {
   const Motion motion = swinging(character, 40);
-  const GltfAsset asset = written(character, motion);
+  const Asset asset = written(character, motion);
   ASSERT_EQ(asset.nodes.size(), character.joints().size());
   ASSERT_EQ(asset.clips.size(), 1U);
   std::vector<Rigid> world(character.joints().size());
@@ -116,7 +116,7 @@ TEST(WriteGlb, PlacesEveryJointOfAHumanAsTheMotionDoes) { expect_same_places(hum
 TEST(WriteGlb, PlacesEveryJointOfAMechAsTheMotionDoes) { expect_same_places(mech()); }
 
 TEST(WriteGlb, NamesNodesLikeJoints) {
-  const GltfAsset asset = written(human(), Motion{});
+  const Asset asset = written(human(), Motion{});
   for (std::size_t i = 0; i < asset.nodes.size(); ++i) {
     EXPECT_EQ(asset.nodes[i].name, human().joints()[i].name);
     EXPECT_EQ(asset.nodes[i].parent, human().joints()[i].parent);
@@ -124,18 +124,18 @@ TEST(WriteGlb, NamesNodesLikeJoints) {
 }
 
 TEST(WriteGlb, WithoutFramesShowsTheRestPose) {
-  const GltfAsset asset = written(human(), Motion{});
+  const Asset asset = written(human(), Motion{});
   EXPECT_TRUE(asset.clips.empty());
   EXPECT_EQ(asset.nodes[0].rest.translation, human().rest_root().p_m);
 }
 
 TEST(WriteGlb, HasAKeyForEveryFrame) {
   const Motion motion = swinging(mech(), 7);
-  const GltfAsset asset = written(mech(), motion);
+  const Asset asset = written(mech(), motion);
   std::size_t moving = 1;  // the root has two channels, all others one
-  for (const GltfChannel& channel : asset.clips[0].channels) {
+  for (const AssetChannel& channel : asset.clips[0].channels) {
     EXPECT_EQ(channel.times_s.size(), 7U);
-    EXPECT_EQ(channel.interpolation, GltfInterpolation::linear);
+    EXPECT_EQ(channel.interpolation, Interpolation::linear);
     EXPECT_EQ(channel.times_s[6], static_cast<double>(static_cast<float>(6.0 / 60.0)));
   }
   for (const Joint& joint : mech().joints()) moving += joint.kind == JointKind::root ? 1 : coord_size(joint.kind) > 0;
@@ -143,9 +143,9 @@ TEST(WriteGlb, HasAKeyForEveryFrame) {
 }
 
 TEST(WriteGlb, KeepsTheSignsOfQuaternionsTogether) {
-  const GltfAsset asset = written(human(), swinging(human(), 60));
-  for (const GltfChannel& channel : asset.clips[0].channels) {
-    if (channel.path != GltfPath::rotation) continue;
+  const Asset asset = written(human(), swinging(human(), 60));
+  for (const AssetChannel& channel : asset.clips[0].channels) {
+    if (channel.path != ChannelPath::rotation) continue;
     for (std::size_t i = 4; i < channel.values.size(); i += 4) {
       double dot = 0.0;
       for (std::size_t c = 0; c < 4; ++c) dot += channel.values[i + c] * channel.values[i + c - 4];
@@ -286,7 +286,7 @@ RC_GTEST_PROP(WriteGlbProperty, HingeSpeedsSurvive, ()) {
     angle += steps[static_cast<std::size_t>(frame)] / 100.0;
     motion.row(frame)[static_cast<std::size_t>(human().joints()[hinge].coord)] = angle;
   }
-  const GltfAsset asset = written(human(), motion);
+  const Asset asset = written(human(), motion);
   for (const ChannelSpeeds& channel : joint_speeds(asset.clips[0])) {
     if (channel.node != static_cast<int>(hinge)) continue;
     for (std::size_t i = 0; i < 7; ++i)

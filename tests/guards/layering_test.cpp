@@ -24,7 +24,9 @@ const std::vector<Layer> kLayers = {
     {"generator/timeline",
      {"generator/core", "generator/character", "generator/world", "generator/motion", "generator/actions"}},
     {"generator/dynamics", {"generator/core", "generator/character", "generator/world", "generator/motion"}},
-    {"generator/gltf", {"generator/core", "generator/character", "generator/motion"}},
+    {"generator/asset", {"generator/core"}},
+    {"generator/gltf", {"generator/core", "generator/asset", "generator/character", "generator/motion"}},
+    {"generator/mocap", {"generator/core", "generator/asset"}},
     {"generator", {"generator/*"}},  // spec, stage, generate: what the other folders see
     {"checks", {"generator/*"}},
     {"corpus", {"generator/*", "checks"}},

@@ -1,4 +1,4 @@
-#include "generator/gltf/sample.h"
+#include "generator/asset/sample.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -14,22 +14,22 @@ const Vec3 kZ(0, 0, 1);
 void push(std::vector<double>& values, const Quat& q) { values.insert(values.end(), {q.x, q.y, q.z, q.w}); }
 
 // Rotations about z by the given angles, a key every second.
-GltfChannel turns(const std::vector<double>& angles_rad, GltfInterpolation interpolation) {
-  GltfChannel out;
-  out.path = GltfPath::rotation;
+AssetChannel turns(const std::vector<double>& angles_rad, Interpolation interpolation) {
+  AssetChannel out;
+  out.path = ChannelPath::rotation;
   out.interpolation = interpolation;
   for (std::size_t i = 0; i < angles_rad.size(); ++i) {
     out.times_s.push_back(static_cast<double>(i));
-    if (interpolation == GltfInterpolation::cubic_spline) out.values.resize(out.values.size() + 4);
+    if (interpolation == Interpolation::cubic_spline) out.values.resize(out.values.size() + 4);
     push(out.values, axis_angle(kZ, angles_rad[i]));
-    if (interpolation == GltfInterpolation::cubic_spline) out.values.resize(out.values.size() + 4);
+    if (interpolation == Interpolation::cubic_spline) out.values.resize(out.values.size() + 4);
   }
   return out;
 }
 
-GltfChannel moves(const std::vector<double>& values, GltfInterpolation interpolation) {
-  const std::size_t rows = interpolation == GltfInterpolation::cubic_spline ? 9 : 3;
-  GltfChannel out;
+AssetChannel moves(const std::vector<double>& values, Interpolation interpolation) {
+  const std::size_t rows = interpolation == Interpolation::cubic_spline ? 9 : 3;
+  AssetChannel out;
   out.interpolation = interpolation;
   out.values = values;
   for (std::size_t i = 0; i < values.size() / rows; ++i) out.times_s.push_back(static_cast<double>(i));
@@ -39,27 +39,27 @@ GltfChannel moves(const std::vector<double>& values, GltfInterpolation interpola
 double angle_between(const Quat& a, const Quat& b) { return rotation_angle(glm::conjugate(a) * b); }
 
 TEST(Sample, LinearVectorsGoStraight) {
-  const GltfChannel c = moves({0, 0, 0, 2, 4, 8}, GltfInterpolation::linear);
+  const AssetChannel c = moves({0, 0, 0, 2, 4, 8}, Interpolation::linear);
   EXPECT_EQ(sample_vector(c, 0.25), Vec3(0.5, 1, 2));
 }
 
 TEST(Sample, LinearRotationsTurnEvenly) {
-  const GltfChannel c = turns({0.0, 1.0}, GltfInterpolation::linear);
+  const AssetChannel c = turns({0.0, 1.0}, Interpolation::linear);
   for (const double t : {0.0, 0.1, 0.5, 0.9, 1.0})
     EXPECT_NEAR(angle_between(sample_rotation(c, t), axis_angle(kZ, t)), 0.0, 1e-14) << t;
 }
 
 TEST(Sample, StepHoldsUntilTheNextKey) {
-  const GltfChannel c = moves({0, 0, 0, 1, 1, 1}, GltfInterpolation::step);
+  const AssetChannel c = moves({0, 0, 0, 1, 1, 1}, Interpolation::step);
   EXPECT_EQ(sample_vector(c, 0.999), Vec3(0.0));
   EXPECT_EQ(sample_vector(c, 1.0), Vec3(1.0));
-  const GltfChannel r = turns({0.0, 1.0}, GltfInterpolation::step);
+  const AssetChannel r = turns({0.0, 1.0}, Interpolation::step);
   EXPECT_EQ(sample_rotation(r, 0.999), kNoRotation);
 }
 
 // By hand from appendix C of the standard, at t = 1/2 with a key distance of 2 s: v0/2 + b0/4 + v1/2 - a1/4.
 TEST(Sample, SplinesFollowTheStandard) {
-  GltfChannel c = moves({9, 9, 9, 1, 0, 0, 8, 0, 0, 4, 0, 0, 3, 0, 0, 9, 9, 9}, GltfInterpolation::cubic_spline);
+  AssetChannel c = moves({9, 9, 9, 1, 0, 0, 8, 0, 0, 4, 0, 0, 3, 0, 0, 9, 9, 9}, Interpolation::cubic_spline);
   c.times_s = {1.0, 3.0};
   EXPECT_NEAR(sample_vector(c, 2.0).x, 0.5 * 1 + 0.25 * 8 + 0.5 * 3 - 0.25 * 4, 1e-15);
   EXPECT_EQ(sample_vector(c, 1.0).x, 1.0);
@@ -67,37 +67,37 @@ TEST(Sample, SplinesFollowTheStandard) {
 }
 
 TEST(Sample, SplinesOfRotationsAreUnit) {
-  GltfChannel c = turns({0.0, 2.0, -1.0}, GltfInterpolation::cubic_spline);
+  AssetChannel c = turns({0.0, 2.0, -1.0}, Interpolation::cubic_spline);
   c.values[8] = 3.0;  // an out-tangent
   for (double t = 0.0; t <= 2.0; t += 0.01) EXPECT_NEAR(glm::length(sample_rotation(c, t)), 1.0, 1e-15);
 }
 
 TEST(Sample, ASplineThroughNoRotationStaysAtTheKeyBefore) {
-  GltfChannel c = turns({0.0, 0.0}, GltfInterpolation::cubic_spline);
+  AssetChannel c = turns({0.0, 0.0}, Interpolation::cubic_spline);
   c.values[4 * 4 + 3] = -1.0;  // from q to -q without tangents: 0 in the middle
   EXPECT_EQ(sample_rotation(c, 0.5), kNoRotation);
 }
 
 TEST(Sample, OutsideOfTheKeysTheNearestOneHolds) {
-  for (const auto interpolation : {GltfInterpolation::step, GltfInterpolation::linear}) {
-    GltfChannel c = moves({1, 1, 1, 2, 2, 2}, interpolation);
+  for (const auto interpolation : {Interpolation::step, Interpolation::linear}) {
+    AssetChannel c = moves({1, 1, 1, 2, 2, 2}, interpolation);
     c.times_s = {5.0, 6.0};
     EXPECT_EQ(sample_vector(c, -1.0), Vec3(1.0));
     EXPECT_EQ(sample_vector(c, 100.0), Vec3(2.0));
   }
-  EXPECT_EQ(sample_vector(moves({1, 2, 3}, GltfInterpolation::linear), 0.5), Vec3(1, 2, 3));
+  EXPECT_EQ(sample_vector(moves({1, 2, 3}, Interpolation::linear), 0.5), Vec3(1, 2, 3));
 }
 
 TEST(Sample, APoseIsTheRestWithWhatTheClipMoves) {
-  GltfAsset asset;
+  Asset asset;
   asset.nodes.resize(3);
   asset.nodes[0].rest.translation = {1, 2, 3};
   asset.nodes[2].rest.scale = {4, 4, 4};
-  GltfClip clip;
-  clip.channels = {turns({0.0, 1.0}, GltfInterpolation::linear), moves({0, 0, 0, 2, 2, 2}, GltfInterpolation::linear)};
+  AssetClip clip;
+  clip.channels = {turns({0.0, 1.0}, Interpolation::linear), moves({0, 0, 0, 2, 2, 2}, Interpolation::linear)};
   clip.channels[0].node = 2;
   clip.channels[1].node = 1;
-  clip.channels[1].path = GltfPath::scale;
+  clip.channels[1].path = ChannelPath::scale;
   const std::vector<Trs> out = pose(asset, clip, 0.5);
   EXPECT_EQ(out[0], asset.nodes[0].rest);
   EXPECT_EQ(out[1].scale, Vec3(1.0));
@@ -108,9 +108,8 @@ TEST(Sample, APoseIsTheRestWithWhatTheClipMoves) {
 // ---- speeds
 
 TEST(JointSpeeds, AreAngleOverTimeBetweenKeys) {
-  GltfClip clip;
-  clip.channels = {moves({0, 0, 0, 1, 1, 1}, GltfInterpolation::linear),
-                   turns({0.0, 1.0, 0.5}, GltfInterpolation::linear)};
+  AssetClip clip;
+  clip.channels = {moves({0, 0, 0, 1, 1, 1}, Interpolation::linear), turns({0.0, 1.0, 0.5}, Interpolation::linear)};
   clip.channels[1].node = 7;
   clip.channels[1].times_s = {0.0, 0.5, 2.0};
   const auto speeds = joint_speeds(clip);
@@ -126,8 +125,8 @@ TEST(JointSpeeds, AreAngleOverTimeBetweenKeys) {
 }
 
 TEST(JointSpeeds, ATurnInNoTimeIsInfinitelyFast) {
-  GltfClip clip;
-  clip.channels = {turns({0.0, 0.0, 1.0}, GltfInterpolation::linear)};
+  AssetClip clip;
+  clip.channels = {turns({0.0, 0.0, 1.0}, Interpolation::linear)};
   clip.channels[0].times_s = {1.0, 1.0, 1.0};
   for (double& v : clip.channels[0].values) v = -v;  // a sign is no turn
   clip.channels[0].values[3] = 1.0;
@@ -137,8 +136,8 @@ TEST(JointSpeeds, ATurnInNoTimeIsInfinitelyFast) {
 }
 
 TEST(JointSpeeds, OfASplineAreTakenInsideOfTheKeysToo) {
-  GltfClip clip;
-  clip.channels = {turns({0.0, 1.0}, GltfInterpolation::cubic_spline)};
+  AssetClip clip;
+  clip.channels = {turns({0.0, 1.0}, Interpolation::cubic_spline)};
   const auto speeds = joint_speeds(clip)[0];
   ASSERT_EQ(speeds.between_keys.size(), 1U);
   ASSERT_EQ(speeds.within_keys.size(), 8U);
@@ -156,11 +155,11 @@ TEST(JointSpeeds, OfASplineAreTakenInsideOfTheKeysToo) {
 
 // ---- laws
 
-GltfChannel any_turns() {
+AssetChannel any_turns() {
   const auto angles = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::vector<int>>>(
       rc::gen::container<std::vector<int>>(3, rc::gen::inRange(-300, 300))));
-  GltfChannel out;
-  out.path = GltfPath::rotation;
+  AssetChannel out;
+  out.path = ChannelPath::rotation;
   for (const std::vector<int>& a : angles) {
     out.times_s.push_back(static_cast<double>(out.times_s.size()) / 3.0);
     push(out.values, from_rotation_vector(Vec3(a[0], a[1], a[2]) / 100.0));
@@ -170,9 +169,9 @@ GltfChannel any_turns() {
 
 // q and -q are one rotation. Almost every real file flips signs between keys.
 RC_GTEST_PROP(SampleProperty, SignsOfKeysDoNotMatter, ()) {
-  GltfClip clip;
+  AssetClip clip;
   clip.channels = {any_turns()};
-  GltfClip flipped = clip;
+  AssetClip flipped = clip;
   std::vector<double>& values = flipped.channels[0].values;
   for (std::size_t key = 0; key < values.size() / 4; ++key)
     if (*rc::gen::arbitrary<bool>())
@@ -190,7 +189,7 @@ RC_GTEST_PROP(SampleProperty, SignsOfKeysDoNotMatter, ()) {
 }
 
 RC_GTEST_PROP(SampleProperty, KeysAreMetAtTheirTimes, ()) {
-  const GltfChannel c = any_turns();
+  const AssetChannel c = any_turns();
   for (std::size_t key = 0; key < c.times_s.size(); ++key) {
     const double* v = c.values.data() + 4 * key;
     RC_ASSERT(angle_between(sample_rotation(c, c.times_s[key]), Quat(v[3], v[0], v[1], v[2])) < 1e-12);
@@ -199,7 +198,7 @@ RC_GTEST_PROP(SampleProperty, KeysAreMetAtTheirTimes, ()) {
 
 // Between two keys a linear rotation turns at the speed that joint_speeds tells, everywhere.
 RC_GTEST_PROP(SampleProperty, LinearRotationsKeepTheirSpeed, ()) {
-  GltfClip clip;
+  AssetClip clip;
   clip.channels = {any_turns()};
   const ChannelSpeeds speeds = joint_speeds(clip)[0];
   for (const SpeedInterval& part : speeds.between_keys) {

@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "generator/gltf/asset.h"
+#include "generator/asset/asset.h"
 
 namespace contort {
 
 // The channel's value at a time; before the first key and after the last one, theirs. Linear rotations take the shorter
 // arc, splines are normalised, both by the glTF standard (appendix C). The channel must be a rotation, or none.
-Quat sample_rotation(const GltfChannel& channel, double t_s);
-Vec3 sample_vector(const GltfChannel& channel, double t_s);
+Quat sample_rotation(const AssetChannel& channel, double t_s);
+Vec3 sample_vector(const AssetChannel& channel, double t_s);
 
 // parent_from_node of every node, in the asset's order of nodes: at rest, except where the clip moves it.
-std::vector<Trs> pose(const GltfAsset& asset, const GltfClip& clip, double t_s);
+std::vector<Trs> pose(const Asset& asset, const AssetClip& clip, double t_s);
 
 struct SpeedInterval {
   double t0_s = 0.0;
@@ -34,6 +34,6 @@ struct ChannelSpeeds {
 };
 
 // One entry per rotation channel, in the clip's order.
-std::vector<ChannelSpeeds> joint_speeds(const GltfClip& clip);
+std::vector<ChannelSpeeds> joint_speeds(const AssetClip& clip);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-#include "generator/gltf/sample.h"
+#include "generator/asset/sample.h"
 
 #include <algorithm>
 #include <array>
@@ -37,8 +37,8 @@ KeySpan locate(const std::vector<double>& times_s, double t_s) {
 enum Tangent : std::size_t { in_tangent, key_value, out_tangent };
 
 // A row of a spline's key, or the only row of another's.
-Row row_at(const GltfChannel& channel, std::size_t key, Tangent which) {
-  const bool is_spline = channel.interpolation == GltfInterpolation::cubic_spline;
+Row row_at(const AssetChannel& channel, std::size_t key, Tangent which) {
+  const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
   const std::size_t size = row_size(channel.path);
   const std::size_t first = size * (is_spline ? 3 * key + which : key);
   Row out{};
@@ -46,7 +46,7 @@ Row row_at(const GltfChannel& channel, std::size_t key, Tangent which) {
   return out;
 }
 
-Row spline(const GltfChannel& channel, const KeySpan& span) {
+Row spline(const AssetChannel& channel, const KeySpan& span) {
   const double t = span.fraction;
   const double t2 = t * t;
   const double t3 = t2 * t;
@@ -71,8 +71,8 @@ Quat unit_or_key(const Row& xyzw, const Quat& key) {
   return length > 1e-12 ? q / length : key;
 }
 
-bool holds_left_key(const GltfChannel& channel, const KeySpan& span) {
-  return span.left == span.right || channel.interpolation == GltfInterpolation::step;
+bool holds_left_key(const AssetChannel& channel, const KeySpan& span) {
+  return span.left == span.right || channel.interpolation == Interpolation::step;
 }
 
 // From a to b, the short way. conj(a) * b has the angle whatever the signs of a and b are.
@@ -83,7 +83,7 @@ SpeedInterval interval(double t0_s, double t1_s, const Quat& a, const Quat& b) {
   return {t0_s, t1_s, angle > kSameRotation_rad ? std::numeric_limits<double>::infinity() : 0.0};
 }
 
-void add_spline_parts(const GltfChannel& channel, std::size_t key, std::vector<SpeedInterval>& out) {
+void add_spline_parts(const AssetChannel& channel, std::size_t key, std::vector<SpeedInterval>& out) {
   const double t0 = channel.times_s[key];
   const double duration = channel.times_s[key + 1] - t0;
   if (!(duration > 0.0)) return;
@@ -100,56 +100,56 @@ void add_spline_parts(const GltfChannel& channel, std::size_t key, std::vector<S
   }
 }
 
-ChannelSpeeds channel_speeds(const GltfChannel& channel, int index) {
+ChannelSpeeds channel_speeds(const AssetChannel& channel, int index) {
   ChannelSpeeds out{index, channel.node, {}, {}};
   for (std::size_t key = 0; key + 1 < channel.times_s.size(); ++key) {
     out.between_keys.push_back(interval(channel.times_s[key], channel.times_s[key + 1],
                                         to_rotation(row_at(channel, key, key_value)),
                                         to_rotation(row_at(channel, key + 1, key_value))));
-    if (channel.interpolation == GltfInterpolation::cubic_spline) add_spline_parts(channel, key, out.within_keys);
+    if (channel.interpolation == Interpolation::cubic_spline) add_spline_parts(channel, key, out.within_keys);
   }
   return out;
 }
 
 }  // namespace
 
-Quat sample_rotation(const GltfChannel& channel, double t_s) {
-  CONTORT_ASSERT(channel.path == GltfPath::rotation && !channel.times_s.empty());
+Quat sample_rotation(const AssetChannel& channel, double t_s) {
+  CONTORT_ASSERT(channel.path == ChannelPath::rotation && !channel.times_s.empty());
   const KeySpan span = locate(channel.times_s, t_s);
   const Quat left = to_rotation(row_at(channel, span.left, key_value));
   if (holds_left_key(channel, span)) return left;
-  if (channel.interpolation == GltfInterpolation::cubic_spline) return unit_or_key(spline(channel, span), left);
+  if (channel.interpolation == Interpolation::cubic_spline) return unit_or_key(spline(channel, span), left);
   return slerp_short(left, to_rotation(row_at(channel, span.right, key_value)), span.fraction);
 }
 
-Vec3 sample_vector(const GltfChannel& channel, double t_s) {
-  CONTORT_ASSERT(channel.path != GltfPath::rotation && !channel.times_s.empty());
+Vec3 sample_vector(const AssetChannel& channel, double t_s) {
+  CONTORT_ASSERT(channel.path != ChannelPath::rotation && !channel.times_s.empty());
   const KeySpan span = locate(channel.times_s, t_s);
   const Vec3 left = to_vector(row_at(channel, span.left, key_value));
   if (holds_left_key(channel, span)) return left;
-  if (channel.interpolation == GltfInterpolation::cubic_spline) return to_vector(spline(channel, span));
+  if (channel.interpolation == Interpolation::cubic_spline) return to_vector(spline(channel, span));
   const Vec3 right = to_vector(row_at(channel, span.right, key_value));
   return (1.0 - span.fraction) * left + span.fraction * right;
 }
 
-std::vector<Trs> pose(const GltfAsset& asset, const GltfClip& clip, double t_s) {
+std::vector<Trs> pose(const Asset& asset, const AssetClip& clip, double t_s) {
   std::vector<Trs> out;
-  for (const GltfNode& node : asset.nodes) out.push_back(node.rest);
-  for (const GltfChannel& channel : clip.channels) {
+  for (const AssetNode& node : asset.nodes) out.push_back(node.rest);
+  for (const AssetChannel& channel : clip.channels) {
     Trs& trs = out[static_cast<std::size_t>(channel.node)];
     switch (channel.path) {
-      case GltfPath::translation: trs.translation = sample_vector(channel, t_s); break;
-      case GltfPath::rotation: trs.rotation = sample_rotation(channel, t_s); break;
-      case GltfPath::scale: trs.scale = sample_vector(channel, t_s); break;
+      case ChannelPath::translation: trs.translation = sample_vector(channel, t_s); break;
+      case ChannelPath::rotation: trs.rotation = sample_rotation(channel, t_s); break;
+      case ChannelPath::scale: trs.scale = sample_vector(channel, t_s); break;
     }
   }
   return out;
 }
 
-std::vector<ChannelSpeeds> joint_speeds(const GltfClip& clip) {
+std::vector<ChannelSpeeds> joint_speeds(const AssetClip& clip) {
   std::vector<ChannelSpeeds> out;
   for (std::size_t i = 0; i < clip.channels.size(); ++i)
-    if (clip.channels[i].path == GltfPath::rotation)
+    if (clip.channels[i].path == ChannelPath::rotation)
       out.push_back(channel_speeds(clip.channels[i], static_cast<int>(i)));
   return out;
 }
