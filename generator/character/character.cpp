@@ -126,7 +126,10 @@ class CharacterBuilder {
     for (const auto step : {&CharacterBuilder::check_choice, &CharacterBuilder::add_slots,
                             &CharacterBuilder::add_attachments, &CharacterBuilder::add_pairs})
       if (const Result<Done> done = (this->*step)(); !done) return done.issue();
-    finish();
+    take_over();
+    if (const Result<Done> done = add_control_groups(); !done) return done.issue();
+    set_rest();
+    set_hash();
     return std::move(out_);
   }
 
@@ -239,7 +242,7 @@ class CharacterBuilder {
     return -1;
   }
 
-  void finish() {
+  void take_over() {
     out_.name_ = desc_->name;
     out_.joints_ = std::move(assembly_.joints);
     out_.parts_ = std::move(assembly_.parts);
@@ -250,8 +253,6 @@ class CharacterBuilder {
     for (const ActionDesc& action : library_.actions)
       if (std::any_of(out_.parts_.begin(), out_.parts_.end(), [&](const Part& part) { return is_for(action, part); }))
         out_.actions_.push_back(action);
-    set_rest();
-    set_hash();
   }
 
   void set_rest() {
@@ -266,6 +267,28 @@ class CharacterBuilder {
     for (const Collider& c : out_.colliders_)
       lowest = std::min(lowest, std::visit(LowestPoint{world[static_cast<std::size_t>(c.joint)]}, c.shape));
     out_.rest_root_ = {kNoRotation, Vec3(0.0, -lowest, 0.0)};
+  }
+
+  // Eight handles are what control solves for at once.
+  Result<Done> add_control_groups() {
+    for (std::size_t i = 0; i < desc_->control_groups.size(); ++i) {
+      const ControlGroupDesc& desc = desc_->control_groups[i];
+      JointGroup group{desc.name, {}, desc.greatest};
+      int handles = 0;
+      for (const std::string& name : desc.joints) {
+        const int found = out_.find_joint(name);
+        if (found < 0) continue;
+        const JointKind kind = out_.joints_[static_cast<std::size_t>(found)].kind;
+        handles += kind == JointKind::root ? 4 : kind == JointKind::ball ? 2 : 1;
+        group.joints.push_back(found);
+      }
+      if (handles > 8)
+        return in_file(desc_->name,
+                       {"character.too_many_handles", "/control_groups/" + std::to_string(i) + "/joints",
+                        "\"" + desc.name + "\" has " + std::to_string(handles) + " freedoms, allowed are 8"});
+      if (!group.joints.empty()) out_.control_groups_.push_back(std::move(group));
+    }
+    return Done{};
   }
 
   void set_hash() {
@@ -286,6 +309,10 @@ class CharacterBuilder {
     }
     for (const Part& part : out_.parts_) add_chains(hash, part);
     for (const ActionDesc& action : out_.actions_) hash.add(print_action(action));
+    for (const JointGroup& group : out_.control_groups_) {
+      hash.add(group.greatest);
+      for (const int joint : group.joints) hash.add(static_cast<std::uint64_t>(joint));
+    }
     out_.hash_ = hash.value();
   }
 

@@ -81,6 +81,13 @@ struct Socket {
   Rigid joint_from_socket;
 };
 
+// A declared group of dynamic control.
+struct JointGroup {
+  std::string name;
+  std::vector<int> joints;
+  double greatest = 0.0;  // rad/s^2, m/s^2
+};
+
 struct ReachChain {
   int upper = 0;       // The ball joint, or the first of three hinges (upper, upper+1, upper+2).
   int upper_last = 0;  // == upper for a ball.
@@ -150,6 +157,9 @@ class Character {
   // Actions of files that are for one of the parts, in the library's order.
   std::span<const ActionDesc> actions() const { return actions_; }
 
+  // As its description declares them; empty: dynamics finds groups from the parts.
+  std::span<const JointGroup> control_groups() const { return control_groups_; }
+
   // Over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
 
@@ -173,6 +183,7 @@ class Character {
   std::vector<JudgedPair> judged_pairs_;
   std::vector<double> rest_coords_;
   std::vector<ActionDesc> actions_;
+  std::vector<JointGroup> control_groups_;
   int coord_count_ = 0;
   Rigid rest_root_;
   std::uint64_t hash_ = 0;
@@ -182,7 +193,7 @@ class Character {
 bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
-// .unknown_object, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root and those of check_part; pointers
+// .unknown_object, .too_many_handles, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root and those of check_part; pointers
 // go into the CharacterChoice
 // ("/parts/arm_left"), or, with the file's name in the text, into the description at fault.
 Result<Character> build_character(const CharacterChoice& choice, const Library& library);

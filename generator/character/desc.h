@@ -146,12 +146,21 @@ struct AllowedPairDesc {  // Colliders that may touch: "slot/collider", or "obje
   bool operator==(const AllowedPairDesc&) const = default;
 };
 
+// Joints that dynamic control uses together (docs/dynamics.md). "root" stands for where the hips are and their pitch.
+struct ControlGroupDesc {
+  std::string name;                 // "arms"
+  std::vector<std::string> joints;  // "arm_left/shoulder"; a ball counts as two, the root as four, eight at most
+  double greatest = 4.0;            // acceleration that control may add, rad/s^2 (root and travels: also m/s^2), > 0
+  bool operator==(const ControlGroupDesc&) const = default;
+};
+
 struct CharacterDesc {
   std::string name;
   std::string help;
   std::vector<SlotDesc> slots;  // The carrying slot comes first.
   std::vector<AllowedPairDesc> allowed_pairs;
   std::vector<std::string> objects;  // Objects that may be attached.
+  std::vector<ControlGroupDesc> control_groups;  // In the order of control; none: found from the parts.
   bool operator==(const CharacterDesc&) const = default;
 };
 

@@ -150,6 +150,15 @@ void fields(V& v, const AllowedPairDesc*) {
 }
 
 template <class V>
+void fields(V& v, const ControlGroupDesc*) {
+  v.field("name", &ControlGroupDesc::name, kName, "For reports.");
+  v.field("joints", &ControlGroupDesc::joints, {.max_count = 8, .text = json_fields::Text::label, .required = true},
+          "\"slot/joint\", or \"root\"; those of parts that are swapped out are passed over.");
+  v.field("greatest", &ControlGroupDesc::greatest, {.low = 1e-3, .high = 1000},
+          "Acceleration that control may add, rad/s^2 or m/s^2.");
+}
+
+template <class V>
 void fields(V& v, const CharacterDesc*) {
   v.constant("format", "contort.character/1");
   v.field("name", &CharacterDesc::name, kName, "Unique name.");
@@ -158,13 +167,16 @@ void fields(V& v, const CharacterDesc*) {
           "The root slot first; carriers before what they carry.");
   v.field("allowed_pairs", &CharacterDesc::allowed_pairs, {.max_count = 1000}, "Contacts that are no fault.");
   v.field("objects", &CharacterDesc::objects, {.max_count = 64}, "Objects that may be attached.");
+  v.field("control_groups", &CharacterDesc::control_groups, {.max_count = 16},
+          "What dynamic control uses together, in its order; none: found from the parts.");
 }
 
 template <class V>
 void fields(V& v, const KeyPoseDesc*) {
   v.field("at", &KeyPoseDesc::at, {.low = 0, .high = 1, .required = true}, "Share of the period, above 0.");
   v.field("ease", &KeyPoseDesc::ease, {.names = kEases}, "Of the way from the key before.");
-  v.field("pose", &KeyPoseDesc::pose, {.max_count = 64, .required = true}, "Angles and travels, as parameters of `pose`.");
+  v.field("pose", &KeyPoseDesc::pose, {.max_count = 64, .required = true},
+          "Angles and travels, as parameters of `pose`.");
 }
 
 template <class V>

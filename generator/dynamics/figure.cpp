@@ -127,18 +127,44 @@ class FigureBuilder {
       if (roles_[p] == Role::trunk)
         add_handles(figure, part.first_joint, part.first_joint + part.joint_count - 1, 8, group.handles);
     }
-    for (const Leg& leg : legs_)
-      for (int j = joint(character_.parts()[at(leg.part)].first_joint).parent; j > 0; j = joint(j).parent)
-        group.moves_feet = group.moves_feet || roles_[at(part_of(j))] == Role::trunk;
+    for (const Handle& handle : group.handles) group.moves_feet = group.moves_feet || carries_feet(handle.link);
     return group;
   }
 
+  // Where hips are, and their pitch.
+  static void add_root_handles(std::vector<Handle>& out) {
+    for (const int dof : {0, 1, 2, 3}) out.push_back({0, dof, Vec3(0.0), false});
+  }
+
+  // Whether feet would move along: some leg hangs on the joint.
+  bool carries_feet(int moved) const {
+    return std::ranges::any_of(legs_, [&](const Leg& leg) {
+      int j = joint(character_.parts()[at(leg.part)].first_joint).parent;
+      while (j > moved) j = joint(j).parent;
+      return j == moved;
+    });
+  }
+
+  void add_declared(const JointGroup& declared, DynamicFigure& figure) const {
+    ControlGroup group{declared.name, {}, declared.greatest, false};
+    for (const int j : declared.joints) {
+      if (j == 0)
+        add_root_handles(group.handles);
+      else
+        add_handles(figure, j, j, 2, group.handles);
+      group.moves_feet = group.moves_feet || carries_feet(j);
+    }
+    figure.groups.push_back(std::move(group));
+  }
+
   void add_groups(DynamicFigure& figure) const {
+    for (const JointGroup& declared : character_.control_groups()) add_declared(declared, figure);
+    if (!figure.groups.empty()) return;
     ControlGroup arms = limbs(figure, Role::arm, "arms");
     // Without arms a head and a tail swing.
     if (arms.handles.empty()) arms = limbs(figure, Role::other, "limbs");
     ControlGroup lower{"lower_body", {}, kGreatestLower, true};
-    for (const int dof : {0, 1, 2, 3}) lower.handles.push_back({0, dof, Vec3(0.0), false});
+    add_root_handles(lower.handles);
     if (!arms.handles.empty()) figure.groups.push_back(std::move(arms));
     if (ControlGroup trunk = back(figure); !trunk.handles.empty()) figure.groups.push_back(std::move(trunk));
     if (!legs_.empty()) figure.groups.push_back(std::move(lower));
