@@ -10,6 +10,7 @@
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
 #include "generator/motion/aim_tables.h"
+#include "generator/recordings.h"
 
 namespace contort::cli {
 
@@ -28,6 +29,7 @@ Result<Library> load_libraries(const std::vector<std::string>& folders) {
   Library library = stock_library();
   for (const std::string& folder : folders) {
     if (const Result<Done> loaded = load_folder(folder, library); !loaded) return loaded.issue();
+    if (const Result<Done> loaded = load_recordings(folder, library); !loaded) return loaded.issue();
     shared_aim_tables().read_from(folder + "/aim");
   }
   if (const Result<Done> fit = check_actions(library); !fit) return fit.issue();

@@ -54,7 +54,7 @@ class Shrinker {
 
   // Most candidates keep the character: it need not be assembled again for them.
   Result<Stage> build(const Spec& candidate) const {
-    if (character_ && candidate.character == best_.spec.character) return build_stage(candidate, character_);
+    if (character_ && candidate.character == best_.spec.character) return build_stage(candidate, character_, library_);
     return build_stage(candidate, library_);
   }
 

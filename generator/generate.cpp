@@ -354,7 +354,10 @@ class Generation {
 }  // namespace
 
 void generate(const Stage& stage, GenerateScratch& scratch, Motion& motion) {
-  Generation(stage, scratch, motion).run();
+  if (stage.recorded)
+    motion = *stage.recorded;
+  else
+    Generation(stage, scratch, motion).run();
   motion.response = {};
   if (stage.dynamics) simulate(*stage.character, *stage.dynamics, stage.environment, scratch.simulation, motion);
 }

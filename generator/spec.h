@@ -2,6 +2,7 @@
 // case stores, what a person writes by hand. Its JSON form, limits and schema come from the field lists in spec.cpp.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,14 @@ struct StartDesc {
   bool operator==(const StartDesc&) const = default;
 };
 
+// An animation of the library, made elsewhere, that the character plays instead of sequences.
+struct RecordingDesc {
+  std::string name;                           // "": none
+  std::string clip;                           // of that file; "": its first one
+  std::map<std::string, std::string> joints;  // the character's joint -> the animation's, where names differ
+  bool operator==(const RecordingDesc&) const = default;
+};
+
 struct Spec {
   CharacterChoice character;
   EnvironmentDesc environment;
@@ -31,6 +40,7 @@ struct Spec {
   int hold_frames = 0;                  // [0, 6000] frames after the last sequence
   std::vector<SequenceDesc> sequences;  // played in this order
   std::vector<InterruptDesc> interrupts;
+  RecordingDesc recording;
   DynamicsDesc dynamics;
   bool operator==(const Spec&) const = default;
 };

@@ -112,6 +112,13 @@ void fields(V& v, const CharacterChoice*) {
 }
 
 template <class V>
+void fields(V& v, const RecordingDesc*) {
+  v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true}, "An animation of a library folder, without .glb or .gltf.");
+  v.field("clip", &RecordingDesc::clip, kLabel, "One of its clips; the first where left out.");
+  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .keys = json_fields::Text::label}, "Joint to node, where names differ.");
+}
+
+template <class V>
 void fields(V& v, const Spec*) {
   v.constant("format", "contort.spec/1");
   v.field("character", &Spec::character, {.required = true}, "Who moves.");
@@ -121,6 +128,7 @@ void fields(V& v, const Spec*) {
   v.field("start", &Spec::start, {}, "Where the character stands at first.");
   v.field("sequences", &Spec::sequences, {.max_count = 64}, "Played one after another.");
   v.field("interrupts", &Spec::interrupts, {.max_count = 64}, "Sequences that wait for a condition.");
+  v.field("recording", &Spec::recording, {}, "An animation made elsewhere, instead of sequences.");
   v.field("dynamics", &Spec::dynamics, {}, "Mass, loads and impacts.");
 }
 

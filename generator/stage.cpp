@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "generator/motion/recording.h"
+
 namespace contort {
 
 namespace {
@@ -18,6 +20,32 @@ void place_hips(const Spec& spec, Stage& stage) {
   }
 }
 
+Result<Motion> play_recording(const Spec& spec, const Character& character, const Library& library,
+                              const Rigid& start) {
+  const RecordingDesc& desc = spec.recording;
+  if (!spec.sequences.empty() || !spec.interrupts.empty())
+    return Issue{"recording.with_sequences", "/recording", "plays instead of sequences and interrupts: leave them out"};
+  const auto found = library.recordings.find(desc.name);
+  if (found == library.recordings.end())
+    return Issue{"recording.unknown_name", "/recording/name",
+                 "found \"" + desc.name + "\", which is no animation of the library folders"};
+  const Asset& asset = *found->second;
+  const auto clip = std::ranges::find_if(asset.clips, [&](const AssetClip& c) {
+    return desc.clip.empty() || c.label == desc.clip || c.name == desc.clip;
+  });
+  if (clip == asset.clips.end())
+    return Issue{"recording.unknown_clip", "/recording/clip",
+                 desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
+  if (frames_of(*clip, spec.rate_hz, spec.hold_frames) > kMaxFrames)
+    return Issue{"spec.too_long", "/recording", "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
+  Result<Motion> motion =
+      follow_recording(character, {asset, *clip, desc.joints, spec.rate_hz, spec.hold_frames, start});
+  if (motion) return motion;
+  Issue issue = motion.issue();
+  issue.pointer = "/recording" + issue.pointer;
+  return issue;
+}
+
 }  // namespace
 
 Result<Stage> build_stage(const Spec& spec, const Library& library) {
@@ -27,10 +55,10 @@ Result<Stage> build_stage(const Spec& spec, const Library& library) {
     issue.pointer = "/character" + issue.pointer;
     return issue;
   }
-  return build_stage(spec, std::make_shared<const Character>(std::move(character).value()));
+  return build_stage(spec, std::make_shared<const Character>(std::move(character).value()), library);
 }
 
-Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character) {
+Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character, const Library& library) {
   Result<Timeline> timeline = lay_out({spec.sequences, spec.interrupts, *character});
   if (!timeline) return timeline.issue();
   Result<Environment> environment = build_environment(spec.environment);
@@ -60,6 +88,12 @@ Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> cha
     if (interrupt.obstacle < 0)
       return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
                    "found \"" + interrupt.when.name + "\", which no obstacle is called"};
+  }
+  if (!spec.recording.name.empty()) {
+    Result<Motion> recorded = play_recording(spec, *character, library, stage.start);
+    if (!recorded) return recorded.issue();
+    stage.most_frames = recorded->frame_count;
+    stage.recorded = std::make_shared<const Motion>(std::move(recorded).value());
   }
   if (spec.dynamics != DynamicsDesc{}) {
     Result<DynamicsSetup> dynamics = build_dynamics(spec.dynamics, *character, stage.legs, stage.rate_hz, stage.start.q);

@@ -15,6 +15,7 @@ namespace contort {
 struct Stage {
   std::shared_ptr<const Character> character;
   Timeline timeline;
+  std::shared_ptr<const Motion> recorded;  // played instead of the timeline; mostly null
   Environment environment;
   std::vector<Leg> legs;
   std::shared_ptr<const DynamicsSetup> dynamics;  // null: kinematic
@@ -25,10 +26,11 @@ struct Stage {
   int most_frames = 1;  // >= 1; fewer where an interrupt never fires or drops what it cuts
 };
 
-// Codes "spec.*", "environment.*", "dynamics.*" and "character.*" with pointers into the spec.
+// Codes "spec.*", "environment.*", "dynamics.*", "recording.*" and "character.*" with pointers into the spec.
 Result<Stage> build_stage(const Spec& spec, const Library& library);
 
 // The same with a character that was built from spec.character before; many specs can share one.
-Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character);
+Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character,
+                          const Library& library = stock_library());
 
 }  // namespace contort

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "generator/asset/asset.h"
 #include "generator/character/action_desc.h"
 #include "generator/character/desc.h"
 #include "generator/core/result.h"
@@ -17,6 +19,7 @@ struct Library {
   std::map<std::string, ObjectDesc> objects;
   std::map<std::string, CharacterDesc> characters;
   std::vector<ActionDesc> actions;  // of files; those for kinds of parts before those for parts by name
+  std::map<std::string, std::shared_ptr<const Asset>> recordings;  // animations, by file name without ending
 };
 
 // `human`, `mech` and `quadruped`. Built once; always there, without any file.

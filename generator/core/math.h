@@ -65,6 +65,9 @@ inline double on_lattice(double value, double steps_per_unit) {
   return std::floor(value * steps_per_unit + 0.5) / steps_per_unit + 0.0;  // -0 becomes 0
 }
 
+// The same angle in [-pi, pi).
+inline double wrap_angle(double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); }
+
 // Reflection in the plane x = 0 (left and right change places). Rotations and axes are axial vectors: they keep x and
 // turn y and z over.
 inline Vec3 mirror_point(const Vec3& p) { return {-p.x, p.y, p.z}; }

@@ -27,8 +27,6 @@ Vec3 tip_in_middle(const Character& character, const ReachChain& chain, std::spa
   return point;
 }
 
-double wrapped(double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); }
-
 // How far v is outside [low, high].
 double outside(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
@@ -97,7 +95,7 @@ std::array<double, 2> solve_turn(double x, double y, double wanted) {
   // Near its ends acos makes 1e-8 rad out of rounding: a leg that stands straight would shiver. There it is straight.
   const double share = wanted / size;
   const double open = std::fabs(share) > 1.0 - 1e-12 ? (share > 0.0 ? 0.0 : kPi) : det::acos(share);
-  return {wrapped(phase + open), wrapped(phase - open)};
+  return {wrap_angle(phase + open), wrap_angle(phase - open)};
 }
 
 // The first hinge leaves what lies along its axis as it is, so that the second must bring that part of the direction:

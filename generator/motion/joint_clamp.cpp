@@ -19,8 +19,6 @@ struct Interval {
 // The twist that a rotation can show: it is measured in [-pi, pi], so a wider range is none.
 Interval twist_range(const Joint& ball) { return {std::max(ball.low, -kPi), std::min(ball.high, kPi)}; }
 
-double wrapped(double angle_rad) { return angle_rad - 2.0 * kPi * std::floor((angle_rad + kPi) / (2.0 * kPi)); }
-
 bool clamp_twist(const Joint& ball, double& twist_rad) {
   const auto [low, high] = twist_range(ball);
   const double inside = std::max(0.0, std::min(kInside_rad, 0.5 * (high - low)));
@@ -28,7 +26,7 @@ bool clamp_twist(const Joint& ball, double& twist_rad) {
   const double enough = 0.5 * inside - 1e-12;
   if (high - low > 2.0 * kPi - 2.0 * kInside_rad) return false;
   if (twist_rad >= low + enough && twist_rad <= high - enough) return false;
-  const bool near_low = std::fabs(wrapped(twist_rad - low)) <= std::fabs(wrapped(twist_rad - high));
+  const bool near_low = std::fabs(wrap_angle(twist_rad - low)) <= std::fabs(wrap_angle(twist_rad - high));
   twist_rad = near_low ? low + inside : high - inside;
   return true;
 }
@@ -80,7 +78,7 @@ SwingTwist swing_twist_of(const Joint& ball, const double* coords) {
   const double along = glm::dot(Vec3(q.x, q.y, q.z), ball.axis);
   const double half_twist = det::atan2(along, q.w);
   const Vec3 swing_rad = to_rotation_vector(q * axis_angle(ball.axis, -2.0 * half_twist));
-  const double twist = wrapped(2.0 * half_twist);
+  const double twist = wrap_angle(2.0 * half_twist);
   return {glm::dot(swing_rad, ball.swing_axis), glm::dot(swing_rad, glm::cross(ball.axis, ball.swing_axis)), twist};
 }
 

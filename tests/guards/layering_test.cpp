@@ -17,14 +17,14 @@ struct Layer {
 
 const std::vector<Layer> kLayers = {
     {"generator/core", {}},
-    {"generator/character", {"generator/core"}},
+    {"generator/asset", {"generator/core"}},
+    {"generator/character", {"generator/core", "generator/asset"}},
     {"generator/world", {"generator/core", "generator/character"}},
-    {"generator/motion", {"generator/core", "generator/character", "generator/world"}},
+    {"generator/motion", {"generator/core", "generator/asset", "generator/character", "generator/world"}},
     {"generator/actions", {"generator/core", "generator/character", "generator/world", "generator/motion"}},
     {"generator/timeline",
      {"generator/core", "generator/character", "generator/world", "generator/motion", "generator/actions"}},
     {"generator/dynamics", {"generator/core", "generator/character", "generator/world", "generator/motion"}},
-    {"generator/asset", {"generator/core"}},
     {"generator/gltf", {"generator/core", "generator/asset", "generator/character", "generator/motion"}},
     {"generator/mocap", {"generator/core", "generator/asset"}},
     {"generator", {"generator/*"}},  // spec, stage, generate: what the other folders see

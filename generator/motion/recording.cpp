@@ -1,0 +1,226 @@
+#include "generator/motion/recording.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "generator/asset/sample.h"
+#include "generator/core/detmath.h"
+#include "generator/motion/ik.h"
+#include "generator/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Where every node is. Turns and places only: a bone that is scaled does not turn.
+std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
+  std::vector<Rigid> world(asset.nodes.size());
+  std::vector<Vec3> scale(asset.nodes.size(), Vec3(1.0));
+  for (const int node : asset.order) {
+    const Trs& own = local[at(node)];
+    const int parent = asset.nodes[at(node)].parent;
+    world[at(node)] = {own.rotation, own.translation};
+    scale[at(node)] = own.scale;
+    if (parent < 0) continue;
+    world[at(node)].p_m *= scale[at(parent)];
+    world[at(node)] = world[at(parent)] * world[at(node)];
+    scale[at(node)] *= scale[at(parent)];
+  }
+  return world;
+}
+
+std::vector<Rigid> rest_of(const Asset& asset) {
+  std::vector<Trs> local;
+  for (const AssetNode& node : asset.nodes) local.push_back(node.rest);
+  return world_of(asset, local);
+}
+
+int find_node(const Asset& asset, const std::string& name) {
+  const auto found =
+      std::ranges::find_if(asset.nodes, [&](const AssetNode& n) { return n.label == name || n.name == name; });
+  return found == asset.nodes.end() ? -1 : static_cast<int>(found - asset.nodes.begin());
+}
+
+// The turn about a unit axis that comes nearest to a rotation.
+double twist_about(const Vec3& axis, const Quat& q) {
+  return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
+}
+
+// A joint of the character with the node that it follows.
+struct Followed {
+  int joint = 0;
+  int node = 0;
+  int hinges = 1;    // that share the node's turn: this one and those after it
+  Quat world_aside;  // turns the character's bone at rest to where the model's lies
+};
+
+class Follower {
+ public:
+  Follower(const Character& character, const RecordingUse& use)
+      : character_(character), use_(use), node_rest_(rest_of(use.asset)), rest_(character.joints().size()) {
+    forward_kinematics(character, character.rest_root(), character.rest_coords(), rest_);
+  }
+
+  Result<Done> map() {
+    for (const auto& [joint, node] : use_.joints) {
+      if (character_.find_joint(joint) < 0)
+        return Issue{"recording.unknown_joint", "/joints/" + joint, "is no joint of " + character_.name()};
+      if (find_node(use_.asset, node) < 0)
+        return Issue{"recording.unknown_node", "/joints/" + joint, "found \"" + node + "\", which no node is called"};
+    }
+    followed_of_.assign(character_.joints().size(), -1);
+    for (std::size_t j = 0; j < followed_of_.size(); ++j) {
+      const std::string& name = character_.joints()[j].name;
+      const auto given = use_.joints.find(name);
+      const int node = find_node(use_.asset, given == use_.joints.end() ? name : given->second);
+      if (node < 0) continue;
+      followed_of_[j] = static_cast<int>(followed_.size());
+      followed_.push_back({static_cast<int>(j), node, 1, kNoRotation});
+    }
+    if (followed_.empty() || followed_[0].joint != 0)
+      return Issue{"recording.no_root", "/joints", "no node is called \"root\" or given for it"};
+    for (Followed& f : followed_) f.hinges = hinges_from(f.joint);
+    for (Followed& f : followed_) f.world_aside = aside(f);
+    return Done{};
+  }
+
+  void play(Motion& motion) const {
+    std::vector<Rigid> world(rest_.size());
+    for (int frame = 0; frame < motion.frame_count; ++frame) {
+      const double t_s = std::min(use_.clip.first_s + frame / use_.rate_hz, use_.clip.last_s);
+      const std::vector<Trs> local = pose(use_.asset, use_.clip, t_s);
+      const std::vector<Rigid> nodes = world_of(use_.asset, local);
+      const std::span<double> row = motion.row(frame);
+      const std::span<const double> before = frame > 0 ? motion.row(frame - 1) : row;
+      std::copy(character_.rest_coords().begin(), character_.rest_coords().end(), row.begin());
+      place_root(nodes, motion.root[at(frame)]);
+      forward_kinematics(character_, motion.root[at(frame)], row, world);
+      for (std::size_t i = 1; i < followed_.size(); ++i) {
+        const int next = i + 1 < followed_.size() ? followed_[i + 1].joint : static_cast<int>(world.size());
+        turn(followed_[i], nodes, local, before, world, row);
+        forward_kinematics(character_, row, followed_[i].joint, next, world);
+      }
+    }
+  }
+
+ private:
+  const Joint& joint(int index) const { return character_.joints()[at(index)]; }
+
+  // How many hinges in one point, without nodes of their own, go with this one.
+  int hinges_from(int first) const {
+    int count = 1;
+    while (count < 3 && joint(first).kind == JointKind::hinge && first + count < static_cast<int>(rest_.size())) {
+      const Joint& next = joint(first + count);
+      const bool same_frame = next.parent == first + count - 1 && next.parent_from_joint == Rigid{};
+      const bool upright = std::fabs(glm::dot(next.axis, joint(first + count - 1).axis)) < 1e-9;
+      if (!same_frame || !upright || next.kind != JointKind::hinge || followed_of_[at(first + count)] >= 0) break;
+      ++count;
+    }
+    return count;
+  }
+
+  // The nearest joint towards the root that follows a node; -1 for the root.
+  const Followed* above(int index) const {
+    for (int j = joint(index).parent; j >= 0; j = joint(j).parent)
+      if (followed_of_[at(j)] >= 0) return &followed_[at(followed_of_[at(j)])];
+    return nullptr;
+  }
+
+  Quat aside(const Followed& own) const {
+    const Followed* up = above(own.joint);
+    const Quat inherited = up != nullptr ? up->world_aside : kNoRotation;
+    const Followed* next = nullptr;
+    for (const Followed& other : followed_) {
+      if (above(other.joint) != &own) continue;
+      if (next != nullptr) return inherited;
+      next = &other;
+    }
+    if (next == nullptr) return inherited;
+    const Vec3 bone = rest_[at(next->joint)].p_m - rest_[at(own.joint)].p_m;
+    const Vec3 model = node_rest_[at(next->node)].p_m - node_rest_[at(own.node)].p_m;
+    if (glm::dot(bone, bone) < 1e-12 || glm::dot(model, model) < 1e-12) return inherited;
+    return shortest_arc(glm::normalize(inherited * bone), glm::normalize(model)) * inherited;
+  }
+
+  Quat turned(int node, const std::vector<Rigid>& nodes) const {
+    return nodes[at(node)].q * glm::conjugate(node_rest_[at(node)].q);
+  }
+
+  void place_root(const std::vector<Rigid>& nodes, Rigid& root) const {
+    const Followed& own = followed_[0];
+    const Rigid& rest = character_.rest_root();
+    const double height = node_rest_[at(own.node)].p_m.y;
+    const double scale = height > 1e-9 && rest.p_m.y > 0.0 ? rest.p_m.y / height : 1.0;
+    const Quat q = turned(own.node, nodes) * own.world_aside * rest.q;
+    root = use_.start * Rigid{glm::normalize(q), scale * nodes[at(own.node)].p_m};
+  }
+
+  void turn(const Followed& f, const std::vector<Rigid>& nodes, const std::vector<Trs>& local,
+            std::span<const double> before, std::span<const Rigid> world, std::span<double> row) const {
+    const Joint& own = joint(f.joint);
+    double* q = &row[at(own.coord)];
+    if (own.kind == JointKind::prismatic) {
+      const Trs& rest = use_.asset.nodes[at(f.node)].rest;
+      q[0] = glm::dot(glm::conjugate(rest.rotation) * (local[at(f.node)].translation - rest.translation), own.axis);
+      return;
+    }
+    const Quat wanted = use_.start.q * turned(f.node, nodes) * f.world_aside * rest_[at(f.joint)].q;
+    const Quat in_joint = glm::conjugate(world[at(own.parent)].q * own.parent_from_joint.q) * wanted;
+    if (own.kind == JointKind::ball) {
+      q[0] = in_joint.w, q[1] = in_joint.x, q[2] = in_joint.y, q[3] = in_joint.z;
+    } else {
+      share(f, in_joint, before, row);
+    }
+  }
+
+  // Euler angles have two solutions: the one nearer to the frame before, so that none jumps to the other.
+  void share(const Followed& f, const Quat& wanted, std::span<const double> before, std::span<double> row) const {
+    const Joint& own = joint(f.joint);
+    if (f.hinges == 1) {
+      row[at(own.coord)] = twist_about(own.axis, wanted);
+      return;
+    }
+    const Vec3 second = joint(f.joint + 1).axis;
+    const Vec3 third = f.hinges == 3 ? joint(f.joint + 2).axis : glm::cross(own.axis, second);
+    const Vec3 one = hinge_angles(own.axis, second, third, wanted);
+    const Vec3 other(wrap_angle(one.x + kPi), wrap_angle(kPi - one.y), wrap_angle(one.z + kPi));
+    double apart[2] = {0.0, 0.0};
+    for (int k = 0; k < f.hinges; ++k) {
+      const double last = before[at(joint(f.joint + k).coord)];
+      apart[0] += std::fabs(wrap_angle(one[k] - last)), apart[1] += std::fabs(wrap_angle(other[k] - last));
+    }
+    for (int k = 0; k < f.hinges; ++k) row[at(joint(f.joint + k).coord)] = apart[1] < apart[0] ? other[k] : one[k];
+  }
+
+  const Character& character_;
+  const RecordingUse& use_;
+  std::vector<Rigid> node_rest_;
+  std::vector<Rigid> rest_;
+  std::vector<int> followed_of_;  // by joint: index into the next, or -1
+  std::vector<Followed> followed_;
+};
+
+}  // namespace
+
+double frames_of(const AssetClip& clip, double rate_hz, int hold_frames) {
+  // A clip of exactly n periods has n + 1 frames, whatever 32-bit times make of its end.
+  return std::floor((clip.last_s - clip.first_s) * rate_hz + 1e-3) + 1.0 + hold_frames;
+}
+
+Result<Motion> follow_recording(const Character& character, const RecordingUse& use) {
+  Follower follower(character, use);
+  if (const Result<Done> mapped = follower.map(); !mapped) return mapped.issue();
+  Motion motion;
+  motion.rate_hz = use.rate_hz;
+  motion.coord_count = character.coord_count();
+  motion.frame_count = static_cast<int>(frames_of(use.clip, use.rate_hz, use.hold_frames));
+  motion.coords.resize(at(motion.frame_count) * at(motion.coord_count));
+  motion.root.resize(at(motion.frame_count));
+  follower.play(motion);
+  return motion;
+}
+
+}  // namespace contort

@@ -1,0 +1,35 @@
+// An animation that was made elsewhere as a motion of a character: what dynamics can follow instead of what actions
+// make.
+//
+// A joint takes over how its node has turned in the world since the model's rest pose, so that skeletons may differ in
+// their frames and number of links; and where a bone leads to one other mapped bone it is first turned to lie as the
+// model's does at rest, so that a figure with hanging arms can follow one that rests with its arms spread. A hinge
+// takes what it can of such a turn; hinges in one point that have no nodes of their own share it as Euler angles. The
+// root's path is scaled by the heights of both roots at rest. Both shall face +Z with +Y up (glTF).
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "generator/asset/asset.h"
+#include "generator/core/result.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+struct RecordingUse {
+  const Asset& asset;
+  const AssetClip& clip;
+  const std::map<std::string, std::string>& joints;  // the character's joint -> node; of others the names are equal
+  double rate_hz = 60.0;
+  int hold_frames = 0;  // after the end
+  Rigid start;          // of the model's origin in the world: a turn about +Y and a place
+};
+
+// Codes "recording.unknown_joint", "recording.unknown_node" (pointers "/joints/…"), "recording.no_root".
+Result<Motion> follow_recording(const Character& character, const RecordingUse& use);
+
+// Its number of frames, held ones included.
+double frames_of(const AssetClip& clip, double rate_hz, int hold_frames);
+
+}  // namespace contort

@@ -1,0 +1,15 @@
+// Animations made elsewhere, as files of a library folder.
+#pragma once
+
+#include <string>
+
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+// Adds every .glb and .gltf of `folder` to `into.recordings`, by its file name without the ending. Codes
+// "library.unreadable", "recording.duplicate_name" and those of read_gltf.
+Result<Done> load_recordings(const std::string& folder, Library& into);
+
+}  // namespace contort
