@@ -43,16 +43,20 @@ void check_spec(const Options& options, Context& context) {
   Evaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
   context.exit_code = evaluation.findings.empty() ? kClean : kFindings;
+  std::vector<Circumstances> at_worst;
+  for (const Finding& finding : evaluation.findings)
+    at_worst.push_back(circumstances_of(*stage, evaluator.motion(), finding.worst_frame));
   if (options.json) {
     const Json out = {{"file", options.file},
                       {"character", stage->character->name()},
                       {"frames", evaluation.frame_count},
                       {"motion_hash", to_hex(evaluation.motion_hash)},
-                      {"findings", Json::parse(findings_json(evaluation.findings, stage->rate_hz))}};
+                      {"findings", Json::parse(findings_json(evaluation.findings, stage->rate_hz, at_worst))}};
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
-  for (const Finding& finding : evaluation.findings) std::printf("%s\n", finding_line(finding, stage->rate_hz).c_str());
+  for (std::size_t i = 0; i < at_worst.size(); ++i)
+    std::printf("%s\n", finding_line(evaluation.findings[i], stage->rate_hz, at_worst[i]).c_str());
   print_result(evaluation.findings.size(), -1);
 }
 

@@ -16,17 +16,25 @@ std::string short_number(double value) {
   return text;
 }
 
-std::string finding_line(const Finding& finding, double rate_hz) {
+std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst) {
   char frames[120];
   std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%.3f s)", finding.first_frame, finding.last_frame,
                 finding.worst_frame, finding.worst_frame / rate_hz);
-  return finding.check + "  " + finding.subject + "  " + short_number(finding.worst_margin) + " " + finding.unit +
-         "  " + frames;
+  std::string line = finding.check + "  " + finding.subject + "  " + short_number(finding.worst_margin) + " " +
+                     finding.unit + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
+  for (const ActiveAction& action : at_worst.actions)
+    line += (&action == at_worst.actions.data() ? ": " : ", ") + action.name + " (" + action.slot + ")";
+  return line;
 }
 
-std::string findings_json(const std::vector<Finding>& findings, double rate_hz) {
+std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
+                          const std::vector<Circumstances>& at_worst) {
   Json list = Json::array();
-  for (const Finding& finding : findings) {
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const Finding& finding = findings[i];
+    Json actions = Json::array();
+    for (const ActiveAction& action : at_worst[i].actions)
+      actions.push_back({{"action", action.name}, {"slot", action.slot}, {"pointer", action.pointer}});
     const bool finite = std::isfinite(finding.worst_margin);
     list.push_back({{"check", finding.check},
                     {"subject", finding.subject},
@@ -36,7 +44,9 @@ std::string findings_json(const std::vector<Finding>& findings, double rate_hz) 
                     {"first_frame", finding.first_frame},
                     {"worst_frame", finding.worst_frame},
                     {"last_frame", finding.last_frame},
-                    {"worst_time_s", finding.worst_frame / rate_hz}});
+                    {"worst_time_s", finding.worst_frame / rate_hz},
+                    {"phase", phase_name(at_worst[i].phase)},
+                    {"actions", actions}});
   }
   return list.dump(2);
 }

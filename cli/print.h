@@ -4,15 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "checks/circumstances.h"
 #include "checks/fold.h"
 
 namespace contort::cli {
 
-// "self_collision  arm_left/forearm ~ torso/trunk  -0.031 m  frames 12-40, worst 20 (0.333 s)"
-std::string finding_line(const Finding& finding, double rate_hz);
+// "self_collision  arm_left/forearm ~ torso/trunk  -0.031 m  frames 12-40, worst 20 (0.333 s)  blend: reach (arm_left)"
+std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst);
 
-// A JSON list: check, subject, unit, margin (null where it is NaN), depth, frames and times.
-std::string findings_json(const std::vector<Finding>& findings, double rate_hz);
+// A JSON list: check, subject, unit, margin (null where it is NaN), depth, frames and times, and in what circumstances
+// the worst frame was; `at_worst` has one entry for each finding.
+std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
+                          const std::vector<Circumstances>& at_worst);
 
 // A finite number in short; "nan" where it is not one.
 std::string short_number(double value);

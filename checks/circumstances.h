@@ -1,0 +1,40 @@
+// In what circumstances a finding happened: which actions moved the figure then, and what had just changed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/motion/motion.h"
+#include "generator/stage.h"
+
+namespace contort {
+
+// The first that fits, from the most violent on.
+enum class Phase {
+  impact,       // up to half a second after a blow
+  interrupt,    // up to 0.15 s after an interrupt cut in or handed back: as long as what was cut fades
+  clip_switch,  // within a frame of where a clip or sequence begins or ends
+  blend,        // an action comes in or fades out
+  mid_clip,     // actions move, and nothing changes
+  at_rest,      // no action moves: a motion's end, or a recording
+};
+std::string_view phase_name(Phase phase);
+
+struct ActiveAction {
+  std::string name;     // "walk"
+  std::string slot;     // that the spec names
+  std::string pointer;  // into the spec: "/sequences/0/clips/1/actions/2"
+  bool operator==(const ActiveAction&) const = default;
+};
+
+struct Circumstances {
+  Phase phase = Phase::at_rest;
+  std::vector<ActiveAction> actions;  // that moved some part in this frame, in the spec's order
+  bool operator==(const Circumstances&) const = default;
+};
+
+// Of a frame of the motion that was generated from this stage.
+Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame);
+
+}  // namespace contort
