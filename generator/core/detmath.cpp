@@ -41,28 +41,31 @@ constexpr std::array<double, 9> kAtanEighths = {0.0,
 
 constexpr double factorial(int n) { return n < 2 ? 1.0 : n * factorial(n - 1); }
 
+// Sine and cosine at once, as processors have room for two in one register.
+constexpr SinCos operator+(const SinCos& a, const SinCos& b) { return {a.sin + b.sin, a.cos + b.cos}; }
+constexpr SinCos operator*(const SinCos& a, double x) { return {a.sin * x, a.cos * x}; }
+
 // c[0] + c[1] x + c[2] x^2 + …, by Estrin's scheme: neighbours are joined in pairs, then the pairs in x^2. Half of
 // Horner's chain of dependent operations at every step, which is what costs time here.
-template <std::size_t N>
-double polynomial(double x, const std::array<double, N>& c) {
+template <class Value, std::size_t N>
+Value polynomial(double x, const std::array<Value, N>& c) {
   if constexpr (N == 1) {
     return c[0];
   } else {
-    std::array<double, (N + 1) / 2> pairs;
+    std::array<Value, (N + 1) / 2> pairs;
     for (std::size_t i = 0; i < N / 2; ++i) pairs[i] = c[2 * i] + c[2 * i + 1] * x;
     if constexpr (N % 2 == 1) pairs[N / 2] = c[N - 1];
     return polynomial(x * x, pairs);
   }
 }
 
-constexpr std::array<double, 8> kSin = [] {  // sin r = r + r^3 * poly(r^2), |r| <= pi/4
-  std::array<double, 8> c{};
-  for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = (i % 2 == 0 ? -1.0 : 1.0) / factorial(2 * i + 3);
-  return c;
-}();
-constexpr std::array<double, 8> kCos = [] {  // cos r = 1 - r^2/2 + r^4 * poly(r^2)
-  std::array<double, 8> c{};
-  for (int i = 0; i < 8; ++i) c[static_cast<std::size_t>(i)] = (i % 2 == 0 ? 1.0 : -1.0) / factorial(2 * i + 4);
+// sin r = r + r^3 * poly(r^2), cos r = 1 - r^2/2 + r^4 * poly(r^2), |r| <= pi/4
+constexpr std::array<SinCos, 8> kSinCos = [] {
+  std::array<SinCos, 8> c{};
+  for (int i = 0; i < 8; ++i) {
+    const double sign = i % 2 == 0 ? -1.0 : 1.0;
+    c[static_cast<std::size_t>(i)] = {sign / factorial(2 * i + 3), -sign / factorial(2 * i + 4)};
+  }
   return c;
 }();
 constexpr std::array<double, 7> kAtan = [] {  // atan r = r + r^3 * poly(r^2), |r| <= 1/16
@@ -96,16 +99,17 @@ SinCos sincos(double x_rad) {
   const double r = high - low;
   const double tail = (high - r) - low;
   const double r2 = r * r;
-  const double s = r + (r * r2 * polynomial(r2, kSin) + tail * (1.0 - 0.5 * r2));
+  const SinCos sum = polynomial(r2, kSinCos);
+  const double s = r + (r * r2 * sum.sin + tail * (1.0 - 0.5 * r2));
   const double half_r2 = 0.5 * r2;
   const double w = 1.0 - half_r2;
-  const double c = w + (((1.0 - w) - half_r2) + (r2 * r2 * polynomial(r2, kCos) - r * tail));
-  switch (static_cast<std::int64_t>(k) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
-  }
+  const double c = w + (((1.0 - w) - half_r2) + (r2 * r2 * sum.cos - r * tail));
+  // By quarter turns (s, c), (c, -s), (-s, -c), (-c, s), on the bits: no processor foresees branches on angles.
+  const auto quarter = static_cast<std::uint64_t>(static_cast<std::int64_t>(k));
+  const auto s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
+  const std::uint64_t exchange = (quarter & 1) != 0 ? s_bits ^ c_bits : 0;
+  return {std::bit_cast<double>(s_bits ^ exchange ^ (quarter & 2) << 62),
+          std::bit_cast<double>(c_bits ^ exchange ^ ((quarter + 1) & 2) << 62)};
 }
 
 double sin(double x_rad) { return sincos(x_rad).sin; }

@@ -86,9 +86,10 @@ double DynamicControl::strength(const DynamicFigure& figure, int dof) const {
 void DynamicControl::find_nominal(const ControlTick& tick) {
   if (tick.figure.loads.empty()) return;
   without_loads(tick, nominal_);
+  const SpatialForce multipliers = tick.ground.multipliers(tick.dynamics, nominal_);
   for (std::size_t i = 0; i < bearable_.size(); ++i) {
     const int dof = tick.figure.watched[i];
-    const double nominal = tick.ground.effort(tick.dynamics, nominal_, dof);
+    const double nominal = tick.ground.effort(tick.dynamics, nominal_, multipliers, dof);
     const double most = strength(tick.figure, dof);
     bearable_[i] = std::max(kComfort * most, std::fabs(nominal) + kUnnoticed * most);
   }
@@ -97,8 +98,9 @@ void DynamicControl::find_nominal(const ControlTick& tick) {
 bool DynamicControl::find_overload(const ControlTick& tick) {
   if (tick.figure.loads.empty()) return false;
   bool any = false;
+  const SpatialForce multipliers = tick.ground.multipliers(tick.dynamics, tick.forces);
   for (std::size_t i = 0; i < overload_.size(); ++i) {
-    const double effort = tick.ground.effort(tick.dynamics, tick.forces, tick.figure.watched[i]);
+    const double effort = tick.ground.effort(tick.dynamics, tick.forces, multipliers, tick.figure.watched[i]);
     overload_[i] = std::copysign(std::max(0.0, std::fabs(effort) - bearable_[i]), effort);
     any = any || overload_[i] != 0.0;
   }
@@ -122,13 +124,16 @@ void DynamicControl::prepare_columns(const ControlTick& tick, const ControlGroup
 DynamicControl::Squares DynamicControl::relief_rows(const ControlTick& tick, const ControlGroup& group) const {
   Squares squares;
   std::array<double, kMostHandles> row;
+  std::array<SpatialForce, kMostHandles> multipliers;
   const std::size_t n = group.handles.size();
+  for (std::size_t h = 0; h < n; ++h) multipliers[h] = tick.ground.multipliers(tick.dynamics, columns_[h].forces);
   for (std::size_t i = 0; i < overload_.size(); ++i) {
     const int dof = tick.figure.watched[i];
     const double effort = overload_[i];
     if (effort == 0.0) continue;
     const double scale = 1.0 / strength(tick.figure, dof);
-    for (std::size_t h = 0; h < n; ++h) row[h] = scale * tick.ground.effort(tick.dynamics, columns_[h].forces, dof);
+    for (std::size_t h = 0; h < n; ++h)
+      row[h] = scale * tick.ground.effort(tick.dynamics, columns_[h].forces, multipliers[h], dof);
     for (std::size_t a = 0; a < n; ++a) {
       squares.right[a] -= row[a] * scale * effort;
       for (std::size_t b = 0; b <= a; ++b) squares.matrix[a * n + b] += row[a] * row[b];

@@ -10,27 +10,59 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-Placement place_link(const Link& link, const Placement& parent, const double* q) {
-  const Vec3 origin_m = parent.origin_m + parent.rotation * link.origin_m;
-  if (link.kind == JointKind::hinge) {
-    const det::SinCos turn = det::sincos(q[0]);
-    return {parent.rotation * (link.along + turn.cos * link.across + turn.sin * link.turned), origin_m};
-  }
-  if (link.kind == JointKind::prismatic)
-    return {parent.rotation * link.rest, origin_m + parent.rotation * (q[0] * link.axis)};
-  return {parent.rotation * (link.rest * glm::mat3_cast(Quat(q[0], q[1], q[2], q[3]))), origin_m};
+// What a turn about an axis through a link's origin does, about the root's.
+void put_turning(const Vec3& axis, const Vec3& origin_m, SpatialMotion& out) {
+  out.angular = axis;
+  out.linear = glm::cross(origin_m, axis);
 }
 
-// What a turn about an axis through a link's origin does, about the root's.
-SpatialMotion turning(const Vec3& axis, const Vec3& origin_m) { return {axis, glm::cross(origin_m, axis)}; }
+// R v, by columns: these are written and read whole, and a processor waits where it reads across two fresh writes.
+inline Vec3 turned(const Mat3& r, const Vec3& v) { return v.x * r[0] + v.y * r[1] + v.z * r[2]; }
 
-// Unit rates of a joint's freedoms. A ball's are along the axes of the body that it moves.
-void place_freedoms(const Link& link, const Placement& parent, const Placement& own, const Vec3& from_root_m,
-                    SpatialMotion* out) {
-  if (link.kind == JointKind::hinge) out[0] = turning(parent.rotation * link.axis, from_root_m);
-  if (link.kind == JointKind::prismatic) out[0] = {Vec3(0.0), parent.rotation * link.axis};
-  if (link.kind == JointKind::ball)
-    for (int k = 0; k < 3; ++k) out[k] = turning(own.rotation[k], from_root_m);
+// A hinge about its frame's axis k turns the other two columns.
+void turn_columns(int k, double sin, double cos, const Mat3& from, Mat3& to) {
+  constexpr static int kAxes[] = {0, 1, 2, 0, 1};
+  const int i = kAxes[k + 1], j = kAxes[k + 2];
+  const Vec3 first = cos * from[i] + sin * from[j];
+  to[j] = cos * from[j] - sin * from[i];
+  to[i] = first;
+  to[k] = from[k];
+}
+
+// Rodrigues' formula, about any unit vector.
+void turn_about(const Vec3& axis, double sin, double cos, const Mat3& from, Mat3& to) {
+  for (int k = 0; k < 3; ++k)
+    to[k] = cos * from[k] + sin * glm::cross(axis, from[k]) + ((1.0 - cos) * glm::dot(axis, from[k])) * axis;
+}
+
+// Turns a hinge's frame from where it rests; its axis in the world.
+Vec3 turn_hinge(const Link& link, const Placement& parent, const det::SinCos& turn, const Mat3& from, Mat3& to) {
+  if (link.turns_about >= 0) {
+    turn_columns(link.turns_about, link.sense * turn.sin, turn.cos, from, to);
+    return link.sense * from[link.turns_about];
+  }
+  const Vec3 axis = turned(parent.rotation, link.axis);
+  turn_about(axis, turn.sin, turn.cos, from, to);
+  return axis;
+}
+
+// Places a link, with the unit rates of its freedoms. A ball's are along the axes of the body that it moves.
+void place_link(const Link& link, const Placement& parent, const Vec3& root_m, const double* q, const det::SinCos& turn,
+                Placement& own, SpatialMotion* freedoms) {
+  const Vec3 origin_m = parent.origin_m + turned(parent.rotation, link.origin_m);
+  own.origin_m = origin_m;
+  if (!link.is_straight) own.rotation = parent.rotation * link.rest;
+  const Mat3& from = link.is_straight ? parent.rotation : own.rotation;
+  if (link.kind == JointKind::hinge) {
+    put_turning(turn_hinge(link, parent, turn, from, own.rotation), origin_m - root_m, freedoms[0]);
+  } else if (link.kind == JointKind::prismatic) {
+    own.rotation = from;
+    freedoms[0] = {Vec3(0.0), turned(parent.rotation, link.axis)};
+    own.origin_m += q[0] * freedoms[0].linear;
+  } else {
+    own.rotation = from * glm::mat3_cast(Quat(q[0], q[1], q[2], q[3]));
+    for (int k = 0; k < 3; ++k) put_turning(own.rotation[k], origin_m - root_m, freedoms[k]);
+  }
 }
 
 void place_root_freedoms(const Placement& root, SpatialMotion* out) {
@@ -41,29 +73,25 @@ void place_root_freedoms(const Placement& root, SpatialMotion* out) {
   }
 }
 
-// Inertia about the centre of mass turned, then moved: R I R^T + m (c.c 1 - c c^T).
-SpatialInertia place_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& about_center, const Mat3& r,
-                             const Vec3& from_root_m) {
-  const Vec3 c = from_root_m + r * center_of_mass_m;
-  const Mat3 half = r * about_center;
-  Mat3 inertia;
-  const double across = glm::dot(c, c);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) {
-      const double turned = half[0][i] * r[0][j] + half[1][i] * r[1][j] + half[2][i] * r[2][j];
-      inertia[i][j] = inertia[j][i] = turned + mass_kg * ((i == j ? across : 0.0) - c[i] * c[j]);
-    }
-  return {mass_kg, mass_kg * c, inertia};
+// Inertia about the centre of mass turned, then moved: (R L) (R L)^T + m (c.c 1 - c c^T), c from the root.
+void place_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& root, const Mat3& r,
+                   const Vec3& from_root_m, SpatialInertia& out) {
+  const Vec3 c = from_root_m + turned(r, center_of_mass_m);
+  const Vec3 moment = mass_kg * c;
+  const Vec3 square = moment * c;
+  const Vec3 u = root[0].x * r[0] + root[0].y * r[1] + root[0].z * r[2];
+  const Vec3 v = root[1].y * r[1] + root[1].z * r[2];
+  const Vec3 w = root[2].z * r[2];
+  out.mass_kg = mass_kg;
+  out.first_moment = moment;
+  out.inertia.diagonal = u * u + v * v + w * w + Vec3(square.y + square.z, square.x + square.z, square.x + square.y);
+  out.inertia.beside = {u.y * u.z + v.y * v.z + w.y * w.z - moment.y * c.z,
+                        u.x * u.z + v.x * v.z + w.x * w.z - moment.x * c.z,
+                        u.x * u.y + v.x * v.y + w.x * w.y - moment.x * c.y};
 }
 
-SpatialInertia place_inertia(const Link& link, const Placement& own, const Vec3& from_root_m) {
-  return place_inertia(link.mass_kg, link.center_of_mass_m, link.inertia_kg_m2, own.rotation, from_root_m);
-}
-
-SpatialMotion rate_of(const Link& link, const DynamicsScratch& scratch, std::span<const double> rates) {
-  SpatialMotion sum = rates[at(link.dof)] * scratch.freedoms[at(link.dof)];
-  for (int k = 1; k < link.dof_count; ++k) sum += rates[at(link.dof + k)] * scratch.freedoms[at(link.dof + k)];
-  return sum;
+void place_inertia(const Link& link, const Placement& own, const Vec3& root_m, SpatialInertia& out) {
+  place_inertia(link.mass_kg, link.center_of_mass_m, link.inertia_root, own.rotation, own.origin_m - root_m, out);
 }
 
 // The root's origin moves: the acceleration of the body's point that is there differs from that of the motion about it.
@@ -79,6 +107,19 @@ void start_at_root(std::span<const double> velocity, std::span<const double> acc
                              up - glm::cross(angular, linear)};
 }
 
+// A link moves as its parent does, and as its own freedoms.
+void add_joint(const Link& link, std::span<const double> velocity, std::span<const double> acceleration, std::size_t i,
+               DynamicsScratch& scratch) {
+  const std::size_t first = at(link.dof);
+  SpatialMotion rate = velocity[first] * scratch.freedoms[first];
+  SpatialMotion change = acceleration[first] * scratch.freedoms[first];
+  for (std::size_t k = first + 1; k < first + at(link.dof_count); ++k)
+    rate += velocity[k] * scratch.freedoms[k], change += acceleration[k] * scratch.freedoms[k];
+  SpatialMotion& v = scratch.velocity[i];
+  v = scratch.velocity[at(link.parent)] + rate;
+  scratch.acceleration[i] = scratch.acceleration[at(link.parent)] + change + cross_motion(v, rate);
+}
+
 // Of a product with a vector that is nearly empty.
 void add_columns(std::size_t n, std::span<const double> matrix, std::span<const double> x, std::span<double> out) {
   std::ranges::fill(out, 0.0);
@@ -88,7 +129,7 @@ void add_columns(std::size_t n, std::span<const double> matrix, std::span<const 
   }
 }
 
-Quat turned(const Quat& q, const Vec3& rate, double time_s) {
+Quat moved_on(const Quat& q, const Vec3& rate, double time_s) {
   return glm::normalize(q * from_rotation_vector(rate * time_s));
 }
 
@@ -97,25 +138,28 @@ Quat turned(const Quat& q, const Vec3& rate, double time_s) {
 void place(const Multibody& body, const Rigid& world_from_root, std::span<const double> coords,
            DynamicsScratch& scratch) {
   const auto links = body.links();
+  scratch.turns.resize(links.size());
   scratch.world.resize(links.size());
   scratch.inertia.resize(links.size());
   scratch.freedoms.resize(at(body.dof_count()));
+  for (std::size_t i = 1; i < links.size(); ++i)
+    if (links[i].kind == JointKind::hinge) scratch.turns[i] = det::sincos(coords[at(links[i].coord)]);
   scratch.world[0] = {glm::mat3_cast(world_from_root.q), world_from_root.p_m};
-  scratch.inertia[0] = place_inertia(links[0], scratch.world[0], Vec3(0.0));
   place_root_freedoms(scratch.world[0], scratch.freedoms.data());
   for (std::size_t i = 1; i < links.size(); ++i) {
     const Link& link = links[i];
-    const Placement& parent = scratch.world[at(link.parent)];
-    const Placement own = scratch.world[i] = place_link(link, parent, &coords[at(link.coord)]);
-    const Vec3 from_root_m = own.origin_m - world_from_root.p_m;
-    place_freedoms(link, parent, own, from_root_m, &scratch.freedoms[at(link.dof)]);
-    if (!link.massless) scratch.inertia[i] = place_inertia(link, own, from_root_m);
+    place_link(link, scratch.world[at(link.parent)], world_from_root.p_m, &coords[at(link.coord)], scratch.turns[i],
+               scratch.world[i], &scratch.freedoms[at(link.dof)]);
   }
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (!links[i].massless) place_inertia(links[i], scratch.world[i], world_from_root.p_m, scratch.inertia[i]);
 }
 
 SpatialInertia placed_inertia(double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2,
                               const Placement& link, const Vec3& root_m) {
-  return place_inertia(mass_kg, center_of_mass_m, inertia_kg_m2, link.rotation, link.origin_m - root_m);
+  SpatialInertia placed;
+  place_inertia(mass_kg, center_of_mass_m, lower_root(inertia_kg_m2), link.rotation, link.origin_m - root_m, placed);
+  return placed;
 }
 
 void inverse_dynamics(const Multibody& body, std::span<const double> velocity, std::span<const double> acceleration,
@@ -125,17 +169,12 @@ void inverse_dynamics(const Multibody& body, std::span<const double> velocity, s
   scratch.acceleration.resize(links.size());
   scratch.force.resize(links.size());
   start_at_root(velocity, acceleration, gravity_m_s2, scratch);
-  scratch.force[0] = force_of(scratch.inertia[0], scratch.velocity[0], scratch.acceleration[0]);
-  for (std::size_t i = 1; i < links.size(); ++i) {
-    const Link& link = links[i];
-    const SpatialMotion rate = rate_of(link, scratch, velocity);
-    SpatialMotion v = scratch.velocity[at(link.parent)], a = scratch.acceleration[at(link.parent)];
-    v += rate;
-    a += rate_of(link, scratch, acceleration);
-    a += cross_motion(v, rate);
-    scratch.velocity[i] = v, scratch.acceleration[i] = a;
-    scratch.force[i] = link.massless ? SpatialForce{} : force_of(scratch.inertia[i], v, a);
-  }
+  for (std::size_t i = 1; i < links.size(); ++i) add_joint(links[i], velocity, acceleration, i, scratch);
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (links[i].massless)
+      scratch.force[i] = {};
+    else
+      put_force_of(scratch.inertia[i], scratch.velocity[i], scratch.acceleration[i], scratch.force[i]);
   for (std::size_t i = links.size(); i-- > 0;) {
     const Link& link = links[i];
     for (int k = link.dof; k < link.dof + link.dof_count; ++k)
@@ -148,17 +187,23 @@ void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<doub
   const auto links = body.links();
   const auto parent_dof = body.parent_dof();
   const auto n = at(body.dof_count());
+  const Mat3& root = scratch.world[0].rotation;
   scratch.composite.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i)
     scratch.composite[i] = links[i].massless ? SpatialInertia{} : scratch.inertia[i];
-  for (std::size_t i = links.size(); i-- > 0;) {
+  for (std::size_t i = links.size(); i-- > 1;) {
     const Link& link = links[i];
     for (int k = link.dof; k < link.dof + link.dof_count; ++k) {
       const SpatialForce force = scratch.composite[i] * scratch.freedoms[at(k)];
       double* row = &matrix[at(k) * n];
-      for (int j = k; j >= 0; j = parent_dof[at(j)]) row[j] = dot(scratch.freedoms[at(j)], force);
+      for (int j = k; j >= kRootDofs; j = parent_dof[at(j)]) row[j] = dot(scratch.freedoms[at(j)], force);
+      for (int j = 0; j < 3; ++j) row[j] = force.force[j], row[3 + j] = glm::dot(root[j], force.moment);
     }
-    if (i > 0) scratch.composite[at(link.parent)] += scratch.composite[i];
+    scratch.composite[at(link.parent)] += scratch.composite[i];
+  }
+  for (int k = 0; k < kRootDofs; ++k) {
+    const SpatialForce force = scratch.composite[0] * scratch.freedoms[at(k)];
+    for (int j = 0; j <= k; ++j) matrix[at(k) * n + at(j)] = dot(scratch.freedoms[at(j)], force);
   }
 }
 
@@ -233,7 +278,7 @@ Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& po
 void integrate(const Multibody& body, std::span<const double> velocity, double time_s, Rigid& world_from_root,
                std::span<double> coords) {
   world_from_root.p_m += time_s * Vec3(velocity[0], velocity[1], velocity[2]);
-  world_from_root.q = turned(world_from_root.q, Vec3(velocity[3], velocity[4], velocity[5]), time_s);
+  world_from_root.q = moved_on(world_from_root.q, Vec3(velocity[3], velocity[4], velocity[5]), time_s);
   for (const Link& link : body.links().subspan(1)) {
     double* q = &coords[at(link.coord)];
     const double* rate = &velocity[at(link.dof)];
@@ -241,7 +286,7 @@ void integrate(const Multibody& body, std::span<const double> velocity, double t
       q[0] += time_s * rate[0];
       continue;
     }
-    const Quat now = turned(Quat(q[0], q[1], q[2], q[3]), Vec3(rate[0], rate[1], rate[2]), time_s);
+    const Quat now = moved_on(Quat(q[0], q[1], q[2], q[3]), Vec3(rate[0], rate[1], rate[2]), time_s);
     q[0] = now.w, q[1] = now.x, q[2] = now.y, q[3] = now.z;
   }
 }

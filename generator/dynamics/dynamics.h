@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "generator/core/detmath.h"
 #include "generator/dynamics/multibody.h"
 
 namespace contort {
@@ -26,6 +27,7 @@ struct Placement {
 
 // Where all bodies are, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
 struct DynamicsScratch {
+  std::vector<det::SinCos> turns;       // of hinges, by link
   std::vector<Placement> world;         // world_from_link
   std::vector<SpatialMotion> freedoms;  // by freedom: what a unit rate of it does
   std::vector<SpatialInertia> inertia;  // by link

@@ -137,8 +137,11 @@ SpatialForce GroundShare::multipliers(const SpatialForce& net) const {
   return {Vec3(x[0], x[1], x[2]), Vec3(x[3], x[4], x[5])};
 }
 
-SpatialForce GroundShare::share(std::size_t standing, const SpatialForce& net) const {
-  const SpatialForce m = multipliers(net);
+SpatialForce GroundShare::multipliers(const DynamicsScratch& dynamics, std::span<const double> forces) const {
+  return feet_.empty() ? SpatialForce{} : multipliers(ground_force(dynamics, forces));
+}
+
+SpatialForce GroundShare::share_of(std::size_t standing, const SpatialForce& m) const {
   const Vec3& d = feet_[standing].center_m;
   const double firm = feet_[standing].firmness;
   const Vec3 force = firm * (m.force + glm::cross(m.moment, d));
@@ -149,19 +152,19 @@ void GroundShare::efforts(const DynamicFigure& figure, const DynamicsScratch& dy
                           std::span<double> out) const {
   std::copy(forces.begin(), forces.end(), out.begin());
   std::fill_n(out.begin(), kRootDofs, 0.0);
-  const SpatialForce net = ground_force(dynamics, forces);
+  const SpatialForce common = multipliers(dynamics, forces);
   for (std::size_t i = 0; i < feet_.size(); ++i) {
-    const SpatialForce own = share(i, net);
+    const SpatialForce own = share_of(i, common);
     for (const int dof : figure.soles[at(feet_[i].sole)].chain_dofs)
       out[at(dof)] -= dot(dynamics.freedoms[at(dof)], own);
   }
 }
 
-double GroundShare::effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const {
+double GroundShare::effort(const DynamicsScratch& dynamics, std::span<const double> forces,
+                           const SpatialForce& multipliers, int dof) const {
   double effort = forces[at(dof)];
   for (std::size_t i = 0; i < feet_.size(); ++i)
-    if (moves_[i * at(dof_count_) + at(dof)] != 0)
-      effort -= dot(dynamics.freedoms[at(dof)], share(i, ground_force(dynamics, forces)));
+    if (moves_[i * at(dof_count_) + at(dof)] != 0) effort -= dot(dynamics.freedoms[at(dof)], share_of(i, multipliers));
   return effort;
 }
 

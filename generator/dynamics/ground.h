@@ -64,11 +64,18 @@ class GroundShare {
   // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
   void efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,
                std::span<double> out) const;
-  // The same for one freedom.
-  double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const;
+  // The same for one freedom. Where many are asked, the multipliers of these forces are found once for all.
+  double effort(const DynamicsScratch& dynamics, std::span<const double> forces, int dof) const {
+    return effort(dynamics, forces, multipliers(dynamics, forces), dof);
+  }
+  double effort(const DynamicsScratch& dynamics, std::span<const double> forces, const SpatialForce& multipliers,
+                int dof) const;
+  SpatialForce multipliers(const DynamicsScratch& dynamics, std::span<const double> forces) const;
 
   // One sole's share of a net force, about the root's origin; `standing` counts as in prepare.
-  SpatialForce share(std::size_t standing, const SpatialForce& net) const;
+  SpatialForce share(std::size_t standing, const SpatialForce& net) const {
+    return share_of(standing, multipliers(net));
+  }
 
  private:
   struct Foot {
@@ -77,6 +84,7 @@ class GroundShare {
     double firmness = 1.0;
   };
   SpatialForce multipliers(const SpatialForce& net) const;
+  SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;
   std::vector<Foot> feet_;
   int dof_count_ = 0;
   std::vector<char> moves_;  // feet x freedoms: whether it moves the sole

@@ -34,11 +34,13 @@ void solve_symmetric(std::span<double> matrix, int n, std::span<double> x) {
 }
 
 void add_square(std::span<const double> v, double weight, std::span<double> matrix) {
-  for (std::size_t i = 0; i < v.size(); ++i) {
+  const auto is_zero = [](double entry) { return entry == 0.0; };
+  const auto first = static_cast<std::size_t>(std::ranges::find_if_not(v, is_zero) - v.begin());
+  for (std::size_t i = first; i < v.size(); ++i) {
     const double scaled = weight * v[i];
     if (scaled == 0.0) continue;
     double* row = &matrix[i * v.size()];
-    for (std::size_t j = 0; j <= i; ++j) row[j] += scaled * v[j];
+    for (std::size_t j = first; j <= i; ++j) row[j] += scaled * v[j];
   }
 }
 

@@ -1,10 +1,15 @@
 #include "generator/dynamics/multibody.h"
 
+#include <cmath>
+
 namespace contort {
 
 namespace {
 
-Mat3 cross_matrix(const Vec3& a) { return {Vec3(0.0, a.z, -a.y), Vec3(-a.z, 0.0, a.x), Vec3(a.y, -a.x, 0.0)}; }
+void find_turn(const Vec3& axis, Link& link) {
+  for (int k = 0; k < 3; ++k)
+    if (std::fabs(axis[k]) == 1.0) link.turns_about = k, link.sense = axis[k];
+}
 
 Link link_of(const Joint& joint) {
   Link link;
@@ -13,11 +18,10 @@ Link link_of(const Joint& joint) {
   link.rest = glm::mat3_cast(joint.parent_from_joint.q);
   link.axis = link.rest * joint.axis;
   link.origin_m = joint.parent_from_joint.p_m;
-  link.along = link.rest * glm::outerProduct(joint.axis, joint.axis);
-  link.across = link.rest - link.along;
-  link.turned = link.rest * cross_matrix(joint.axis);
+  link.is_straight = link.rest == Mat3(1.0);
+  if (joint.kind == JointKind::hinge) find_turn(joint.axis, link);
   link.mass_kg = joint.mass_kg, link.center_of_mass_m = joint.center_of_mass_m;
-  link.inertia_kg_m2 = joint.inertia_kg_m2;
+  link.inertia_kg_m2 = joint.inertia_kg_m2, link.inertia_root = lower_root(joint.inertia_kg_m2);
   link.massless = joint.mass_kg == 0.0 && joint.inertia_kg_m2 == Mat3(0.0);
   return link;
 }
@@ -29,6 +33,16 @@ Mat3 moved_inertia(double mass_kg, const Vec3& d) {
 
 }  // namespace
 
+Mat3 lower_root(const Mat3& matrix) {
+  Mat3 left = matrix, root(0.0);
+  for (int k = 0; k < 3; ++k) {
+    if (!(left[k][k] > 0.0)) continue;  // of a rod or a point
+    for (int i = k; i < 3; ++i) root[k][i] = left[k][i] / std::sqrt(left[k][k]);
+    left -= glm::outerProduct(root[k], root[k]);
+  }
+  return root;
+}
+
 void Multibody::add_mass(int link, double mass_kg, const Vec3& center_of_mass_m, const Mat3& inertia_kg_m2) {
   Link& own = links_[static_cast<std::size_t>(link)];
   const double sum_kg = own.mass_kg + mass_kg;
@@ -36,6 +50,7 @@ void Multibody::add_mass(int link, double mass_kg, const Vec3& center_of_mass_m,
   const Vec3 center = (own.mass_kg * own.center_of_mass_m + mass_kg * center_of_mass_m) / sum_kg;
   own.inertia_kg_m2 += moved_inertia(own.mass_kg, own.center_of_mass_m - center) + inertia_kg_m2 +
                        moved_inertia(mass_kg, center_of_mass_m - center);
+  own.inertia_root = lower_root(own.inertia_kg_m2);
   own.mass_kg = sum_kg, own.center_of_mass_m = center, own.massless = false;
   mass_kg_ += mass_kg;
 }

@@ -23,17 +23,21 @@ struct Link {
   int dof = 0;    // first entry of a generalised velocity
   int dof_count = 0;
   Vec3 axis{0.0};  // unit, in the parent's frame at rest
-  // parent_from_link of a hinge is along + cos * across + sin * turned: Rodrigues' formula behind the rest rotation.
-  Mat3 along{0.0};
-  Mat3 across{0.0};
-  Mat3 turned{0.0};
-  Mat3 rest{1.0};
-  Vec3 origin_m{0.0};  // in the parent, at rest
+  // Nearly all hinges turn about x, y or z of their frame, or against it: 0, 1 or 2, and -1 for any other axis.
+  int turns_about = -1;
+  double sense = 1.0;       // of that turn
+  Mat3 rest{1.0};           // parent_from_link
+  bool is_straight = true;  // rest turns nothing
+  Vec3 origin_m{0.0};       // in the parent, at rest
   double mass_kg = 0.0;
   Vec3 center_of_mass_m{0.0};  // in the link's frame
   Mat3 inertia_kg_m2{0.0};     // about it, axes of the link's frame
+  Mat3 inertia_root{0.0};      // its lower triangle L of Cholesky, L L^T = inertia_kg_m2
   bool massless = true;
 };
+
+// L, lower triangular, with L L^T = a symmetric matrix without negative eigenvalues (Cholesky).
+Mat3 lower_root(const Mat3& matrix);
 
 class Multibody {
  public:
