@@ -1,5 +1,9 @@
 #include "checks/check.h"
 
+#include <algorithm>
+
+#include "generator/core/assert.h"
+
 namespace contort {
 
 #define X(name, scale, resolution, needs_world, help) \
@@ -17,6 +21,13 @@ std::span<const CheckDef> all_checks() {
 #undef X
   };
   return checks;
+}
+
+const CheckDef& find_check(std::string_view name) {
+  const std::span<const CheckDef> checks = all_checks();
+  const auto found = std::find_if(checks.begin(), checks.end(), [name](const CheckDef& c) { return c.name == name; });
+  CONTORT_ASSERT(found != checks.end());
+  return *found;
 }
 
 }  // namespace contort

@@ -53,4 +53,7 @@ struct CheckDef {
 
 std::span<const CheckDef> all_checks();
 
+// The row of this name; there must be one.
+const CheckDef& find_check(std::string_view name);
+
 }  // namespace contort

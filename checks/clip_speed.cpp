@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/pop.h"
 #include "generator/asset/sample.h"
 
 namespace contort {
@@ -27,32 +28,52 @@ std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
   return worst;
 }
 
-const CheckDef& angular_velocity() {
-  for (const CheckDef& check : all_checks())
-    if (check.name == "angular_velocity") return check;
-  return all_checks().front();
+// The two kinds of findings of one channel, while its intervals are judged.
+struct ChannelFolds {
+  MarginFold fast{1, CheckSettings{}.merge_gap_frames};
+  MarginFold pops{1, CheckSettings{}.merge_gap_frames};
+};
+
+// Whether it is a pop is told by the keys alone: what a spline does between them is smooth.
+void judge(const ChannelSpeeds& speeds, const std::vector<SpeedInterval>& worst, double limit, ChannelFolds& folds) {
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const double explained = std::max(limit, explained_rad_s(speeds.between_keys, i));
+    const bool is_pop = speeds.between_keys[i].speed_rad_s > explained;
+    MarginFold& fold = is_pop ? folds.pops : folds.fast;
+    fold.report(0, static_cast<int>(i), (is_pop ? explained : limit) - worst[i].speed_rad_s);
+  }
 }
 
-void add_channel(const AssetNode& node, const std::vector<SpeedInterval>& intervals, const SpeedLimits& limits,
-                 ClipSpeeds& out) {
-  MarginFold fold(1, CheckSettings{}.merge_gap_frames);
-  const double limit = limit_of(node, limits);
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    fold.report(0, static_cast<int>(i), limit - intervals[i].speed_rad_s);
-    if (intervals[i].speed_rad_s <= out.peak_rad_s) continue;
-    out.peak_node = node.label;
-    out.peak_rad_s = intervals[i].speed_rad_s;
-    out.peak_t0_s = intervals[i].t0_s;
-    out.peak_t1_s = intervals[i].t1_s;
-  }
+void add_findings(const MarginFold& fold, const char* check, double scale, const AssetNode& node,
+                  const std::vector<SpeedInterval>& intervals, std::vector<ClipFinding>& out) {
   for (const MarginFold::Episode& e : fold.episodes()) {
     const SpeedInterval& worst = intervals[static_cast<std::size_t>(e.worst)];
-    out.findings.push_back({{"angular_velocity", node.label, "rad/s", e.first, e.worst, e.last, e.worst_margin,
-                             -e.worst_margin / angular_velocity().scale},
-                            worst.t0_s,
-                            worst.t1_s,
-                            worst.speed_rad_s});
+    out.push_back({{check, node.label, "rad/s", e.first, e.worst, e.last, e.worst_margin, -e.worst_margin / scale},
+                   worst.t0_s,
+                   worst.t1_s,
+                   worst.speed_rad_s});
   }
+}
+
+void add_channel(const AssetNode& node, const ChannelSpeeds& speeds, const SpeedLimits& limits, ClipSpeeds& out) {
+  const std::vector<SpeedInterval> intervals = worst_of_each(speeds);
+  const double limit = limit_of(node, limits);
+  for (const SpeedInterval& interval : intervals) {
+    out.least_margin_rad_s = std::min(out.least_margin_rad_s, limit - interval.speed_rad_s);
+    if (interval.speed_rad_s <= out.peak_rad_s) continue;
+    out.peak_node = node.label;
+    out.peak_rad_s = interval.speed_rad_s;
+    out.peak_t0_s = interval.t0_s;
+    out.peak_t1_s = interval.t1_s;
+  }
+  ChannelFolds folds;
+  judge(speeds, intervals, limit, folds);
+  const auto first = static_cast<std::ptrdiff_t>(out.findings.size());
+  add_findings(folds.fast, "angular_velocity", find_check("angular_velocity").scale, node, intervals, out.findings);
+  add_findings(folds.pops, "pop", kPopScale_rad_s, node, intervals, out.findings);
+  std::stable_sort(out.findings.begin() + first, out.findings.end(), [](const ClipFinding& l, const ClipFinding& r) {
+    return l.finding.first_frame < r.finding.first_frame;
+  });
 }
 
 }  // namespace
@@ -65,7 +86,7 @@ std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits&
     out.clip = clip.label;
     for (const ChannelSpeeds& speeds : joint_speeds(clip)) {
       ++out.channels;
-      add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], worst_of_each(speeds), limits, out);
+      add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], speeds, limits, out);
     }
     all.push_back(std::move(out));
   }

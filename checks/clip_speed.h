@@ -1,7 +1,9 @@
-// angular_velocity for animations made elsewhere: the speed of every rotation channel of a glTF clip between its own
-// neighbouring keys, so that no peak between keys is averaged away.
+// angular_velocity and pop for animations made elsewhere: the speed of every rotation channel of a clip between its own
+// neighbouring keys, so that no peak between keys is averaged away. An interval that is too fast is one of the two,
+// never both: a pop where the motion around it does not explain the speed (pop.h), angular_velocity otherwise.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,6 +33,8 @@ struct ClipSpeeds {
   double peak_t0_s = 0.0;
   double peak_t1_s = 0.0;
   int channels = 0;
+  // The smallest of limit - speed over all intervals, rad/s; infinite where nothing turns.
+  double least_margin_rad_s = std::numeric_limits<double>::infinity();
   std::vector<ClipFinding> findings;  // in the order of channels, then time
 };
 

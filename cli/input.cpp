@@ -1,7 +1,5 @@
 #include "cli/input.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -49,13 +47,6 @@ Result<SpecInput> read_spec_input(const std::string& path) {
   SpecInput input{stored->spec, {}};
   input.stored = std::move(stored).value();
   return input;
-}
-
-bool is_gltf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".glb" || ending == ".gltf";
 }
 
 Result<double> parse_time_s(const std::string& text) {

@@ -22,8 +22,6 @@ struct SpecInput {
 };
 Result<SpecInput> read_spec_input(const std::string& path);
 
-bool is_gltf(const std::string& path);  // by its ending
-
 // "45s", "10m", "2h", "90" (seconds). Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 

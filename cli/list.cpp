@@ -5,6 +5,7 @@
 #include <set>
 
 #include "checks/check.h"
+#include "checks/joint_map.h"
 #include "cli/commands.h"
 #include "cli/variants.h"
 #include "corpus/case.h"
@@ -161,7 +162,8 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
                                                                           {"part", part_schema},
                                                                           {"object", object_schema},
                                                                           {"character", character_schema},
-                                                                          {"action", action_schema}};
+                                                                          {"action", action_schema},
+                                                                          {"map", joint_map_schema}};
   return all;
 }
 

@@ -4,18 +4,31 @@
 #include <filesystem>
 
 #include "generator/gltf/read.h"
+#include "generator/mocap/bvh.h"
 
 namespace contort {
+
+namespace {
+
+bool is_recording(const std::filesystem::path& path) {
+  return path.extension() == ".glb" || path.extension() == ".gltf" || path.extension() == ".bvh";
+}
+
+Result<Asset> read_recording(const std::filesystem::path& path) {
+  return path.extension() == ".bvh" ? read_bvh(path.string()) : read_gltf(path.string());
+}
+
+}  // namespace
 
 Result<Done> load_recordings(const std::string& folder, Library& into) {
   std::error_code error;
   std::vector<std::filesystem::path> paths;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf") paths.push_back(entry.path());
+    if (is_recording(entry.path())) paths.push_back(entry.path());
   if (error) return Issue{"library.unreadable", "", folder + ": " + error.message()};
   std::sort(paths.begin(), paths.end());
   for (const std::filesystem::path& path : paths) {
-    Result<Asset> asset = read_gltf(path.string());
+    Result<Asset> asset = read_recording(path);
     if (!asset) return asset.issue();
     if (!into.recordings.try_emplace(path.stem().string(), std::make_shared<const Asset>(std::move(asset).value()))
              .second)

@@ -8,8 +8,8 @@
 
 namespace contort {
 
-// Adds every .glb and .gltf of `folder` to `into.recordings`, by its file name without the ending. Codes
-// "library.unreadable", "recording.duplicate_name" and those of read_gltf.
+// Adds every .glb, .gltf and .bvh of `folder` to `into.recordings`, by its file name without the ending. Codes
+// "library.unreadable", "recording.duplicate_name" and those of read_gltf and read_bvh.
 Result<Done> load_recordings(const std::string& folder, Library& into);
 
 }  // namespace contort

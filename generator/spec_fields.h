@@ -113,9 +113,9 @@ void fields(V& v, const CharacterChoice*) {
 
 template <class V>
 void fields(V& v, const RecordingDesc*) {
-  v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true}, "An animation of a library folder, without .glb or .gltf.");
+  v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true}, "An animation of a library folder, without .glb, .gltf or .bvh.");
   v.field("clip", &RecordingDesc::clip, kLabel, "One of its clips; the first where left out.");
-  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .keys = json_fields::Text::label}, "Joint to node, where names differ.");
+  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .key_text = json_fields::Text::label}, "Joint to node, where names differ.");
 }
 
 template <class V>

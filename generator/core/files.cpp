@@ -11,6 +11,10 @@ namespace contort {
 
 namespace {
 
+Issue too_large(const std::string& path, std::size_t max_bytes) {
+  return {"file.too_large", "", path + " is larger than the allowed " + std::to_string(max_bytes) + " bytes"};
+}
+
 Issue unwritable(const std::string& path, const std::string& why) {
   return {"file.unwritable", "", "cannot write " + path + ": " + why};
 }
@@ -26,11 +30,17 @@ Result<std::string> read_file(const std::string& path, std::size_t max_bytes) {
   char block[65536];
   while (file.read(block, sizeof block) || file.gcount() > 0) {
     bytes.append(block, static_cast<std::size_t>(file.gcount()));
-    if (bytes.size() > max_bytes)
-      return Issue{"file.too_large", "", path + " is larger than the allowed " + std::to_string(max_bytes) + " bytes"};
+    if (bytes.size() > max_bytes) return too_large(path, max_bytes);
   }
   if (file.bad()) return Issue{"file.unreadable", "", "cannot read " + path + ": " + std::strerror(errno)};
   return bytes;
+}
+
+Result<std::string> read_regular_file(const std::string& path, std::size_t max_bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return Issue{"file.unreadable", "", "there is no file " + path};
+  if (std::filesystem::file_size(path, error) > max_bytes) return too_large(path, max_bytes);
+  return read_file(path, max_bytes);
 }
 
 Result<Done> write_file(const std::string& path, std::string_view bytes) {

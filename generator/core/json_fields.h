@@ -38,7 +38,7 @@ struct Rule {
   std::size_t max_count = 0;                  // of a list or a map
   std::span<const std::string_view> names{};  // of an enum, in the order of its values
   Text text = Text::name;
-  Text keys = Text::name;  // of a map
+  Text key_text = Text::name;  // of a map's keys
   bool required = false;
   bool may_be_empty = false;  // of a text
   bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none
@@ -189,7 +189,7 @@ struct Codec<std::map<std::string, T>> {
       if (!c.ok()) return;
       c.push(key);
       std::string checked;
-      if (read_text(Json(key), Rule{.text = r.keys}, checked, c)) Codec<T>::read(value, r, out[key], c);
+      if (read_text(Json(key), Rule{.text = r.key_text}, checked, c)) Codec<T>::read(value, r, out[key], c);
       c.pop();
     }
   }
@@ -202,7 +202,7 @@ struct Codec<std::map<std::string, T>> {
     return {{"type", "object"},
             {"additionalProperties", Codec<T>::schema(r)},
             {"maxProperties", r.max_count},
-            {"propertyNames", text_schema(Rule{.text = r.keys})}};
+            {"propertyNames", text_schema(Rule{.text = r.key_text})}};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "generator/asset/labels.h"
 #include "generator/gltf/from_model.h"
 
 namespace contort {

@@ -12,10 +12,6 @@
 
 namespace contort {
 
-// A name of its own for each: the name, or "<name>#<index>" where that is empty or stands more than once. Then none of
-// the equal names keeps it, so that a label never means another node than the name did.
-std::vector<std::string> unique_labels(std::span<const std::string> names);
-
 // A 4x4 matrix, column by column, as translation, rotation and scale; a mirroring one gets a negative x scale. False
 // where it is no such product: sheared, or a last row other than 0 0 0 1.
 bool decompose(std::span<const double> matrix, Trs& out);

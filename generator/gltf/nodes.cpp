@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
+#include "generator/asset/labels.h"
 #include "generator/gltf/from_model.h"
 
 namespace contort {
@@ -129,21 +129,6 @@ bool decompose(std::span<const double> m, Trs& out) {
   out.translation = Vec3(m[12], m[13], m[14]);
   out.rotation = glm::normalize(glm::quat_cast(Mat3(axes[0], axes[1], axes[2])));
   return true;
-}
-
-std::vector<std::string> unique_labels(std::span<const std::string> names) {
-  std::map<std::string, int> uses;
-  for (const std::string& name : names) ++uses[name];
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::string label = names[i];
-    const bool is_unique = !label.empty() && uses[label] == 1;
-    // Once more where the file itself has a name like "hand#3".
-    while (!is_unique && (label == names[i] || uses.contains(label))) label += "#" + std::to_string(i);
-    uses.try_emplace(label, 1);
-    labels.push_back(std::move(label));
-  }
-  return labels;
 }
 
 Result<Done> read_nodes(const tinygltf::Model& model, Asset& asset) {

@@ -67,21 +67,16 @@ Result<Asset> read_container(const GltfContainer& container, const std::string& 
   return to_asset(model);
 }
 
-// A named pipe would make us wait for ever, a device would never end.
-Result<std::string> read_regular_file(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return Issue{"gltf.unreadable", "", "there is no file " + path};
-  if (std::filesystem::file_size(path, error) > kMaxGltfBytes)
-    return Issue{"gltf.too_large", "", path + " has more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes"};
-  const Result<std::string> bytes = read_file(path, kMaxGltfBytes);
-  if (!bytes) return Issue{"gltf.unreadable", "", bytes.issue().text};
-  return bytes;
+Result<std::string> read_bytes(const std::string& path) {
+  const Result<std::string> bytes = read_regular_file(path, kMaxGltfBytes);
+  if (bytes) return bytes;
+  return Issue{bytes.issue().code == "file.too_large" ? "gltf.too_large" : "gltf.unreadable", "", bytes.issue().text};
 }
 
 }  // namespace
 
 Result<Asset> read_gltf(const std::string& path) {
-  const Result<std::string> text = read_regular_file(path);
+  const Result<std::string> text = read_bytes(path);
   if (!text) return text.issue();
   const auto bytes = std::as_bytes(std::span(*text));
   GltfContainer container{*text, {}, false};

@@ -57,6 +57,13 @@ struct Followed {
   Quat world_aside;  // turns the character's bone at rest to where the model's lies
 };
 
+// Heights of the character's and the model's lowest mapped joints, and how much larger the character is.
+struct Fit {
+  double scale = 1.0;
+  double floor_m = 0.0;
+  double node_floor = 0.0;
+};
+
 class Follower {
  public:
   Follower(const Character& character, const RecordingUse& use)
@@ -84,6 +91,7 @@ class Follower {
       return Issue{"recording.no_root", "/joints", "no node is called \"root\" or given for it"};
     for (Followed& f : followed_) f.hinges = hinges_from(f.joint);
     for (Followed& f : followed_) f.world_aside = aside(f);
+    find_fit();
     return Done{};
   }
 
@@ -149,13 +157,35 @@ class Follower {
     return nodes[at(node)].q * glm::conjugate(node_rest_[at(node)].q);
   }
 
+  double lowest(const std::vector<Rigid>& nodes) const {
+    double low = nodes[at(followed_[0].node)].p_m.y;
+    for (const Followed& f : followed_) low = std::min(low, nodes[at(f.node)].p_m.y);
+    return low;
+  }
+
+  double lowest_ever() const {
+    double low = lowest(world_of(use_.asset, pose(use_.asset, use_.clip, use_.clip.first_s)));
+    for (double t_s = use_.clip.first_s; t_s < use_.clip.last_s; t_s += 1.0 / use_.rate_hz)
+      low = std::min(low, lowest(world_of(use_.asset, pose(use_.asset, use_.clip, t_s))));
+    return low;
+  }
+
+  void find_fit() {
+    const double root_m = rest_[0].p_m.y, node_root = node_rest_[at(followed_[0].node)].p_m.y;
+    double low_m = root_m;
+    for (const Followed& f : followed_) low_m = std::min(low_m, rest_[at(f.joint)].p_m.y);
+    const double low_node = lowest(node_rest_);
+    if (root_m - low_m > 1e-6 && node_root - low_node > 1e-6)
+      fit_ = {(root_m - low_m) / (node_root - low_node), low_m, node_root == 0.0 ? lowest_ever() : low_node};
+    else if (root_m > 0.0 && node_root > 1e-9)
+      fit_.scale = root_m / node_root;  // no legs are mapped
+  }
+
   void place_root(const std::vector<Rigid>& nodes, Rigid& root) const {
     const Followed& own = followed_[0];
-    const Rigid& rest = character_.rest_root();
-    const double height = node_rest_[at(own.node)].p_m.y;
-    const double scale = height > 1e-9 && rest.p_m.y > 0.0 ? rest.p_m.y / height : 1.0;
-    const Quat q = turned(own.node, nodes) * own.world_aside * rest.q;
-    root = use_.start * Rigid{glm::normalize(q), scale * nodes[at(own.node)].p_m};
+    const Quat q = turned(own.node, nodes) * own.world_aside * rest_[0].q;
+    const Vec3 above_floor = nodes[at(own.node)].p_m - Vec3(0, fit_.node_floor, 0);
+    root = use_.start * Rigid{glm::normalize(q), fit_.scale * above_floor + Vec3(0, fit_.floor_m, 0)};
   }
 
   void turn(const Followed& f, const std::vector<Rigid>& nodes, const std::vector<Trs>& local,
@@ -201,6 +231,7 @@ class Follower {
   std::vector<Rigid> rest_;
   std::vector<int> followed_of_;  // by joint: index into the next, or -1
   std::vector<Followed> followed_;
+  Fit fit_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "generator/core/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -27,6 +28,15 @@ class Files : public ::testing::Test {
 
   fs::path folder_;
 };
+
+TEST_F(Files, PipesDevicesAndLargeFilesAreNotOpenedForStrangers) {
+  ASSERT_TRUE(write_file(at("x.txt"), "12345").ok());
+  EXPECT_EQ(*read_regular_file(at("x.txt"), 5), "12345");
+  EXPECT_EQ(read_regular_file(at("x.txt"), 4).issue().code, "file.too_large");
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  for (const std::string& path : {at("pipe"), at("nothing"), folder_.string(), std::string("/dev/zero")})
+    EXPECT_EQ(read_regular_file(path, 5).issue().code, "file.unreadable") << path;
+}
 
 TEST_F(Files, WhatIsWrittenIsRead) {
   const std::string bytes("a\0b\r\n\xff", 6);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "checks/joint_map.h"
 #include "corpus/case.h"
 #include "generator/character/library.h"
 #include "generator/core/files.h"
@@ -28,6 +29,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("object"), object_schema());
   EXPECT_EQ(published("character"), character_schema());
   EXPECT_EQ(published("action"), action_schema());
+  EXPECT_EQ(published("map"), joint_map_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.

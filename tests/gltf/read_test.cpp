@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "generator/asset/labels.h"
 #include "generator/gltf/from_model.h"
 #include "tests/gltf/glb_builder.h"
 

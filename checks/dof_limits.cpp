@@ -1,0 +1,68 @@
+#include "checks/dof_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "checks/check.h"
+
+namespace contort {
+
+namespace {
+
+struct LimitedDof {
+  std::size_t column = 0;  // in a row of the motion
+  const AsfBone* bone = nullptr;
+  AsfDof dof;
+};
+
+std::vector<LimitedDof> limited_dofs(const AsfSkeleton& skeleton) {
+  std::vector<LimitedDof> out;
+  std::size_t column = 0;
+  for (const AsfBone& bone : skeleton.bones)
+    for (const AsfDof& dof : bone.dofs) {
+      const bool is_limited = std::isfinite(dof.low) || std::isfinite(dof.high);
+      if (is_limited && bone.parent >= 0) out.push_back({column, &bone, dof});
+      ++column;
+    }
+  return out;
+}
+
+Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& dofs, double scale) {
+  const LimitedDof& limited = dofs[static_cast<std::size_t>(e.subject) / 2];
+  return {"joint_range",
+          limited.bone->name + " " + std::string(dof_name(limited.dof.kind)) + (e.subject % 2 == 0 ? " min" : " max"),
+          is_rotation(limited.dof.kind) ? "rad" : "file units",
+          e.first,
+          e.worst,
+          e.last,
+          e.worst_margin,
+          -e.worst_margin / scale};
+}
+
+}  // namespace
+
+DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion) {
+  const std::vector<LimitedDof> dofs = limited_dofs(skeleton);
+  MarginFold fold(2 * static_cast<int>(dofs.size()), CheckSettings{}.merge_gap_frames, kDofResolution_rad);
+  DofLimits out;
+  for (int frame = 0; frame < motion.frame_count; ++frame) {
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const double value = motion.row(frame)[dofs[i].column];
+      const double above_low = value - dofs[i].dof.low;
+      const double below_high = dofs[i].dof.high - value;
+      fold.report(2 * static_cast<int>(i), motion.first_frame + frame, above_low);
+      fold.report(2 * static_cast<int>(i) + 1, motion.first_frame + frame, below_high);
+      ++out.samples;
+      if (std::min(above_low, below_high) < -kDofResolution_rad) ++out.out_of_range;
+    }
+  }
+  const double scale = find_check("joint_range").scale;
+  for (const MarginFold::Episode& e : fold.episodes()) out.findings.push_back(to_finding(e, dofs, scale));
+  out.least_margin = std::numeric_limits<double>::infinity();
+  for (const double margin : fold.smallest()) out.least_margin = std::min(out.least_margin, margin);
+  out.worst_depth = -out.least_margin / scale;
+  return out;
+}
+
+}  // namespace contort

@@ -1,0 +1,30 @@
+// joint_range for motion capture: the numbers of an AMC against the limits that its own ASF declares. The oracle is the
+// file's maker: nothing is assumed about people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "checks/fold.h"
+#include "generator/mocap/amc.h"
+
+namespace contort {
+
+struct DofLimits {
+  // Numbers that were judged: those of degrees of freedom with limits, the root's left out, in all frames.
+  std::int64_t samples = 0;
+  std::int64_t out_of_range = 0;
+  // Subjects are "lwrist ry min" and "max", units rad (prismatic: the file's unit of length). Frames are the file's own
+  // numbers, which mostly begin with 1.
+  std::vector<Finding> findings;
+  double least_margin = 0.0;  // Of all samples, like the findings' margins; infinite without samples.
+  double worst_depth = 0.0;   // -least_margin / scale of joint_range: below 0 where all is in range.
+};
+
+// Limits are inclusive; 1e-6 degrees beyond are the rounding of printed numbers.
+inline constexpr double kDofResolution_rad = 1e-6 * kRadPerDeg;
+
+DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion);
+
+}  // namespace contort

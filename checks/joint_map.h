@@ -1,0 +1,22 @@
+// Which joint of a character a node of somebody else's skeleton stands for, so that the character's limits apply.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "generator/core/result.h"
+
+namespace contort {
+
+struct JointMap {
+  std::map<std::string, std::string> joints;  // node of the file -> slot/joint of the character
+  bool operator==(const JointMap&) const = default;
+};
+
+// {"format": "contort.map/1", "joints": {"mixamorig:LeftForeArm": "arm_left/elbow"}}. Codes json.*, map.*.
+Result<JointMap> parse_joint_map(std::string_view text);
+
+std::string joint_map_schema();
+
+}  // namespace contort

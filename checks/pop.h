@@ -1,0 +1,30 @@
+// pop: a jump of a joint in an animation made elsewhere that the motion around it does not explain. Solvers that flip,
+// markers that are swapped and reference poses left in frame 0 make them: within one or two keys a joint is somewhere
+// else, and before and after it is slow. A joint that really is too fast has to get fast first: its speed grows and
+// falls over several keys. Both break the speed limit; they are reported apart because their cures differ.
+//
+// What explains a speed: with v the speeds of a channel's key intervals, a window of one or two intervals around i has
+// neighbours on both sides; the faster of these is what the window stands out from. Of the three windows that hold i,
+// the calmest neighbours count. Interval i is a pop where v[i] is above its limit and above kPopFactor times that. At
+// the first or last key there are neighbours on one side only, and with none (a clip of two or three keys) nothing is
+// a pop. Nor is a window longer than kPopLongest_s: sparse keys that an animator set are fast moves, not jumps.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "generator/asset/sample.h"
+
+namespace contort {
+
+// Real moves reach 3: a quick arm sampled at 30 Hz turns at 650, 1970, 480 deg/s in a row. Pops mostly exceed 10.
+inline constexpr double kPopFactor = 4.0;
+// Two frames at 24 Hz last 83 ms. People need longer to start and stop a limb.
+inline constexpr double kPopLongest_s = 0.1;
+// In depths, 10 rad/s beyond what is explained are as bad as 1 rad/s of sustained speed: one frame is soon over.
+inline constexpr double kPopScale_rad_s = 10.0;
+
+// The speed up to which the motion around interval i explains it, rad/s; infinite where nothing can be said.
+double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t i);
+
+}  // namespace contort

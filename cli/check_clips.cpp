@@ -1,0 +1,142 @@
+#include "cli/check_clips.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "checks/clip_speed.h"
+#include "checks/dof_limits.h"
+#include "checks/joint_map.h"
+#include "cli/clip_report.h"
+#include "generator/character/character.h"
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+struct Checked {
+  std::vector<ClipReport> clips;
+  std::vector<Unreadable> unreadable;
+  std::set<std::string> unmatched;  // nodes of the map that were in no file
+};
+
+Issue map_issue(const std::string& node, std::string_view code, std::string text) {
+  json_fields::ReadContext context("map");
+  context.push("joints");
+  context.push(node);
+  context.fail(code, std::move(text));
+  return context.take_issue();
+}
+
+Result<JointMap> read_map(const std::string& path) {
+  if (path.empty()) return JointMap{};
+  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  if (!text) return text.issue();
+  Result<JointMap> map = parse_joint_map(*text);
+  if (!map) return Issue{map.issue().code, map.issue().pointer, path + ": " + map.issue().text};
+  return map;
+}
+
+// Joints of the character that turn, by name.
+Result<SpeedLimits> limits_of(const ClipCheckOptions& options, const JointMap& map, Context& context) {
+  SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, {}};
+  if (options.character.empty()) return limits;
+  const Library* library = context.load_library();
+  if (library == nullptr) return Issue{"library.unreadable", "", "the library could not be read"};
+  const Result<Character> character = build_character({options.character, {}, {}}, *library);
+  if (!character) return character.issue();
+  for (const Joint& joint : character->joints())
+    if (joint.kind == JointKind::hinge || joint.kind == JointKind::ball) limits.of_node[joint.name] = joint.max_speed;
+  std::map<std::string, double> mapped;
+  for (const auto& [node, joint] : map.joints) {
+    const auto found = limits.of_node.find(joint);
+    if (found == limits.of_node.end())
+      return map_issue(
+          node, "unknown_joint",
+          "the character " + options.character + " has no joint " + json_fields::quoted(joint) + " that turns");
+    mapped[node] = found->second;
+  }
+  for (const auto& [node, limit] : mapped) limits.of_node[node] = limit;
+  return limits;
+}
+
+void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
+  for (const AssetNode& node : asset.nodes) {
+    unmatched.erase(node.label);
+    unmatched.erase(node.name);
+  }
+}
+
+void check_file(const std::string& file, const ClipCheckOptions& options, const SpeedLimits& limits, Checked& out) {
+  const Result<Animation> animation = read_animation(file, options.animation);
+  if (!animation) return out.unreadable.push_back({file, animation.issue()});
+  forget_matched(animation->asset, out.unmatched);
+  for (ClipSpeeds& speeds : check_clip_speeds(animation->asset, limits, options.clip)) {
+    ClipReport report{file, std::move(speeds), {}, options.animation.rate_hz, 0};
+    if (const std::optional<Take>& take = animation->take; take) {
+      report.limits = check_dof_limits(take->skeleton, take->motion);
+      report.first_frame = take->motion.first_frame;
+    }
+    out.clips.push_back(std::move(report));
+  }
+}
+
+void print_one(const ClipCheckOptions& options, const Checked& checked) {
+  if (options.json) return print_json(options.files.front(), checked.clips);
+  for (const ClipReport& clip : checked.clips) print_clip(clip);
+  print_result(count_findings(checked.clips), checked.clips.size(), "");
+}
+
+void print_all(const ClipCheckOptions& options, const Checked& checked, std::size_t files) {
+  if (options.json) return print_json(checked.clips, checked.unreadable);
+  for (const ClipReport& clip : checked.clips) print_clip_line(clip);
+  for (const auto& [file, issue] : checked.unreadable)
+    std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
+  print_result(count_findings(checked.clips), checked.clips.size(),
+               " files=" + std::to_string(files) + " unreadable=" + std::to_string(checked.unreadable.size()));
+}
+
+// What stops the command before anything is printed: nothing to judge, or a map that does not fit.
+Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked) {
+  if (!options.all_clips && !checked.unreadable.empty()) return checked.unreadable.front().issue;
+  if (!checked.unmatched.empty() && !checked.clips.empty())
+    return map_issue(*checked.unmatched.begin(), "unknown_node", "no file has a node of this name");
+  if (!checked.clips.empty() || !checked.unreadable.empty()) return Done{};
+  const std::string where = options.files.size() == 1 ? options.files.front() : "none of the files";
+  return Issue{"check.no_clip", "",
+               where + (options.clip.empty() ? " holds no animation" : " holds no clip \"" + options.clip + "\"")};
+}
+
+void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::fprintf(stderr, "%zu clips in %.2f s: %.1f clips per second\n", clips, seconds,
+               static_cast<double>(clips) / std::max(seconds, 1e-9));
+}
+
+}  // namespace
+
+void check_clips(const ClipCheckOptions& options, Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result<JointMap> map = read_map(options.map);
+  if (!map) return context.fail(map.issue());
+  const Result<SpeedLimits> limits = limits_of(options, *map, context);
+  if (!limits) return context.fail(limits.issue());
+  const Result<std::vector<std::string>> files =
+      options.all_clips ? expand_animations(options.files) : Result<std::vector<std::string>>(options.files);
+  if (!files) return context.fail(files.issue());
+  Checked checked;
+  for (const auto& entry : map->joints) checked.unmatched.insert(entry.first);
+  for (const std::string& file : *files) check_file(file, options, *limits, checked);
+  if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(fit.issue());
+  context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
+  if (!options.all_clips) return print_one(options, checked);
+  std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
+  print_all(options, checked, files->size());
+  print_pace(checked.clips.size(), start);
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,26 @@
+// contort check for animations made elsewhere: one file, or all clips of many.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/animation.h"
+#include "cli/commands.h"
+
+namespace contort::cli {
+
+struct ClipCheckOptions {
+  std::vector<std::string> files;  // with all_clips, folders too; without, one file
+  std::string character;           // whose speed limits apply, "" for none
+  std::string map;                 // a file that says which node stands for which joint of the character
+  std::string clip;                // "" for all
+  AnimationOptions animation;
+  double max_speed_deg_s = 3000.0;
+  bool all_clips = false;
+  bool json = false;
+};
+
+// Prints what was found and leaves the exit code in the context.
+void check_clips(const ClipCheckOptions& options, Context& context);
+
+}  // namespace contort::cli

@@ -1,0 +1,21 @@
+// What a motion capture file may hold. All are checked before memory is taken for what they count. The largest of the
+// files that the tests read has 2.1 MB, 142 nodes and 264 000 numbers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace contort {
+
+inline constexpr std::size_t kMaxMocapBytes = std::size_t{128} << 20;
+inline constexpr int kMaxMocapNodes = 16'384;
+inline constexpr int kMaxMocapDepth = 1024;  // Joints within joints. Nothing recurses; it only keeps poses affordable.
+inline constexpr std::size_t kMaxMocapNameBytes = 1024;
+inline constexpr std::int64_t kMaxMocapNumbers = std::int64_t{8}
+                                                 << 20;  // Frames times channels: a third of a GB as keys.
+// Degrees. A joint that turns 10 000 times is a fault of the file, and sines of large angles lose their digits.
+inline constexpr double kMaxMocapAngle_deg = 3'600'000.0;
+// Lengths, in the file's unit: what is larger overflows as soon as it is squared.
+inline constexpr double kMaxMocapLength = 1e100;
+
+}  // namespace contort

@@ -1,0 +1,179 @@
+// contort check on motion capture and on many files, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+#include "tests/mocap/asf_text.h"
+#include "tests/mocap/bvh_text.h"
+
+namespace contort {
+namespace {
+
+using Json = nlohmann::json;
+
+bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+// One joint about Z at 100 frames per second, by these angles.
+std::string bvh_of(const std::string& joint, const std::vector<double>& angles_deg) {
+  std::string text = "HIERARCHY\nROOT " + joint + "\n{\nOFFSET 0 0 0\nCHANNELS 1 Zrotation\n}\nMOTION\nFrames: " +
+                     std::to_string(angles_deg.size()) + "\nFrame Time: 0.01\n";
+  for (const double angle : angles_deg) text += std::to_string(angle) + "\n";
+  return text;
+}
+
+class CheckClips : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    spill(folder_ / name, text);
+    return folder_ / name;
+  }
+  TempFolder folder_;
+};
+
+TEST_F(CheckClips, ABvhIsCheckedAndAPopIsNamedSo) {
+  const std::string path = file("take.bvh", bvh_of("arm", {90, 0, 1, 2, 3, 4}));
+  const Ran ran = contort_program({"check", path});
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_TRUE(has(ran.out, "clip take: peak 9000.0 deg/s at arm, 0.000-0.010 s")) << ran.out;
+  EXPECT_TRUE(has(ran.out, "  pop  arm  9000.0 deg/s, allowed 3000.0  at 0.000-0.010 s")) << ran.out;
+  EXPECT_EQ(last_line(ran.out), "RESULT findings=1 clips=1");
+  EXPECT_EQ(contort_program({"check", path, "--max-speed-deg-s", "9001"}).code, 0);
+}
+
+TEST_F(CheckClips, ABvhThatIsBrokenIsRefusedWithItsLine) {
+  const Ran ran = contort_program({"check", file("a.bvh", replaced(small_bvh(), "1.25e1", "x"))});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_TRUE(has(ran.err, "bvh.bad_number at line 12: found \"x\"")) << ran.err;
+}
+
+TEST_F(CheckClips, AnAmcIsJudgedByItsOwnLimits) {
+  file("tiny.asf", small_asf());
+  const std::string amc = file("tiny_01.amc", small_amc());
+  const Ran ran = contort_program({"check", amc, "--rate-hz", "1"});
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_TRUE(has(ran.out, "declared limits: 3 of 12 samples out of range, worst 2.0 deg at hand ry min, frame 9"))
+      << ran.out;
+  EXPECT_TRUE(has(ran.out, "  joint_range  arm ry min  1.5 deg out of range  frames 8-8, worst 8 (2.000 s)"))
+      << ran.out;
+  EXPECT_EQ(last_line(ran.out), "RESULT findings=3 clips=1");
+  const Json out = Json::parse(contort_program({"check", amc, "--rate-hz", "1", "--json"}).out, nullptr, false);
+  ASSERT_TRUE(out.is_object());
+  EXPECT_EQ(out["clips"][0]["samples"], 12);
+  EXPECT_EQ(out["clips"][0]["samples_out_of_range"], 3);
+  EXPECT_EQ(out["clips"][0]["findings"][0]["check"], "joint_range");
+  EXPECT_EQ(out["clips"][0]["findings"][0]["worst_frame"], 7);
+}
+
+TEST_F(CheckClips, TheSkeletonIsTheOneNamedMostAlike) {
+  const std::string amc = file("07_01.amc", small_amc());
+  Ran ran = contort_program({"check", amc});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(has(ran.err, "check.no_skeleton: there is no .asf beside")) << ran.err;
+  file("anything.asf", small_asf());
+  EXPECT_EQ(contort_program({"check", amc}).code, 1) << "the only one";
+  file("07.asf", "not a skeleton");
+  ran = contort_program({"check", amc});
+  EXPECT_TRUE(has(ran.err, "asf.bad_syntax") && has(ran.err, "07.asf")) << ran.err;
+  file("07_0.asf", small_asf());
+  EXPECT_EQ(contort_program({"check", amc}).code, 1) << "a longer common beginning";
+  file("07_02.asf", small_asf());
+  ran = contort_program({"check", amc});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(has(ran.err, "check.no_skeleton: more than one")) << ran.err;
+  EXPECT_EQ(contort_program({"check", amc, "--skeleton", folder_ / "anything.asf"}).code, 1);
+}
+
+TEST_F(CheckClips, AMapBringsTheLimitsOfACharacter) {
+  // 400 deg/s at first, then slower; the human's elbow may turn faster than 100 deg/s and slower than 2000.
+  const std::string slow = file("slow.bvh", bvh_of("rig:Left Arm", {0, 4, 8, 11, 13, 14}));
+  const std::string fast = file("fast.bvh", bvh_of("rig:Left Arm", {0, 20, 40, 60, 80, 100}));
+  const std::string map =
+      file("map.json", R"({"format": "contort.map/1", "joints": {"rig:Left Arm": "arm_left/elbow"}})");
+  const auto check = [&](const std::string& path, const std::string& max) {
+    return contort_program({"check", path, "--character", "human", "--map", map, "--max-speed-deg-s", max});
+  };
+  EXPECT_EQ(check(slow, "100").code, 0) << "the character's limit holds, not the general one";
+  EXPECT_EQ(check(fast, "3000").code, 1);
+  EXPECT_EQ(contort_program({"check", fast, "--character", "human"}).code, 0) << "names do not match without a map";
+  const Ran alone = contort_program({"check", fast, "--map", map});
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_TRUE(has(alone.err, "--character")) << alone.err;
+}
+
+TEST_F(CheckClips, AMapThatFitsNothingIsRefused) {
+  const std::string take = file("take.bvh", bvh_of("arm", {0, 1, 2}));
+  const auto refused = [&](const std::string& joints) {
+    const std::string map = file("map.json", R"({"format": "contort.map/1", "joints": )" + joints + "}");
+    const Ran ran = contort_program({"check", take, "--character", "human", "--map", map});
+    EXPECT_EQ(ran.code, 2) << joints;
+    EXPECT_EQ(ran.out, "");
+    return ran.err;
+  };
+  EXPECT_TRUE(has(refused(R"({"arm": "arm_left/elbo"})"), "map.unknown_joint at /joints/arm: "));
+  EXPECT_TRUE(has(refused(R"({"leg": "arm_left/elbow"})"), "map.unknown_node at /joints/leg: "));
+  EXPECT_TRUE(has(refused("[]"), "map.wrong_type at /joints: "));
+}
+
+TEST_F(CheckClips, AllClipsAreOneLineEachWorstFirst) {
+  file("b/calm.bvh", bvh_of("arm", {0, 1, 2}));
+  file("b/c/wild.BVH", bvh_of("arm", {0, 50, 100, 150}));
+  file("a.bvh", bvh_of("arm", {0, 2, 4}));
+  file("b/broken.bvh", "x");
+  file("b/readme.txt", "not an animation");
+  const Ran ran = contort_program({"check", folder_.path(), "--all-clips"});
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  const std::vector<std::string> lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 6U) << ran.out;
+  EXPECT_TRUE(has(lines[0], "wild.BVH: clip wild: findings 1, pops 0, peak 5000.0 deg/s at arm, ")) << lines[0];
+  EXPECT_TRUE(has(lines[1], "a.bvh: clip a: findings 0")) << lines[1];
+  EXPECT_TRUE(has(lines[2], "calm.bvh: clip calm: findings 0")) << lines[2];
+  EXPECT_TRUE(has(lines[3], "broken.bvh: unreadable: bvh.bad_syntax at line 1: ")) << lines[3];
+  EXPECT_EQ(lines[5], "RESULT findings=1 clips=3 files=4 unreadable=1");
+  EXPECT_TRUE(has(ran.err, "clips per second")) << ran.err;
+  EXPECT_FALSE(has(ran.out, "clips per second"));
+}
+
+TEST_F(CheckClips, AllClipsAsJsonNameTheirFiles) {
+  const std::string good = file("good.bvh", bvh_of("arm", {0, 1, 2}));
+  const std::string bad = file("bad.bvh", "x");
+  const Ran ran = contort_program({"check", good, bad, "--all-clips", "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Json out = Json::parse(ran.out, nullptr, false);
+  ASSERT_TRUE(out.is_object()) << ran.out;
+  EXPECT_EQ(out["clips"][0]["file"], good);
+  EXPECT_NEAR(out["clips"][0]["least_margin_deg_s"].get<double>(), 2900.0, 1e-6);
+  EXPECT_EQ(out["unreadable"][0]["file"], bad);
+  EXPECT_EQ(out["unreadable"][0]["code"], "bvh.bad_syntax");
+  EXPECT_EQ(out["unreadable"][0]["pointer"], "line 1");
+}
+
+TEST_F(CheckClips, OnlyWhereNothingCanBeReadTheInputIsBad) {
+  const std::string bad = file("bad.bvh", "x");
+  EXPECT_EQ(contort_program({"check", bad, "--all-clips"}).code, 2);
+  EXPECT_EQ(contort_program({"check", bad, file("good.bvh", bvh_of("arm", {0, 1})), "--all-clips"}).code, 0);
+  const Ran empty =
+      contort_program({"check", file("empty/x.txt", "").substr(0, folder_.path().size() + 6), "--all-clips"});
+  EXPECT_EQ(empty.code, 2);
+  EXPECT_TRUE(has(empty.err, "check.no_clip")) << empty.err;
+}
+
+TEST_F(CheckClips, SeveralFilesNeedAllClips) {
+  const std::string path = file("take.bvh", bvh_of("arm", {0, 1, 2}));
+  const Ran ran = contort_program({"check", path, path});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(has(ran.err, "--all-clips")) << ran.err;
+  EXPECT_EQ(contort_program({"check", path, "--all-clips", "--clip", "take"}).code, 2);
+}
+
+TEST_F(CheckClips, NamesCannotWriteToTheTerminal) {
+  const Ran ran = contort_program({"check", file("take.bvh", bvh_of("a\x1b[31mm", {0, 1, 2}))});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_FALSE(has(ran.out, "\x1b"));
+  EXPECT_TRUE(has(ran.out, "a?[31mm")) << ran.out;
+}
+
+}  // namespace
+}  // namespace contort
