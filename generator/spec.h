@@ -28,7 +28,8 @@ struct StartDesc {
 struct RecordingDesc {
   std::string name;                           // "": none
   std::string clip;                           // of that file; "": its first one
-  std::map<std::string, std::string> joints;  // the character's joint -> the animation's, where names differ
+  double from_s = 0.0;                        // leaves out what comes before: a reference pose, say
+  std::map<std::string, std::string> joints;  // the animation's node -> the character's joint, where names differ
   bool operator==(const RecordingDesc&) const = default;
 };
 

@@ -115,7 +115,8 @@ template <class V>
 void fields(V& v, const RecordingDesc*) {
   v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true}, "An animation of a library folder, without .glb, .gltf or .bvh.");
   v.field("clip", &RecordingDesc::clip, kLabel, "One of its clips; the first where left out.");
-  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .key_text = json_fields::Text::label}, "Joint to node, where names differ.");
+  v.field("from_s", &RecordingDesc::from_s, {.low = 0, .high = 3600}, "Leaves out what comes before.");
+  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .key_text = json_fields::Text::label}, "Node to joint, where names differ, as in a contort.map/1.");
 }
 
 template <class V>

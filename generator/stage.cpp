@@ -8,6 +8,12 @@ namespace contort {
 
 namespace {
 
+// What a part of the spec did not accept, seen from the whole.
+Issue below(const std::string& pointer, Issue issue) {
+  issue.pointer = pointer + issue.pointer;
+  return issue;
+}
+
 // A figure with mass keeps its knees bent by 12 degrees: on a straight leg it could not control its height.
 constexpr double kSoftKnees = 0.006;  // of the leg's length
 
@@ -34,78 +40,112 @@ Result<Motion> play_recording(const Spec& spec, const Character& character, cons
     return desc.clip.empty() || c.label == desc.clip || c.name == desc.clip;
   });
   if (clip == asset.clips.end())
-    return Issue{"recording.unknown_clip", "/recording/clip",
-                 desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
-  if (frames_of(*clip, spec.rate_hz, spec.hold_frames) > kMaxFrames)
+    return Issue{
+        "recording.unknown_clip", "/recording/clip",
+        desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
+  const RecordingUse use{asset, *clip, desc.joints, desc.from_s, spec.rate_hz, spec.hold_frames, start};
+  if (desc.from_s > clip->last_s - clip->first_s)
+    return Issue{"recording.too_late", "/recording/from_s",
+                 "the clip lasts " + std::to_string(clip->last_s - clip->first_s) + " s"};
+  if (frames_of(use) > kMaxFrames)
     return Issue{"spec.too_long", "/recording", "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
-  Result<Motion> motion =
-      follow_recording(character, {asset, *clip, desc.joints, spec.rate_hz, spec.hold_frames, start});
-  if (motion) return motion;
-  Issue issue = motion.issue();
-  issue.pointer = "/recording" + issue.pointer;
-  return issue;
+  Result<Motion> motion = follow_recording(character, use);
+  if (!motion) return below("/recording", motion.issue());
+  return motion;
 }
+
+// Fills a stage, step by step.
+class StageBuilder {
+ public:
+  StageBuilder(const Spec& spec, std::shared_ptr<const Character> character, const Library& library)
+      : spec_(spec), character_(*character), library_(library) {
+    out_.character = std::move(character);
+  }
+
+  Result<Stage> build() {
+    for (const auto step : {&StageBuilder::add_timeline, &StageBuilder::add_environment, &StageBuilder::find_length,
+                            &StageBuilder::find_obstacles, &StageBuilder::add_recording, &StageBuilder::add_dynamics})
+      if (const Result<Done> done = (this->*step)(); !done) return done.issue();
+    return std::move(out_);
+  }
+
+ private:
+  Result<Done> add_timeline() {
+    Result<Timeline> timeline = lay_out({spec_.sequences, spec_.interrupts, character_});
+    if (!timeline) return timeline.issue();
+    out_.timeline = std::move(timeline).value();
+    return Done{};
+  }
+
+  Result<Done> add_environment() {
+    Result<Environment> environment = build_environment(spec_.environment);
+    if (!environment) return below("/environment", environment.issue());
+    out_.environment = std::move(environment).value();
+    out_.start = {axis_angle(Vec3(0, 1, 0), spec_.start.heading_deg * kRadPerDeg),
+                  Vec3(spec_.start.position_m.x, 0.0, spec_.start.position_m.z)};
+    out_.legs = find_legs(character_);
+    place_hips(spec_, out_);
+    return Done{};
+  }
+
+  // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before
+  // anything moved, the last one the state at the end.
+  Result<Done> find_length() {
+    out_.rate_hz = spec_.rate_hz, out_.hold_frames = spec_.hold_frames;
+    const int ends = 1 + static_cast<int>(spec_.interrupts.size());
+    out_.most_frames = out_.timeline.frame_count + spec_.hold_frames * ends + 1;
+    if (out_.most_frames <= kMaxFrames + 1) return Done{};
+    return Issue{"spec.too_long", "/hold_frames",
+                 "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
+  }
+
+  Result<Done> find_obstacles() {
+    for (std::size_t i = 0; i < out_.timeline.interrupts.size(); ++i) {
+      PlannedInterrupt& interrupt = out_.timeline.interrupts[i];
+      if (interrupt.when.event != Event::near_obstacle || interrupt.when.name.empty()) continue;
+      interrupt.obstacle = out_.environment.find_obstacle(interrupt.when.name);
+      if (interrupt.obstacle < 0)
+        return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
+                     "found \"" + interrupt.when.name + "\", which no obstacle is called"};
+    }
+    return Done{};
+  }
+
+  Result<Done> add_recording() {
+    if (spec_.recording.name.empty()) return Done{};
+    Result<Motion> recorded = play_recording(spec_, character_, library_, out_.start);
+    if (!recorded) return recorded.issue();
+    out_.most_frames = recorded->frame_count;
+    out_.recorded = std::make_shared<const Motion>(std::move(recorded).value());
+    return Done{};
+  }
+
+  // A kinematic spec may hold loads and blows too: they are checked, and wait for another mode.
+  Result<Done> add_dynamics() {
+    if (spec_.dynamics == DynamicsDesc{}) return Done{};
+    Result<DynamicsSetup> dynamics = build_dynamics(spec_.dynamics, character_, out_.legs, out_.rate_hz, out_.start.q);
+    if (!dynamics) return below("/dynamics", dynamics.issue());
+    if (spec_.dynamics.mode != Mode::kinematic)
+      out_.dynamics = std::make_shared<const DynamicsSetup>(std::move(dynamics).value());
+    return Done{};
+  }
+
+  const Spec& spec_;
+  const Character& character_;
+  const Library& library_;
+  Stage out_;
+};
 
 }  // namespace
 
 Result<Stage> build_stage(const Spec& spec, const Library& library) {
   Result<Character> character = build_character(spec.character, library);
-  if (!character) {
-    Issue issue = character.issue();
-    issue.pointer = "/character" + issue.pointer;
-    return issue;
-  }
+  if (!character) return below("/character", character.issue());
   return build_stage(spec, std::make_shared<const Character>(std::move(character).value()), library);
 }
 
 Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character, const Library& library) {
-  Result<Timeline> timeline = lay_out({spec.sequences, spec.interrupts, *character});
-  if (!timeline) return timeline.issue();
-  Result<Environment> environment = build_environment(spec.environment);
-  if (!environment) {
-    Issue issue = environment.issue();
-    issue.pointer = "/environment" + issue.pointer;
-    return issue;
-  }
-  Stage stage;
-  stage.environment = std::move(environment).value();
-  stage.legs = find_legs(*character);
-  stage.timeline = std::move(timeline).value();
-  stage.rate_hz = spec.rate_hz;
-  stage.start = {axis_angle(Vec3(0, 1, 0), spec.start.heading_deg * kRadPerDeg), Vec3(spec.start.position_m.x, 0.0, spec.start.position_m.z)};
-  place_hips(spec, stage);
-  stage.hold_frames = spec.hold_frames;
-  // The queue may run dry once more for every interrupt. One more frame than periods: frame 0 is the state before anything moved, the last one the state at the end.
-  stage.most_frames =
-      stage.timeline.frame_count + spec.hold_frames * (1 + static_cast<int>(spec.interrupts.size())) + 1;
-  if (stage.most_frames > kMaxFrames + 1)
-    return Issue{"spec.too_long", "/hold_frames",
-                 "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
-  for (std::size_t i = 0; i < stage.timeline.interrupts.size(); ++i) {
-    PlannedInterrupt& interrupt = stage.timeline.interrupts[i];
-    if (interrupt.when.event != Event::near_obstacle || interrupt.when.name.empty()) continue;
-    interrupt.obstacle = stage.environment.find_obstacle(interrupt.when.name);
-    if (interrupt.obstacle < 0)
-      return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
-                   "found \"" + interrupt.when.name + "\", which no obstacle is called"};
-  }
-  if (!spec.recording.name.empty()) {
-    Result<Motion> recorded = play_recording(spec, *character, library, stage.start);
-    if (!recorded) return recorded.issue();
-    stage.most_frames = recorded->frame_count;
-    stage.recorded = std::make_shared<const Motion>(std::move(recorded).value());
-  }
-  if (spec.dynamics != DynamicsDesc{}) {
-    Result<DynamicsSetup> dynamics = build_dynamics(spec.dynamics, *character, stage.legs, stage.rate_hz, stage.start.q);
-    if (!dynamics) {
-      Issue issue = dynamics.issue();
-      issue.pointer = "/dynamics" + issue.pointer;
-      return issue;
-    }
-    if (spec.dynamics.mode != Mode::kinematic) stage.dynamics = std::make_shared<const DynamicsSetup>(std::move(dynamics).value());
-  }
-  stage.character = std::move(character);
-  return stage;
+  return StageBuilder(spec, std::move(character), library).build();
 }
 
 }  // namespace contort

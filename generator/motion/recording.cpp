@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "generator/asset/sample.h"
 #include "generator/core/detmath.h"
@@ -72,20 +73,13 @@ class Follower {
   }
 
   Result<Done> map() {
-    for (const auto& [joint, node] : use_.joints) {
-      if (character_.find_joint(joint) < 0)
-        return Issue{"recording.unknown_joint", "/joints/" + joint, "is no joint of " + character_.name()};
-      if (find_node(use_.asset, node) < 0)
-        return Issue{"recording.unknown_node", "/joints/" + joint, "found \"" + node + "\", which no node is called"};
-    }
-    followed_of_.assign(character_.joints().size(), -1);
-    for (std::size_t j = 0; j < followed_of_.size(); ++j) {
-      const std::string& name = character_.joints()[j].name;
-      const auto given = use_.joints.find(name);
-      const int node = find_node(use_.asset, given == use_.joints.end() ? name : given->second);
-      if (node < 0) continue;
+    const Result<std::vector<int>> nodes = nodes_of_joints();
+    if (!nodes) return nodes.issue();
+    followed_of_.assign(nodes->size(), -1);
+    for (std::size_t j = 0; j < nodes->size(); ++j) {
+      if ((*nodes)[j] < 0) continue;
       followed_of_[j] = static_cast<int>(followed_.size());
-      followed_.push_back({static_cast<int>(j), node, 1, kNoRotation});
+      followed_.push_back({static_cast<int>(j), (*nodes)[j], 1, kNoRotation});
     }
     if (followed_.empty() || followed_[0].joint != 0)
       return Issue{"recording.no_root", "/joints", "no node is called \"root\" or given for it"};
@@ -98,7 +92,7 @@ class Follower {
   void play(Motion& motion) const {
     std::vector<Rigid> world(rest_.size());
     for (int frame = 0; frame < motion.frame_count; ++frame) {
-      const double t_s = std::min(use_.clip.first_s + frame / use_.rate_hz, use_.clip.last_s);
+      const double t_s = std::min(begin_s() + frame / use_.rate_hz, use_.clip.last_s);
       const std::vector<Trs> local = pose(use_.asset, use_.clip, t_s);
       const std::vector<Rigid> nodes = world_of(use_.asset, local);
       const std::span<double> row = motion.row(frame);
@@ -116,6 +110,24 @@ class Follower {
 
  private:
   const Joint& joint(int index) const { return character_.joints()[at(index)]; }
+
+  // By joint the node that is given for it, or that has its name; or -1.
+  Result<std::vector<int>> nodes_of_joints() const {
+    std::vector<int> nodes;
+    for (const Joint& own : character_.joints()) nodes.push_back(find_node(use_.asset, own.name));
+    std::vector<char> given(nodes.size(), 0);
+    for (const auto& [node, joint] : use_.joints) {
+      const int index = character_.find_joint(joint), found = find_node(use_.asset, node);
+      if (found < 0) return Issue{"recording.unknown_node", "/joints/" + node, "is no node of the animation"};
+      if (index < 0)
+        return Issue{"recording.unknown_joint", "/joints/" + node,
+                     "found \"" + joint + "\", which is no joint of " + character_.name()};
+      if (given[at(index)] != 0)
+        return Issue{"recording.duplicate_joint", "/joints/" + node, "\"" + joint + "\" is given to two nodes"};
+      given[at(index)] = 1, nodes[at(index)] = found;
+    }
+    return nodes;
+  }
 
   // How many hinges in one point, without nodes of their own, go with this one.
   int hinges_from(int first) const {
@@ -163,10 +175,12 @@ class Follower {
     return low;
   }
 
+  double begin_s() const { return use_.clip.first_s + use_.from_s; }
+
   double lowest_ever() const {
-    double low = lowest(world_of(use_.asset, pose(use_.asset, use_.clip, use_.clip.first_s)));
-    for (double t_s = use_.clip.first_s; t_s < use_.clip.last_s; t_s += 1.0 / use_.rate_hz)
-      low = std::min(low, lowest(world_of(use_.asset, pose(use_.asset, use_.clip, t_s))));
+    double low = std::numeric_limits<double>::infinity();
+    for (int frame = 0; frame == 0 || begin_s() + frame / use_.rate_hz <= use_.clip.last_s; ++frame)
+      low = std::min(low, lowest(world_of(use_.asset, pose(use_.asset, use_.clip, begin_s() + frame / use_.rate_hz))));
     return low;
   }
 
@@ -236,9 +250,10 @@ class Follower {
 
 }  // namespace
 
-double frames_of(const AssetClip& clip, double rate_hz, int hold_frames) {
+double frames_of(const RecordingUse& use) {
   // A clip of exactly n periods has n + 1 frames, whatever 32-bit times make of its end.
-  return std::floor((clip.last_s - clip.first_s) * rate_hz + 1e-3) + 1.0 + hold_frames;
+  const double length_s = std::max(0.0, use.clip.last_s - use.clip.first_s - use.from_s);
+  return std::floor(length_s * use.rate_hz + 1e-3) + 1.0 + use.hold_frames;
 }
 
 Result<Motion> follow_recording(const Character& character, const RecordingUse& use) {
@@ -247,7 +262,7 @@ Result<Motion> follow_recording(const Character& character, const RecordingUse& 
   Motion motion;
   motion.rate_hz = use.rate_hz;
   motion.coord_count = character.coord_count();
-  motion.frame_count = static_cast<int>(frames_of(use.clip, use.rate_hz, use.hold_frames));
+  motion.frame_count = static_cast<int>(frames_of(use));
   motion.coords.resize(at(motion.frame_count) * at(motion.coord_count));
   motion.root.resize(at(motion.frame_count));
   follower.play(motion);

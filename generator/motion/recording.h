@@ -21,16 +21,18 @@ namespace contort {
 struct RecordingUse {
   const Asset& asset;
   const AssetClip& clip;
-  const std::map<std::string, std::string>& joints;  // the character's joint -> node; of others the names are equal
+  const std::map<std::string, std::string>& joints;  // node -> the character's joint; of others the names are equal
+  double from_s = 0.0;                               // of the clip
   double rate_hz = 60.0;
   int hold_frames = 0;  // after the end
   Rigid start;          // of the model's origin in the world: a turn about +Y and a place
 };
 
-// Codes "recording.unknown_joint", "recording.unknown_node" (pointers "/joints/…"), "recording.no_root".
+// Codes "recording.unknown_joint", "recording.unknown_node", "recording.duplicate_joint" (pointers "/joints/<node>"),
+// "recording.no_root".
 Result<Motion> follow_recording(const Character& character, const RecordingUse& use);
 
-// Its number of frames, held ones included.
-double frames_of(const AssetClip& clip, double rate_hz, int hold_frames);
+// Its number of frames, held ones included; at least 1.
+double frames_of(const RecordingUse& use);
 
 }  // namespace contort

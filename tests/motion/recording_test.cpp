@@ -60,6 +60,48 @@ TEST(Recording, ItStartsWhereTheSpecSays) {
   }
 }
 
+TEST(Recording, WhatComesBeforeItsBeginningIsLeftOut) {
+  Taken t = taken(scene("human_tracking"));
+  t.spec.recording.from_s = 0.5;
+  const Motion motion = generate(*build_stage(t.spec, t.library));
+  ASSERT_EQ(motion.frame_count, t.original.frame_count - 30);
+  for (int f = 0; f < motion.frame_count; ++f)
+    EXPECT_LT(glm::length(motion.root[static_cast<std::size_t>(f)].p_m -
+                          t.original.root[static_cast<std::size_t>(f) + 30].p_m),
+              1e-5);
+}
+
+// BVH: the root rests at the origin, lengths are inches, and nothing says where the ground is.
+TEST(Recording, AModelThatRestsAtTheOriginStandsOnItsLowestNode) {
+  Asset asset;
+  const auto add = [&](const char* name, int parent, const Vec3& position) {
+    AssetNode node;
+    node.name = node.label = name, node.parent = parent, node.rest.translation = position;
+    asset.order.push_back(static_cast<int>(asset.nodes.size()));
+    asset.nodes.push_back(node);
+    return asset.order.back();
+  };
+  const int hips = add("Hips", -1, {0, 0, 0}), knee = add("Knee", add("Hip", hips, {4, -1, 0}), {0, -16, 0});
+  add("Foot", knee, {0, -16, 0});
+  AssetClip clip;
+  clip.name = clip.label = "walk", clip.last_s = 1.0;
+  AssetChannel path;
+  path.path = ChannelPath::translation, path.times_s = {0.0, 1.0}, path.values = {0, 36, 0, 0, 37, 40};
+  clip.channels = {path};
+  asset.clips = {clip};
+  const std::map<std::string, std::string> joints = {
+      {"Hips", "root"}, {"Hip", "leg_left/hip_flex"}, {"Knee", "leg_left/knee"}, {"Foot", "foot_left/ankle_flex"}};
+  const Character character = human();
+  const Motion motion = *follow_recording(character, {asset, clip, joints, 0.0, 30.0, 0, {}});
+  EXPECT_NEAR(motion.root[0].p_m.y, character.rest_root().p_m.y, 1e-9);
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  const auto foot = static_cast<std::size_t>(character.find_joint("foot_left/ankle_flex"));
+  const double scale = (world[0].p_m.y - world[foot].p_m.y) / 33.0;
+  EXPECT_NEAR(motion.root[30].p_m.y - motion.root[0].p_m.y, scale, 1e-9);
+  EXPECT_NEAR(motion.root[30].p_m.z, 40.0 * scale, 1e-9);
+}
+
 TEST(Recording, DynamicsFollowsItAsItFollowsActions) {
   Spec squat = scene("human_dynamic");
   squat.dynamics = {};
@@ -101,7 +143,7 @@ struct Stranger {
 };
 
 const std::map<std::string, std::string> kStrangersJoints = {
-    {"root", "Hips"}, {"arm_left/shoulder", "Arm"}, {"arm_left/elbow", "Forearm"}};
+    {"Hips", "root"}, {"Arm", "arm_left/shoulder"}, {"Forearm", "arm_left/elbow"}};
 
 Vec3 upper_arm(const Character& character, const Motion& motion, int frame) {
   std::vector<Rigid> world(character.joints().size());
@@ -116,7 +158,7 @@ TEST(Recording, BonesPointWhereAStrangersDo) {
     Stranger stranger;
     stranger.turn_arm(from_rotation_vector(turn));
     const Result<Motion> motion =
-        follow_recording(character, {stranger.asset, stranger.asset.clips[0], kStrangersJoints, 30.0, 0, {}});
+        follow_recording(character, {stranger.asset, stranger.asset.clips[0], kStrangersJoints, 0.0, 30.0, 0, {}});
     ASSERT_TRUE(motion) << to_line(motion.issue());
     ASSERT_EQ(motion->frame_count, 31);
     EXPECT_LT(glm::length(upper_arm(character, *motion, 0) - Vec3(1, 0, 0)), 1e-9);
@@ -130,7 +172,7 @@ TEST(Recording, ACoordinateNeverJumpsToItsOtherSolution) {
   Stranger stranger;
   stranger.turn_arm(from_rotation_vector({0.9, -2.0, 0.8}));
   const Motion motion =
-      *follow_recording(character, {stranger.asset, stranger.asset.clips[0], kStrangersJoints, 120.0, 0, {}});
+      *follow_recording(character, {stranger.asset, stranger.asset.clips[0], kStrangersJoints, 0.0, 120.0, 0, {}});
   for (int f = 1; f < motion.frame_count; ++f)
     for (std::size_t c = 0; c < motion.row(f).size(); ++c)
       EXPECT_LT(std::fabs(motion.row(f)[c] - motion.row(f - 1)[c]), 0.2) << f << " " << c;
@@ -148,10 +190,14 @@ TEST(Recording, WhatDoesNotFitIsRefusedByName) {
   EXPECT_EQ(refused(spec, t.library), "recording.unknown_name /recording/name");
   spec = t.spec, spec.recording.clip = "other";
   EXPECT_EQ(refused(spec, t.library), "recording.unknown_clip /recording/clip");
-  spec = t.spec, spec.recording.joints = {{"arm_left/wing", "root"}};
-  EXPECT_EQ(refused(spec, t.library), "recording.unknown_joint /recording/joints/arm_left/wing");
-  spec = t.spec, spec.recording.joints = {{"arm_left/elbow", "wing"}};
-  EXPECT_EQ(refused(spec, t.library), "recording.unknown_node /recording/joints/arm_left/elbow");
+  spec = t.spec, spec.recording.joints = {{"root", "arm_left/wing"}};
+  EXPECT_EQ(refused(spec, t.library), "recording.unknown_joint /recording/joints/root");
+  spec = t.spec, spec.recording.joints = {{"wing", "arm_left/elbow"}};
+  EXPECT_EQ(refused(spec, t.library), "recording.unknown_node /recording/joints/wing");
+  spec = t.spec, spec.recording.joints = {{"arm_left/elbow", "root"}, {"arm_right/elbow", "root"}};
+  EXPECT_EQ(refused(spec, t.library), "recording.duplicate_joint /recording/joints/arm_right/elbow");
+  spec = t.spec, spec.recording.from_s = 100.0;
+  EXPECT_EQ(refused(spec, t.library), "recording.too_late /recording/from_s");
   spec = t.spec, spec.sequences = scene("human_tracking").sequences;
   EXPECT_EQ(refused(spec, t.library), "recording.with_sequences /recording");
   spec = t.spec, spec.rate_hz = 1000.0, spec.hold_frames = 6000;
