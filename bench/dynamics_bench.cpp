@@ -130,43 +130,6 @@ void compare_tick(Mode mode) {
               mode == Mode::dynamic ? "dynamic tick" : "tracking tick", 1e6 * times[50], 1e6 * peers[50], ratios[50]);
 }
 
-// Single ticks of the same motion at one tick a frame: the time of its first n + 1 frames less that of its first n,
-// each the least of many runs, so that what interrupts a process does not count and what a tick does itself counts.
-void tick_quantiles() {
-  Spec spec = scene("human_dynamic");
-  spec.dynamics.ticks_per_frame = 1;
-  const Stage stage = *build_stage(spec, stock_library());
-  Stage still = stage;
-  still.dynamics = nullptr;
-  const Motion target = generate(still);
-  SimulationScratch scratch;
-  Motion motion;
-  const auto time_of = [&](int frames) {
-    double least_s = 1.0;
-    for (int i = 0; i < 200; ++i) {
-      motion = target;
-      motion.frame_count = frames;
-      motion.coords.resize(static_cast<std::size_t>(frames) * static_cast<std::size_t>(motion.coord_count));
-      motion.root.resize(static_cast<std::size_t>(frames));
-      int none = 0;
-      least_s = std::min(least_s, slice(1, none, [&](int) {
-                           simulate(*stage.character, *stage.dynamics, stage.environment, scratch, motion);
-                         }));
-    }
-    return least_s;
-  };
-  std::vector<double> ticks;
-  double before = time_of(2);
-  for (int frames = 3; frames <= target.frame_count; ++frames) {
-    const double now = time_of(frames);
-    ticks.push_back(now - before);
-    before = now;
-  }
-  std::ranges::sort(ticks);
-  std::printf("single dynamic ticks of %zu: median %.2f us, 99 of 100 below %.2f us, longest %.2f us\n", ticks.size(),
-              1e6 * ticks[ticks.size() / 2], 1e6 * ticks[ticks.size() * 99 / 100], 1e6 * ticks.back());
-}
-
 }  // namespace
 }  // namespace contort
 
@@ -174,5 +137,4 @@ int main() {
   for (const char* name : {"human", "mech", "quadruped"})
     contort::compare_on(name, *contort::build_character({name, {}, {}}, contort::stock_library()));
   for (const contort::Mode mode : {contort::Mode::tracking, contort::Mode::dynamic}) contort::compare_tick(mode);
-  contort::tick_quantiles();
 }
