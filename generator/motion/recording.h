@@ -4,9 +4,10 @@
 // A joint takes over how its node has turned in the world since the model's rest pose, so that skeletons may differ in
 // their frames and number of links; and where a bone leads to one other mapped bone it is first turned to lie as the
 // model's does at rest, so that a figure with hanging arms can follow one that rests with its arms spread. A hinge
-// takes what it can of such a turn; hinges in one point that have no nodes of their own share it as Euler angles. The
-// root's path is scaled by how far both roots are at rest above the lowest joint that is mapped. Both shall face +Z
-// with +Y up (glTF). A model whose root rests at the origin, as in BVH, stands where its lowest mapped node ever is.
+// takes what it can of such a turn; hinges in one point that have no nodes of their own share it as Euler angles.
+// Joints without a node stay at rest. The root's path is scaled by how far both roots are at rest above the lowest
+// joint that is mapped. Both shall face +Z with +Y up (glTF). A model whose root rests at the origin, as in BVH, stands
+// where its lowest mapped node ever is.
 #pragma once
 
 #include <map>

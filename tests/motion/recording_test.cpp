@@ -109,7 +109,14 @@ TEST(Recording, DynamicsFollowsItAsItFollowsActions) {
   t.spec.dynamics.mode = Mode::dynamic;
   const Motion motion = generate(*build_stage(t.spec, t.library));
   ASSERT_EQ(static_cast<int>(motion.response.stances.size()), motion.frame_count);
-  for (const Stance& stance : motion.response.stances) EXPECT_EQ(stance.footing, Footing::standing);
+  double lowest_m = motion.root[0].p_m.y;
+  for (std::size_t f = 0; f < motion.root.size(); ++f) {
+    EXPECT_EQ(motion.response.stances[f].footing, Footing::standing);
+    EXPECT_LT(glm::length(motion.root[f].p_m - motion.response.target_root[f].p_m), 0.02) << f;
+    EXPECT_LT(glm::length(motion.response.target_root[f].p_m - t.original.root[f].p_m), 1e-5) << f;
+    lowest_m = std::min(lowest_m, motion.root[f].p_m.y);
+  }
+  EXPECT_LT(lowest_m, motion.root[0].p_m.y - 0.05);  // it did go down
 }
 
 // Another skeleton: half as high again, arms spread at rest, one link for each of our three hinges, other frames.
