@@ -1,5 +1,5 @@
-// aim_error: what aims must point at its target. Judged in the frames in which the generator says that an aim is fully in
-// force (Motion::aims); where the socket is and faces follows from the pose alone.
+// aim_error: what aims must point at its target. Judged in the frames in which the generator says that an aim is fully
+// in force (Motion::aims); where the socket is and faces follows from the pose alone.
 #include <cmath>
 #include <limits>
 

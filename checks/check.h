@@ -10,15 +10,13 @@
 #include <vector>
 
 #include "checks/fold.h"
+#include "checks/settings.h"
 #include "generator/character/character.h"
 #include "generator/motion/motion.h"
+#include "generator/timeline/timeline.h"
+#include "generator/world/environment.h"
 
 namespace contort {
-
-struct CheckSettings {
-  double collision_band_m = 0.1;  // Clearances are measured up to this; what is farther apart is not reported.
-  int merge_gap_frames = 2;       // Safe frames between two violations that do not split a finding.
-};
 
 struct CheckInput {
   const Character& character;
@@ -26,6 +24,8 @@ struct CheckInput {
   std::span<const Rigid>
       world;  // world_from_joint, frame-major: frame * joint_count + joint; may be empty, see CheckDef
   const CheckSettings& settings;
+  const Environment& environment;
+  const Timeline* timeline = nullptr;  // what was to be played; null for animations made elsewhere
 
   std::span<const Rigid> world_at(int frame) const {
     const std::size_t joints = character.joints().size();

@@ -15,21 +15,22 @@ constexpr double kInterrupt_s = 0.15;
 
 class Inquiry {
  public:
-  Inquiry(const Stage& stage, const Motion& motion, int frame)
-      : timeline_(stage.timeline), stage_(stage), motion_(motion), frame_(frame) {}
+  Inquiry(const Timeline& timeline, const Motion& motion, int frame)
+      : timeline_(timeline), motion_(motion), frame_(frame), moving_(moving_actions()) {}
 
-  Circumstances answer() const {
-    const std::vector<const PlannedAction*> moving = moving_actions();
-    Circumstances out;
-    for (const PlannedAction* action : moving) out.actions.push_back(describe(*action));
+  Phase phase() const {
+    if (after_blow()) return Phase::impact;
+    if (after_interrupt()) return Phase::interrupt;
+    if (at_switch()) return Phase::clip_switch;
+    if (std::ranges::any_of(moving_, [&](auto* a) { return fades(*a); })) return Phase::blend;
+    return moving_.empty() ? Phase::at_rest : Phase::mid_clip;
+  }
+
+  std::vector<ActiveAction> actions(const Character& character) const {
+    std::vector<ActiveAction> out;
+    for (const PlannedAction* action : moving_) out.push_back(describe(*action, character));
     // One use may move several parts.
-    out.actions.erase(std::unique(out.actions.begin(), out.actions.end()), out.actions.end());
-    out.phase = after_blow()                                                      ? Phase::impact
-                : after_interrupt()                                               ? Phase::interrupt
-                : at_switch()                                                     ? Phase::clip_switch
-                : std::ranges::any_of(moving, [&](auto* a) { return fades(*a); }) ? Phase::blend
-                : !moving.empty()                                                 ? Phase::mid_clip
-                                                                                  : Phase::at_rest;
+    out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
   }
 
@@ -49,12 +50,12 @@ class Inquiry {
     return out;
   }
 
-  ActiveAction describe(const PlannedAction& action) const {
+  ActiveAction describe(const PlannedAction& action, const Character& character) const {
     std::string pointer = "/sequences/" + std::to_string(action.sequence);
     if (action.sequence >= timeline_.queued)
       pointer = "/interrupts/" + std::to_string(action.sequence - timeline_.queued) + "/sequence";
     pointer += "/clips/" + std::to_string(action.clip) + "/actions/" + std::to_string(action.action);
-    return {action.name, stage_.character->parts()[static_cast<std::size_t>(action.named)].slot, pointer};
+    return {action.name, character.parts()[static_cast<std::size_t>(action.named)].slot, pointer};
   }
 
   bool after_blow() const {
@@ -93,17 +94,24 @@ class Inquiry {
   }
 
   const Timeline& timeline_;
-  const Stage& stage_;
   const Motion& motion_;
   int frame_;
+  std::vector<const PlannedAction*> moving_;
 };
 
 }  // namespace
 
+std::span<const std::string_view> phase_names() { return kPhases; }
+
 std::string_view phase_name(Phase phase) { return kPhases[static_cast<std::size_t>(phase)]; }
 
 Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame) {
-  return Inquiry(stage, motion, frame).answer();
+  const Inquiry inquiry(stage.timeline, motion, frame);
+  return {inquiry.phase(), inquiry.actions(*stage.character)};
+}
+
+Phase phase_of(const Timeline& timeline, const Motion& motion, int frame) {
+  return Inquiry(timeline, motion, frame).phase();
 }
 
 }  // namespace contort

@@ -1,6 +1,7 @@
 // In what circumstances a finding happened: which actions moved the figure then, and what had just changed.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ enum class Phase {
   mid_clip,     // actions move, and nothing changes
   at_rest,      // no action moves: a motion's end, or a recording
 };
+std::span<const std::string_view> phase_names();  // in the order of the enum
 std::string_view phase_name(Phase phase);
 
 struct ActiveAction {
@@ -36,5 +38,6 @@ struct Circumstances {
 
 // Of a frame of the motion that was generated from this stage.
 Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame);
+Phase phase_of(const Timeline& timeline, const Motion& motion, int frame);
 
 }  // namespace contort

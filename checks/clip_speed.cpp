@@ -30,8 +30,14 @@ std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
 
 // The two kinds of findings of one channel, while its intervals are judged.
 struct ChannelFolds {
-  MarginFold fast{1, CheckSettings{}.merge_gap_frames};
-  MarginFold pops{1, CheckSettings{}.merge_gap_frames};
+  MarginFold fast;
+  MarginFold pops;
+  ChannelFolds(const CheckSettings& settings, const std::string& node)
+      : fast(1, settings.merge_gap_frames), pops(1, settings.merge_gap_frames) {
+    if (settings.limits.empty()) return;
+    fast.tolerate({tolerance_of(settings, "angular_velocity", node)}, {}, 1);
+    pops.tolerate({tolerance_of(settings, "pop", node)}, {}, 1);
+  }
 };
 
 // Whether it is a pop is told by the keys alone: what a spline does between them is smooth.
@@ -66,11 +72,11 @@ void add_channel(const AssetNode& node, const ChannelSpeeds& speeds, const Speed
     out.peak_t0_s = interval.t0_s;
     out.peak_t1_s = interval.t1_s;
   }
-  ChannelFolds folds;
+  ChannelFolds folds(limits.settings, node.label);
   judge(speeds, intervals, limit, folds);
   const auto first = static_cast<std::ptrdiff_t>(out.findings.size());
   add_findings(folds.fast, "angular_velocity", find_check("angular_velocity").scale, node, intervals, out.findings);
-  add_findings(folds.pops, "pop", kPopScale_rad_s, node, intervals, out.findings);
+  add_findings(folds.pops, "pop", find_check("pop").scale, node, intervals, out.findings);
   std::stable_sort(out.findings.begin() + first, out.findings.end(), [](const ClipFinding& l, const ClipFinding& r) {
     return l.finding.first_frame < r.finding.first_frame;
   });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checks/fold.h"
+#include "checks/settings.h"
 #include "generator/asset/asset.h"
 
 namespace contort {
@@ -16,6 +17,7 @@ namespace contort {
 struct SpeedLimits {
   double max_rad_s = 0.0;                 // for every node without its own limit, > 0
   std::map<std::string, double> of_node;  // rad/s, by node label or name
+  CheckSettings settings{};               // its rules for angular_velocity and pop, by node label; clips have no phases
 };
 
 // A finding of one clip. Frames of the finding are key intervals: interval i is between keys i and i + 1.

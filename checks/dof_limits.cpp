@@ -28,10 +28,24 @@ std::vector<LimitedDof> limited_dofs(const AsfSkeleton& skeleton) {
   return out;
 }
 
+// Two to each: its low and its high end.
+std::string subject_name(const std::vector<LimitedDof>& dofs, int subject) {
+  const LimitedDof& limited = dofs[static_cast<std::size_t>(subject) / 2];
+  return limited.bone->name + " " + std::string(dof_name(limited.dof.kind)) + (subject % 2 == 0 ? " min" : " max");
+}
+
+void tolerate(const CheckSettings& settings, const std::vector<LimitedDof>& dofs, MarginFold& fold) {
+  if (settings.limits.empty()) return;
+  std::vector<double> tolerances;
+  for (int s = 0; s < 2 * static_cast<int>(dofs.size()); ++s)
+    tolerances.push_back(tolerance_of(settings, "joint_range", subject_name(dofs, s)));
+  fold.tolerate(std::move(tolerances), {}, 1);
+}
+
 Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& dofs, double scale) {
   const LimitedDof& limited = dofs[static_cast<std::size_t>(e.subject) / 2];
   return {"joint_range",
-          limited.bone->name + " " + std::string(dof_name(limited.dof.kind)) + (e.subject % 2 == 0 ? " min" : " max"),
+          subject_name(dofs, e.subject),
           is_rotation(limited.dof.kind) ? "rad" : "file units",
           e.first,
           e.worst,
@@ -42,9 +56,10 @@ Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& 
 
 }  // namespace
 
-DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion) {
+DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion, const CheckSettings& settings) {
   const std::vector<LimitedDof> dofs = limited_dofs(skeleton);
-  MarginFold fold(2 * static_cast<int>(dofs.size()), CheckSettings{}.merge_gap_frames, kDofResolution_rad);
+  MarginFold fold(2 * static_cast<int>(dofs.size()), settings.merge_gap_frames, kDofResolution_rad);
+  tolerate(settings, dofs, fold);
   DofLimits out;
   for (int frame = 0; frame < motion.frame_count; ++frame) {
     for (std::size_t i = 0; i < dofs.size(); ++i) {

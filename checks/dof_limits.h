@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checks/fold.h"
+#include "checks/settings.h"
 #include "generator/mocap/amc.h"
 
 namespace contort {
@@ -25,6 +26,7 @@ struct DofLimits {
 // Limits are inclusive; 1e-6 degrees beyond are the rounding of printed numbers.
 inline constexpr double kDofResolution_rad = 1e-6 * kRadPerDeg;
 
-DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion);
+// Rules of the settings for joint_range change what is found, not what is counted.
+DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion, const CheckSettings& settings = {});
 
 }  // namespace contort

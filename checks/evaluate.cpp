@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "checks/limits.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -39,6 +40,13 @@ int first_without_balance(const Motion& motion) {
   return lost == stances.end() ? motion.frame_count : static_cast<int>(lost - stances.begin());
 }
 
+// From what is no number follow margins that are none.
+void leave_out_what_follows(std::vector<Finding>& findings) {
+  const auto is_cause = [](const Finding& f) { return f.check == "non_finite"; };
+  if (std::ranges::none_of(findings, is_cause)) return;
+  std::erase_if(findings, [&](const Finding& f) { return !is_cause(f) && std::isnan(f.worst_margin); });
+}
+
 }  // namespace
 
 Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
@@ -46,8 +54,24 @@ Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
   Evaluation evaluation;
   evaluation.motion_hash = motion_hash(motion_);
   evaluation.frame_count = motion_.frame_count;
-  evaluation.findings = judge(*stage.character, motion_, only_check);
+  evaluation.findings = judge(*stage.character, motion_, only_check, stage.environment, &stage.timeline);
+  if (!settings_.waivers.empty()) set_waived_apart(stage, evaluation);
   return evaluation;
+}
+
+void Evaluator::set_waived_apart(const Stage& stage, Evaluation& evaluation) const {
+  std::vector<Phase> phases;
+  for (const Finding& finding : evaluation.findings)
+    phases.push_back(phase_of(stage.timeline, motion_, finding.worst_frame));
+  Waived waived = waive(settings_.waivers, evaluation.findings, phases, settings_.today);
+  std::vector<Finding> open;
+  for (std::size_t f = 0; f < evaluation.findings.size(); ++f)
+    if (waived.by[f] < 0)
+      open.push_back(std::move(evaluation.findings[f]));
+    else
+      evaluation.waived.push_back({std::move(evaluation.findings[f]), waived.by[f]});
+  evaluation.findings = std::move(open);
+  evaluation.waivers = std::move(waived.uses);
 }
 
 void Evaluator::place(const Character& character, const Motion& motion) {
@@ -59,7 +83,8 @@ void Evaluator::place(const Character& character, const Motion& motion) {
   }
 }
 
-std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check) {
+std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check,
+                                      const Environment& environment, const Timeline* timeline) {
   bool placed = false;
   std::vector<Finding> findings;
   for (const CheckDef& check : all_checks()) {
@@ -69,9 +94,12 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
       placed = true;
     }
     MarginFold fold(check.subject_count(character), settings_.merge_gap_frames, check.resolution);
-    check.measure({character, motion, world_, settings_}, fold);
+    const CheckInput input{character, motion, world_, settings_, environment, timeline};
+    apply_limits(check, input, fold);
+    check.measure(input, fold);
     append_findings(check, character, fold, findings);
   }
+  leave_out_what_follows(findings);
   // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
   const int lost = first_without_balance(motion);
   std::erase_if(findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });

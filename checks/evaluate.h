@@ -6,15 +6,25 @@
 #include <vector>
 
 #include "checks/check.h"
+#include "checks/waive.h"
 #include "generator/generate.h"
 #include "generator/stage.h"
 
 namespace contort {
 
+// A finding that a waiver of the settings hides.
+struct WaivedFinding {
+  Finding finding;
+  int waiver = 0;  // index into the settings
+  bool operator==(const WaivedFinding&) const = default;
+};
+
 struct Evaluation {
   std::uint64_t motion_hash = 0;
   int frame_count = 0;
   std::vector<Finding> findings;  // by first frame, then check in the manifest's order, then subject
+  std::vector<WaivedFinding> waived;
+  std::vector<WaiverUse> waivers;  // for each waiver of the settings
   bool operator==(const Evaluation&) const = default;
 };
 
@@ -26,12 +36,15 @@ class Evaluator {
   // Generates, measures, folds. With `only_check`, that check alone: the shrinker asks for nothing else.
   Evaluation run(const Stage& stage, std::string_view only_check = {});
 
-  // The same checks on a motion from elsewhere.
-  std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {});
+  // The same checks on a motion from elsewhere; without surroundings, on level ground at height 0;
+  // without a timeline, what depends on the spec's actions is not judged.
+  std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
+                             const Environment& environment = {}, const Timeline* timeline = nullptr);
 
   const Motion& motion() const { return motion_; }  // of the last run
 
  private:
+  void set_waived_apart(const Stage& stage, Evaluation& evaluation) const;
   void place(const Character& character, const Motion& motion);
 
   CheckSettings settings_;

@@ -1,6 +1,7 @@
 #include "checks/fold.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace contort {
 
@@ -13,6 +14,11 @@ MarginFold::MarginFold(int subject_count, int merge_gap_frames, double resolutio
       least_(-resolution),
       smallest_(static_cast<std::size_t>(subject_count), std::numeric_limits<double>::infinity()),
       open_(static_cast<std::size_t>(subject_count), -1) {}
+
+void MarginFold::tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count) {
+  tolerances_ = std::move(tolerances), phases_ = std::move(phases);
+  phase_count_ = static_cast<std::size_t>(phase_count);
+}
 
 void MarginFold::violated(int subject, int frame, double margin) {
   double& smallest = smallest_[static_cast<std::size_t>(subject)];

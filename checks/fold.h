@@ -1,6 +1,7 @@
 // From margins to findings.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,7 +37,16 @@ class MarginFold {
   // Margins down to -resolution count as 0.
   MarginFold(int subject_count, int merge_gap_frames, double resolution = 0.0);
 
+  // Added to every margin of the subject, in all phases or in one; infinite: it is not judged. With `phases` (of each
+  // frame) empty, the first number of each subject counts for every frame.
+  void tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count);
+
   void report(int subject, int frame, double margin) {
+    if (!tolerances_.empty()) {
+      const double more = tolerance(subject, frame);
+      if (more == std::numeric_limits<double>::infinity()) return;
+      margin += more;
+    }
     double& smallest = smallest_[static_cast<std::size_t>(subject)];
     if (margin >= least_) {
       if (margin < smallest) smallest = margin;
@@ -52,6 +62,10 @@ class MarginFold {
   const std::vector<double>& smallest() const { return smallest_; }
 
  private:
+  double tolerance(int subject, int frame) const {
+    const std::size_t phase = phases_.empty() ? 0 : phases_[static_cast<std::size_t>(frame)];
+    return tolerances_[static_cast<std::size_t>(subject) * phase_count_ + phase];
+  }
   void violated(int subject, int frame, double margin);
 
   int merge_gap_frames_;
@@ -59,6 +73,9 @@ class MarginFold {
   std::vector<double> smallest_;
   std::vector<int> open_;  // per subject: index of its last episode, or -1
   std::vector<Episode> episodes_;
+  std::vector<double> tolerances_;  // subjects x phases; empty: none
+  std::vector<std::uint8_t> phases_;
+  std::size_t phase_count_ = 1;
 };
 
 }  // namespace contort

@@ -1,9 +1,16 @@
 #include "checks/pop.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "checks/check.h"
+#include "checks/joint_steps.h"
+
 namespace contort {
+
+int angular_velocity_subject_count(const Character&);
+Subject angular_velocity_subject(const Character&, int subject);
 
 namespace {
 
@@ -24,6 +31,36 @@ double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t 
   double calmest = std::min(neighbours_rad_s(between_keys, i, i), neighbours_rad_s(between_keys, i, i + 1));
   if (i > 0) calmest = std::min(calmest, neighbours_rad_s(between_keys, i - 1, i));
   return kPopFactor * calmest;
+}
+
+double speed_into(const Motion& motion, const Joint& joint, int frame) {
+  return joint_step(joint, motion.row(frame - 1).data(), motion.row(frame).data()) * motion.rate_hz;
+}
+
+// Two steps on either side are all that counts.
+double explained_speed(const Motion& motion, const Joint& joint, int frame) {
+  const int first = std::max(1, frame - 2), last = std::min(motion.frame_count - 1, frame + 2);
+  std::array<SpeedInterval, 5> around;
+  for (int f = first; f <= last; ++f)
+    around[static_cast<std::size_t>(f - first)] = {(f - 1) / motion.rate_hz, f / motion.rate_hz,
+                                                   speed_into(motion, joint, f)};
+  return explained_rad_s(std::span(around).first(static_cast<std::size_t>(last - first + 1)),
+                         static_cast<std::size_t>(frame - first));
+}
+
+int pop_subject_count(const Character& character) { return angular_velocity_subject_count(character); }
+
+Subject pop_subject(const Character& character, int subject) { return angular_velocity_subject(character, subject); }
+
+void pop_measure(const CheckInput& in, MarginFold& fold) {
+  const std::span<const Joint> joints = in.character.joints();
+  for (int frame = 1; frame < in.motion.frame_count; ++frame)
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+      const double speed = speed_into(in.motion, joints[j], frame);
+      double limit = joints[j].max_speed;
+      if (speed > limit) limit = std::max(limit, explained_speed(in.motion, joints[j], frame));
+      if (speed == speed) fold.report(static_cast<int>(j) - 1, frame, limit - speed);  // no number: angular_velocity
+    }
 }
 
 }  // namespace contort

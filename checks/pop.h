@@ -1,7 +1,8 @@
-// pop: a jump of a joint in an animation made elsewhere that the motion around it does not explain. Solvers that flip,
-// markers that are swapped and reference poses left in frame 0 make them: within one or two keys a joint is somewhere
-// else, and before and after it is slow. A joint that really is too fast has to get fast first: its speed grows and
-// falls over several keys. Both break the speed limit; they are reported apart because their cures differ.
+// pop: a jump of a joint that the motion around it does not explain, in characters' motions as in animations made
+// elsewhere. Solvers that flip, markers that are swapped and reference poses left in frame 0 make them: within one or
+// two keys a joint is somewhere else, and before and after it is slow. A joint that really is too fast has to get fast
+// first: its speed grows and falls over several keys. Both break the speed limit; they are reported apart because their
+// cures differ.
 //
 // What explains a speed: with v the speeds of a channel's key intervals, a window of one or two intervals around i has
 // neighbours on both sides; the faster of these is what the window stands out from. Of the three windows that hold i,
@@ -14,6 +15,7 @@
 #include <span>
 
 #include "generator/asset/sample.h"
+#include "generator/motion/motion.h"
 
 namespace contort {
 
@@ -21,10 +23,13 @@ namespace contort {
 inline constexpr double kPopFactor = 4.0;
 // Two frames at 24 Hz last 83 ms. People need longer to start and stop a limb.
 inline constexpr double kPopLongest_s = 0.1;
-// In depths, 10 rad/s beyond what is explained are as bad as 1 rad/s of sustained speed: one frame is soon over.
-inline constexpr double kPopScale_rad_s = 10.0;
 
 // The speed up to which the motion around interval i explains it, rad/s; infinite where nothing can be said.
 double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t i);
+
+// Of a joint in a motion: its speed from the frame before into `frame` >= 1, and what the motion around that step
+// explains; rad/s, or m/s for prismatic joints.
+double speed_into(const Motion& motion, const Joint& joint, int frame);
+double explained_speed(const Motion& motion, const Joint& joint, int frame);
 
 }  // namespace contort

@@ -9,7 +9,10 @@
 #include "checks/clip_speed.h"
 #include "checks/dof_limits.h"
 #include "checks/joint_map.h"
+#include "checks/loop_seam.h"
+#include "checks/waive.h"
 #include "cli/clip_report.h"
+#include "cli/print.h"
 #include "generator/character/character.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
@@ -22,6 +25,8 @@ struct Checked {
   std::vector<ClipReport> clips;
   std::vector<Unreadable> unreadable;
   std::set<std::string> unmatched;  // nodes of the map that were in no file
+  std::vector<WaiverUse> waivers;
+  std::size_t waived = 0;
 };
 
 Issue map_issue(const std::string& node, std::string_view code, std::string text) {
@@ -43,7 +48,10 @@ Result<JointMap> read_map(const std::string& path) {
 
 // Joints of the character that turn, by name.
 Result<SpeedLimits> limits_of(const ClipCheckOptions& options, const JointMap& map, Context& context) {
-  SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, {}};
+  SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, {}, {}};
+  Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return settings.issue();
+  limits.settings = std::move(settings).value();
   if (options.character.empty()) return limits;
   const Library* library = context.load_library();
   if (library == nullptr) return Issue{"library.unreadable", "", "the library could not be read"};
@@ -71,33 +79,75 @@ void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
   }
 }
 
+// Leaves those findings that no waiver hides.
+template <class Item, class FindingOf>
+void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingOf finding_of, Checked& out) {
+  std::vector<Finding> findings;
+  for (const Item& item : items) findings.push_back(finding_of(item));
+  const Waived waived = waive(settings.waivers, findings, {}, settings.today);
+  std::size_t i = 0;
+  std::erase_if(items, [&](const Item&) { return waived.by[i++] >= 0; });
+  out.waived += i - items.size();
+  add_uses(waived.uses, out.waivers);
+}
+
+void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked& out) {
+  keep_open(
+      settings, report.speeds.findings, [](const ClipFinding& f) { return f.finding; }, out);
+  keep_open(
+      settings, report.seams, [](const Finding& f) { return f; }, out);
+  if (report.limits)
+    keep_open(
+        settings, report.limits->findings, [](const Finding& f) { return f; }, out);
+}
+
+const AssetClip& clip_of(const Asset& asset, const std::string& label) {
+  return *std::ranges::find_if(asset.clips, [&](const AssetClip& clip) { return clip.label == label; });
+}
+
 void check_file(const std::string& file, const ClipCheckOptions& options, const SpeedLimits& limits, Checked& out) {
   const Result<Animation> animation = read_animation(file, options.animation);
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
   for (ClipSpeeds& speeds : check_clip_speeds(animation->asset, limits, options.clip)) {
-    ClipReport report{file, std::move(speeds), {}, options.animation.rate_hz, 0};
+    ClipReport report{file, std::move(speeds), {}, {}, options.animation.rate_hz, 0};
+    if (!options.loops.empty() && matches(options.loops, report.speeds.clip))
+      report.seams = check_loop_seam(animation->asset, clip_of(animation->asset, report.speeds.clip), limits.settings);
     if (const std::optional<Take>& take = animation->take; take) {
-      report.limits = check_dof_limits(take->skeleton, take->motion);
+      report.limits = check_dof_limits(take->skeleton, take->motion, limits.settings);
       report.first_frame = take->motion.first_frame;
     }
+    set_waived_apart(limits.settings, report, out);
     out.clips.push_back(std::move(report));
   }
 }
 
-void print_one(const ClipCheckOptions& options, const Checked& checked) {
-  if (options.json) return print_json(options.files.front(), checked.clips);
-  for (const ClipReport& clip : checked.clips) print_clip(clip);
-  print_result(count_findings(checked.clips), checked.clips.size(), "");
+// For the last line, where there are waivers at all.
+std::string waived_count(const CheckSettings& settings, const Checked& checked) {
+  return settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived);
 }
 
-void print_all(const ClipCheckOptions& options, const Checked& checked, std::size_t files) {
+void print_waivers(const CheckSettings& settings, const Checked& checked) {
+  for (const std::string& line : waiver_lines(settings, checked.waivers)) std::printf("%s\n", line.c_str());
+}
+
+void print_one(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked) {
+  if (options.json) return print_json(options.files.front(), checked.clips);
+  for (const ClipReport& clip : checked.clips) print_clip(clip);
+  print_waivers(settings, checked);
+  print_result(count_findings(checked.clips), checked.clips.size(), waived_count(settings, checked));
+}
+
+void print_all(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked,
+               std::size_t files) {
   if (options.json) return print_json(checked.clips, checked.unreadable);
   for (const ClipReport& clip : checked.clips) print_clip_line(clip);
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
+  print_waivers(settings, checked);
   print_result(count_findings(checked.clips), checked.clips.size(),
-               " files=" + std::to_string(files) + " unreadable=" + std::to_string(checked.unreadable.size()));
+               waived_count(settings, checked) + " files=" + std::to_string(files) +
+                   " unreadable=" + std::to_string(checked.unreadable.size()));
 }
 
 // What stops the command before anything is printed: nothing to judge, or a map that does not fit.
@@ -133,9 +183,9 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   for (const std::string& file : *files) check_file(file, options, *limits, checked);
   if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(fit.issue());
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
-  if (!options.all_clips) return print_one(options, checked);
+  if (!options.all_clips) return print_one(options, limits->settings, checked);
   std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
-  print_all(options, checked, files->size());
+  print_all(options, limits->settings, checked, files->size());
   print_pace(checked.clips.size(), start);
 }
 

@@ -14,6 +14,7 @@ struct ClipCheckOptions {
   std::string character;           // whose speed limits apply, "" for none
   std::string map;                 // a file that says which node stands for which joint of the character
   std::string clip;                // "" for all
+  std::string loops;               // clips with such names are loops, "" for none
   AnimationOptions animation;
   double max_speed_deg_s = 3000.0;
   bool all_clips = false;

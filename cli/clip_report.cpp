@@ -13,12 +13,14 @@ namespace {
 using json_fields::Json;
 
 std::size_t findings_of(const ClipReport& clip) {
-  return clip.speeds.findings.size() + (clip.limits ? clip.limits->findings.size() : 0);
+  return clip.speeds.findings.size() + (clip.limits ? clip.limits->findings.size() : 0) + clip.seams.size();
 }
 
 double worst_depth(const ClipReport& clip) {
   const double fast = -clip.speeds.least_margin_rad_s / find_check("angular_velocity").scale;
-  return clip.limits ? std::max(fast, clip.limits->worst_depth) : fast;
+  double worst = clip.limits ? std::max(fast, clip.limits->worst_depth) : fast;
+  for (const Finding& seam : clip.seams) worst = std::max(worst, seam.depth);
+  return worst;
 }
 
 const Finding* deepest_of(const DofLimits& limits) {
@@ -89,6 +91,11 @@ Json limit_json(const ClipReport& clip, const Finding& f) {
           {"worst_time_s", time_s(clip, f.worst_frame)}};
 }
 
+Json seam_json(const Finding& f) {
+  return {{"check", f.check}, {"subject", f.subject},     {"unit", f.unit}, {"worst_margin", f.worst_margin},
+          {"depth", f.depth}, {"last_key", f.worst_frame}};
+}
+
 Json clip_json(const ClipReport& clip) {
   Json findings = Json::array();
   for (const ClipFinding& f : clip.speeds.findings) findings.push_back(speed_json(f));
@@ -103,6 +110,7 @@ Json clip_json(const ClipReport& clip) {
     out["samples"] = clip.limits->samples;
     out["samples_out_of_range"] = clip.limits->out_of_range;
   }
+  for (const Finding& f : clip.seams) findings.push_back(seam_json(f));
   out["findings"] = findings;
   return out;
 }
@@ -131,6 +139,9 @@ void print_clip(const ClipReport& clip) {
     std::printf("  %s  %s  %.1f deg/s, allowed %.1f  at %.3f-%.3f s\n", f.finding.check.c_str(),
                 printable(f.finding.subject).c_str(), f.worst_speed_rad_s * kDegPerRad,
                 (f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, f.worst_t0_s, f.worst_t1_s);
+  for (const Finding& f : clip.seams)
+    std::printf("  loop_seam  %s  %s wider than allowed between its last key and its first\n",
+                printable(f.subject).c_str(), margin_text(f).c_str());
   if (!clip.limits) return;
   std::printf("  declared limits: %s\n", limits_text(*clip.limits).c_str());
   print_limit_findings(clip);

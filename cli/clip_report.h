@@ -15,6 +15,7 @@ struct ClipReport {
   std::string file;
   ClipSpeeds speeds;
   std::optional<DofLimits> limits;  // of an .amc
+  std::vector<Finding> seams;       // of a loop
   double rate_hz = 0.0;             // of an .amc, with the number of its first frame
   int first_frame = 0;
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/settings.h"
 #include "generator/character/library.h"
 #include "generator/core/result.h"
 
@@ -28,9 +29,14 @@ struct Context {
   int exit_code = kClean;
   std::vector<std::string> library_folders;  // --library
   const Library* library = nullptr;          // stock and folders, made on first use
+  std::string settings_file;                 // --settings
+  std::string today;                         // --today, for waivers
 
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();
+
+  // What checks are to do; the defaults without --settings.
+  Result<CheckSettings> load_settings() const;
 
   // Prints the one line that a user sees, and sets the exit code.
   void fail(const Issue& issue, Exit code = kBadInput);

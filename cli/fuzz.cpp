@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/print.h"
 #include "cli/report.h"
 #include "fuzz/run.h"
 #include "generator/core/json_fields.h"
@@ -57,8 +58,9 @@ class ProgressLine {
   bool shown_;
 };
 
-Result<RunConfig> configure(const Options& options, const Library& library) {
+Result<RunConfig> configure(const Options& options, const CheckSettings& settings, const Library& library) {
   RunConfig config;
+  config.checks = settings;
   config.draw.characters = options.characters;
   if (config.draw.characters.empty())
     for (const auto& [name, desc] : library.characters) config.draw.characters.push_back(name);
@@ -87,7 +89,8 @@ void print_found(const RunResult& result, const std::vector<std::string>& librar
     std::printf("NOT CONFIRMED (a second run differed): %s\n", lead.c_str());
 }
 
-void print_totals(const RunResult& result, const Options& options, const std::vector<std::string>& library_folders) {
+void print_totals(const RunResult& result, const Options& options, const CheckSettings& settings,
+                  const std::vector<std::string>& library_folders) {
   const RunProgress& t = result.totals;
   if (options.json) {
     json_fields::Json out = {{"cases", t.cases},
@@ -98,12 +101,14 @@ void print_totals(const RunResult& result, const Options& options, const std::ve
                              {"known_buckets", result.known_buckets},
                              {"unconfirmed", result.unconfirmed},
                              {"discarded", result.discarded},
+                             {"waivers", json_fields::Json::parse(waivers_json(settings, result.waivers))},
                              {"tested", result.tested}};
     if (!options.report.empty()) out["report"] = options.report + "/index.html";
     std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
     return;
   }
   print_found(result, library_folders);
+  for (const std::string& line : waiver_lines(settings, result.waivers)) std::printf("%s\n", line.c_str());
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), t.elapsed_s,
               static_cast<long long>(t.failing), result.families.size(), options.corpus.c_str());
@@ -130,7 +135,9 @@ void run(const Options& options, Context& context) {
   std::signal(SIGTERM, on_interrupt);
   const Library* library = context.load_library();
   if (library == nullptr) return;
-  const Result<RunConfig> config = configure(options, *library);
+  const Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
+  const Result<RunConfig> config = configure(options, *settings, *library);
   if (!config) return context.fail(config.issue());
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
@@ -139,7 +146,7 @@ void run(const Options& options, Context& context) {
       *config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
   line.clear();
   context.exit_code = exit_code_of(result);
-  print_totals(result, options, context.library_folders);
+  print_totals(result, options, *settings, context.library_folders);
   if (!result.issue.code.empty()) context.fail(result.issue, kInternal);
   if (result.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",

@@ -53,9 +53,8 @@ std::string type_text(const ParamDef& def) {
 }
 
 Json param_json(const ParamDef& def) {
-  return {{"name", def.name},         {"type", type_text(def)},
-          {"low", def.low},           {"high", def.high},
-          {"optional", def.optional}, {"help", def.help}};
+  return {{"name", def.name}, {"type", type_text(def)},   {"low", def.low},
+          {"high", def.high}, {"optional", def.optional}, {"help", def.help}};
 }
 
 Json params_json(const std::vector<ParamDef>& defs) {
@@ -92,7 +91,8 @@ Json list_actions(const Library& library) {
 Json list_checks(const Library&) {
   Json out = Json::array();
   for (const CheckDef& check : all_checks())
-    out.push_back({{"name", check.name}, {"scale", check.scale}, {"resolution", check.resolution}, {"help", check.help}});
+    out.push_back(
+        {{"name", check.name}, {"scale", check.scale}, {"resolution", check.resolution}, {"help", check.help}});
   return out;
 }
 
@@ -157,13 +157,10 @@ const std::map<std::string, Lister>& listers() {
 }
 
 const std::map<std::string, std::function<std::string()>>& schemas() {
-  static const std::map<std::string, std::function<std::string()>> all = {{"spec", spec_schema},
-                                                                          {"case", case_schema},
-                                                                          {"part", part_schema},
-                                                                          {"object", object_schema},
-                                                                          {"character", character_schema},
-                                                                          {"action", action_schema},
-                                                                          {"map", joint_map_schema}};
+  static const std::map<std::string, std::function<std::string()>> all = {
+      {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
+      {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
+      {"map", joint_map_schema}, {"settings", settings_schema}};
   return all;
 }
 

@@ -1,13 +1,34 @@
 // contort: the command line. One file per subcommand; this one parses and hands over.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
 
 namespace contort::cli {
+
+namespace {
+
+// UTC, so that a night is the same on every machine.
+std::string day_of_clock() {
+  const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day date(day);
+  char text[40];
+  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()));
+  return text;
+}
+
+std::string refuse_no_day(const std::string& text) {
+  return is_day(text) ? "" : "\"" + text + "\" is no day; write YYYY-MM-DD";
+}
+
+}  // namespace
 
 const Library* Context::load_library() {
   if (library != nullptr) return library;
@@ -15,6 +36,19 @@ const Library* Context::load_library() {
   static Result<Library> merged = load_libraries(library_folders);
   if (!merged) return fail(merged.issue()), nullptr;
   return library = &*merged;
+}
+
+Result<CheckSettings> Context::load_settings() const {
+  CheckSettings settings;
+  if (!settings_file.empty()) {
+    const Result<std::string> text = read_regular_file(settings_file, json_fields::kMaxDocumentBytes);
+    if (!text) return text.issue();
+    Result<CheckSettings> parsed = parse_settings(*text);
+    if (!parsed) return Issue{parsed.issue().code, parsed.issue().pointer, settings_file + ": " + parsed.issue().text};
+    settings = std::move(parsed).value();
+  }
+  settings.today = today.empty() ? day_of_clock() : today;
+  return settings;
 }
 
 void Context::fail(const Issue& issue, Exit code) {
@@ -30,6 +64,11 @@ int run(int argc, char** argv) {
   app.add_option("--library", context.library_folders,
                  "Folder with parts, objects, characters and actions (*.json) of your own; may be repeated")
       ->type_name("DIR");
+  app.add_option("--settings", context.settings_file, "Limits to move and findings to waive (contort.settings/1)")
+      ->type_name("FILE");
+  app.add_option("--today", context.today, "Judge waivers as on this day (default: today, UTC)")
+      ->type_name("YYYY-MM-DD")
+      ->check(refuse_no_day);
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(

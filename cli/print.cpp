@@ -51,4 +51,44 @@ std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
   return list.dump(2);
 }
 
+namespace {
+
+std::string waiver_state(const WaiverUse& use) {
+  if (use.expired) return "expired";
+  return use.hidden == 0 ? "useless" : "used";
+}
+
+}  // namespace
+
+std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses) {
+  std::vector<std::string> lines;
+  for (std::size_t w = 0; w < uses.size(); ++w) {
+    const Waiver& waiver = settings.waivers[w];
+    const std::string who = "waiver " + std::to_string(w) + " (" + waiver.check + " " + waiver.subject + ", " +
+                            waiver.owner + ", until " + waiver.expires + ")";
+    const std::string count = std::to_string(uses[w].hidden);
+    const std::string state = waiver_state(uses[w]);
+    lines.push_back(state == "expired"   ? "EXPIRED: " + who + " hides nothing any more; it would have hidden " + count
+                    : state == "useless" ? "USELESS: " + who + " hid nothing here; remove it if that stays so"
+                                         : "waived: " + count + " by " + who + ": " + waiver.reason);
+  }
+  return lines;
+}
+
+std::string waivers_json(const CheckSettings& settings, const std::vector<WaiverUse>& uses) {
+  Json list = Json::array();
+  for (std::size_t w = 0; w < uses.size(); ++w) {
+    const Waiver& waiver = settings.waivers[w];
+    list.push_back({{"pointer", "/waivers/" + std::to_string(w)},
+                    {"check", waiver.check},
+                    {"subject", waiver.subject},
+                    {"owner", waiver.owner},
+                    {"expires", waiver.expires},
+                    {"reason", waiver.reason},
+                    {"state", waiver_state(uses[w])},
+                    {"findings", uses[w].hidden}});
+  }
+  return list.dump();
+}
+
 }  // namespace contort::cli

@@ -6,6 +6,7 @@
 
 #include "checks/circumstances.h"
 #include "checks/fold.h"
+#include "checks/waive.h"
 
 namespace contort::cli {
 
@@ -16,6 +17,10 @@ std::string finding_line(const Finding& finding, double rate_hz, const Circumsta
 // the worst frame was; `at_worst` has one entry for each finding.
 std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
                           const std::vector<Circumstances>& at_worst);
+
+// What waivers did: one line for each that has expired or hides nothing any more, and one for each that hid something.
+std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
+std::string waivers_json(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 
 // A finite number in short; "nan" where it is not one.
 std::string short_number(double value);

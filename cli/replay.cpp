@@ -72,7 +72,9 @@ void run(const Options& options, Context& context) {
   if (!paths) return context.fail(paths.issue());
   std::map<Verdict, int> counts;
   Json list = Json::array();
-  Evaluator evaluator;
+  const Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
+  Evaluator evaluator(*settings);
   for (const std::string& path : *paths) {
     const Result<Case> stored = read_case(path);
     if (!stored) {

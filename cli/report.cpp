@@ -138,8 +138,7 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
 
 }  // namespace
 
-Result<std::string> bucket_line(const std::string& bucket_folder,
-                                const std::vector<std::string>& library_folders) {
+Result<std::string> bucket_line(const std::string& bucket_folder, const std::vector<std::string>& library_folders) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(bucket_folder, error)) {
     if (entry.path().filename().string().rfind("min-", 0) != 0) continue;

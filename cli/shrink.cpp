@@ -25,7 +25,9 @@ void run(const Options& options, Context& context) {
   if (library == nullptr) return;
   Result<Case> stored = read_case(options.input);
   if (!stored) return context.fail(stored.issue());
-  Evaluator evaluator;
+  const Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
+  Evaluator evaluator(*settings);
   const Replay now = replay(*stored, *library, evaluator);
   if (now.verdict == Verdict::refused) return context.fail(now.issue);
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
@@ -34,7 +36,9 @@ void run(const Options& options, Context& context) {
          options.input + " does not fail as it says any more (" + std::string(verdict_name(now.verdict)) + ")"});
   Case original = std::move(stored).value();
   original.expect = now.now;
-  const Case smaller = shrink(original, *library, options.config);
+  ShrinkConfig config = options.config;
+  config.checks = *settings;
+  const Case smaller = shrink(original, *library, config);
   const std::string output =
       options.output.empty() ? "min-" + spec_id(smaller.spec).substr(0, 16) + ".json" : options.output;
   if (const Result<Done> written = write_file(output, print_case(smaller)); !written)

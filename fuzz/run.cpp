@@ -26,6 +26,7 @@ struct Outcome {
   int frames = 0;
   std::vector<std::string> uses;  // of actions
   std::set<std::string> pairs;    // of actions at the same time on one part
+  std::vector<WaiverUse> waivers;
   std::vector<Case> failures;  // the deepest finding of each family, in order of first appearance
 };
 
@@ -154,6 +155,7 @@ class Run {
     outcome.pairs = pairs_of(*stage);
     const Evaluation evaluation = evaluator.run(*stage);
     outcome.frames = evaluation.frame_count;
+    outcome.waivers = evaluation.waivers;
     outcome.failures = failures_of(outcome.spec, *stage, evaluator.motion(), evaluation);
     for (Case& failure : outcome.failures) failure.provenance = {config_.tool, config_.seed, index, "", 0, ""};
     return outcome;
@@ -166,6 +168,7 @@ class Run {
     if (!outcome.built) ++result_.discarded;
     if (!outcome.failures.empty()) ++totals.failing;
     count_tested(outcome.spec);
+    add_uses(outcome.waivers, result_.waivers);
     for (const std::string& use : outcome.uses) ++result_.tested[use];
     for (const std::string& pair : outcome.pairs) ++result_.tested[pair];
     for (Case& failure : outcome.failures) {

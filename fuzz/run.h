@@ -45,6 +45,7 @@ struct RunResult {
   std::int64_t discarded = 0;                    // drawn specs that did not build: a fault of the draw
   std::map<std::string, std::int64_t> families;  // cases by family
   std::map<std::string, std::int64_t> tested;    // "action pose on arm", "character mech": what was drawn
+  std::vector<WaiverUse> waivers;                // of the settings: findings that each one hid
   std::vector<std::string> new_buckets;          // folders
   std::vector<std::string> known_buckets;        // folders that were there before this run
   std::vector<std::string> unconfirmed;          // leads whose second run differed: nondeterminism, ours to explain

@@ -46,6 +46,9 @@ std::vector<Body> group_colliders(Assembly& assembly);
 CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies,
                               const std::vector<AllowedPair>& by_user);
 
+// Over everything that can change a motion or a finding.
+std::uint64_t hash_of(const Character& character);
+
 // -1 where there is none.
 int find_socket(const Assembly& assembly, const std::string& name);
 

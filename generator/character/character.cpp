@@ -6,7 +6,6 @@
 
 #include "generator/character/assembly.h"
 #include "generator/character/part_rules.h"
-#include "generator/core/hash.h"
 
 namespace contort {
 
@@ -67,51 +66,6 @@ Issue in_file(const std::string& name, Issue issue) {
   return issue;
 }
 
-struct HashShape {
-  Hash64& hash;
-  void operator()(const Sphere& s) const { add(0, {s.center_m}, s.radius_m); }
-  void operator()(const Capsule& c) const { add(1, {c.a_m, c.b_m}, c.radius_m); }
-  void operator()(const Box& b) const { add(2, {b.center_m, b.half_m, b.rotation_deg}, 0.0); }
-  void add(std::uint64_t tag, std::initializer_list<Vec3> vectors, double radius_m) const {
-    hash.add(tag);
-    for (const Vec3& v : vectors)
-      for (int i = 0; i < 3; ++i) hash.add(v[i]);
-    hash.add(radius_m);
-  }
-};
-
-void add_vec(Hash64& hash, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) hash.add(v[i]);
-}
-
-void add_quat(Hash64& hash, const Quat& q) {
-  for (const double value : {q.w, q.x, q.y, q.z}) hash.add(value);
-}
-
-void add_joint(Hash64& hash, const Joint& joint) {
-  hash.add(joint.name);
-  hash.add(static_cast<std::uint64_t>(joint.kind));
-  hash.add(static_cast<std::uint64_t>(joint.parent + 1));
-  add_quat(hash, joint.parent_from_joint.q);
-  add_quat(hash, joint.swing_center);
-  for (const Vec3& v : {joint.parent_from_joint.p_m, joint.axis, joint.swing_axis, joint.center_of_mass_m,
-                        joint.inertia_kg_m2[0], joint.inertia_kg_m2[1], joint.inertia_kg_m2[2]})
-    add_vec(hash, v);
-  for (const double value : {joint.low, joint.high, joint.swing_a_rad, joint.swing_b_rad, joint.max_speed,
-                             joint.strength_low, joint.strength_high, joint.mass_kg})
-    hash.add(value);
-}
-
-void add_chains(Hash64& hash, const Part& part) {
-  hash.add(part.slot);
-  for (const ReachChain& chain : part.reach)
-    for (const int index : {chain.upper, chain.middle, chain.tip}) hash.add(static_cast<std::uint64_t>(index));
-  for (const FacingChain& chain : part.facing) {
-    for (const int joint : chain.joints) hash.add(static_cast<std::uint64_t>(joint));
-    hash.add(static_cast<std::uint64_t>(chain.socket));
-  }
-}
-
 }  // namespace
 
 class CharacterBuilder {
@@ -128,8 +82,9 @@ class CharacterBuilder {
       if (const Result<Done> done = (this->*step)(); !done) return done.issue();
     take_over();
     if (const Result<Done> done = add_control_groups(); !done) return done.issue();
+    if (const Result<Done> done = add_regions(); !done) return done.issue();
     set_rest();
-    set_hash();
+    out_.hash_ = hash_of(out_);
     return std::move(out_);
   }
 
@@ -291,29 +246,39 @@ class CharacterBuilder {
     return Done{};
   }
 
-  void set_hash() {
-    Hash64 hash;
-    for (const Joint& joint : out_.joints_) add_joint(hash, joint);
-    for (const Collider& collider : out_.colliders_) {
-      hash.add(collider.name);
-      hash.add(static_cast<std::uint64_t>(collider.joint));
-      std::visit(HashShape{hash}, collider.shape);
+  // A region of a point that a swapped part does not have waits until a part has it; one that no part of the slot has
+  // is a slip of the pen.
+  Result<Done> add_regions() {
+    for (std::size_t i = 0; i < desc_->regions.size(); ++i) {
+      const RegionDesc& desc = desc_->regions[i];
+      const std::string pointer = "/regions/" + std::to_string(i);
+      for (std::size_t k = 0; k < i; ++k)
+        if (desc_->regions[k].name == desc.name)
+          return in_file(desc_->name,
+                         {"character.duplicate_name", pointer + "/name", "\"" + desc.name + "\" stands twice"});
+      Region region{desc.name, out_.find_joint(desc.point), Vec3(0.0), desc.shape, desc.keep_out};
+      if (const int socket = out_.find_socket(desc.point); socket >= 0) {
+        region.joint = out_.sockets_[static_cast<std::size_t>(socket)].joint;
+        region.point_m = out_.sockets_[static_cast<std::size_t>(socket)].joint_from_socket.p_m;
+      }
+      if (region.joint >= 0)
+        out_.regions_.push_back(std::move(region));
+      else if (!some_part_has(desc.point))
+        return in_file(desc_->name, {"character.unknown_point", pointer + "/point",
+                                     "no part of a slot has \"" + desc.point + "\" as a socket or joint"});
     }
-    for (const Body& body : out_.bodies_) hash.add(body.name);
-    for (const ColliderPair& pair : out_.judged_colliders_)
-      hash.add(static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint64_t>(pair.b));
-    for (const Socket& socket : out_.sockets_) {
-      hash.add(socket.name);
-      add_quat(hash, socket.joint_from_socket.q);
-      add_vec(hash, socket.joint_from_socket.p_m);
-    }
-    for (const Part& part : out_.parts_) add_chains(hash, part);
-    for (const ActionDesc& action : out_.actions_) hash.add(print_action(action));
-    for (const JointGroup& group : out_.control_groups_) {
-      hash.add(group.greatest);
-      for (const int joint : group.joints) hash.add(static_cast<std::uint64_t>(joint));
-    }
-    out_.hash_ = hash.value();
+    return Done{};
+  }
+
+  bool some_part_has(const std::string& point) const {
+    const auto is_named = [&](const SlotDesc& slot, const auto& owned) {
+      return std::any_of(owned.begin(), owned.end(), [&](const auto& o) { return slot.name + "/" + o.name == point; });
+    };
+    for (const SlotDesc& slot : desc_->slots)
+      for (const std::string& name : slot.parts)
+        if (const auto part = library_.parts.find(name); part != library_.parts.end())
+          if (is_named(slot, part->second.sockets) || is_named(slot, part->second.joints)) return true;
+    return false;
   }
 
   const CharacterChoice& choice_;

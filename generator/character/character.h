@@ -88,6 +88,15 @@ struct JointGroup {
   double greatest = 0.0;  // rad/s^2, m/s^2
 };
 
+// A declared region of a point.
+struct Region {
+  std::string name;
+  int joint = 0;
+  Vec3 point_m{0.0};    // in the joint's frame
+  ColliderShape shape;  // in the root's frame
+  bool keep_out = false;
+};
+
 struct ReachChain {
   int upper = 0;       // The ball joint, or the first of three hinges (upper, upper+1, upper+2).
   int upper_last = 0;  // == upper for a ball.
@@ -160,6 +169,8 @@ class Character {
   // As its description declares them; empty: dynamics finds groups from the parts.
   std::span<const JointGroup> control_groups() const { return control_groups_; }
 
+  std::span<const Region> regions() const { return regions_; }
+
   // Over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
 
@@ -184,6 +195,7 @@ class Character {
   std::vector<double> rest_coords_;
   std::vector<ActionDesc> actions_;
   std::vector<JointGroup> control_groups_;
+  std::vector<Region> regions_;
   int coord_count_ = 0;
   Rigid rest_root_;
   std::uint64_t hash_ = 0;
@@ -193,7 +205,7 @@ class Character {
 bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
-// .unknown_object, .too_many_handles, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root and those of check_part; pointers
+// .unknown_object, .too_many_handles, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root, .unknown_point and those of check_part; pointers
 // go into the CharacterChoice
 // ("/parts/arm_left"), or, with the file's name in the text, into the description at fault.
 Result<Character> build_character(const CharacterChoice& choice, const Library& library);

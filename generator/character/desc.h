@@ -154,6 +154,16 @@ struct ControlGroupDesc {
   bool operator==(const ControlGroupDesc&) const = default;
 };
 
+// Where a point of the figure must stay, or must not come: hands in front of the chest, a muzzle out of the head. The
+// shape moves with the root: its frame is the character's, on the ground under the root at rest, +Z forward.
+struct RegionDesc {
+  std::string name;   // Unique in the character.
+  std::string point;  // "arm_left/grip": a socket, or else a joint, of a slot
+  ColliderShape shape;
+  bool keep_out = false;  // The point must stay outside.
+  bool operator==(const RegionDesc&) const = default;
+};
+
 struct CharacterDesc {
   std::string name;
   std::string help;
@@ -161,6 +171,7 @@ struct CharacterDesc {
   std::vector<AllowedPairDesc> allowed_pairs;
   std::vector<std::string> objects;  // Objects that may be attached.
   std::vector<ControlGroupDesc> control_groups;  // In the order of control; none: found from the parts.
+  std::vector<RegionDesc> regions;
   bool operator==(const CharacterDesc&) const = default;
 };
 

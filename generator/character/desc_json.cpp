@@ -159,6 +159,16 @@ void fields(V& v, const ControlGroupDesc*) {
 }
 
 template <class V>
+void fields(V& v, const RegionDesc*) {
+  v.field("name", &RegionDesc::name, kName, "Unique in the character.");
+  v.field("point", &RegionDesc::point, {.text = Text::label, .required = true},
+          "\"slot/socket\" or \"slot/joint\"; one of a part that is swapped out is passed over.");
+  v.field("shape", &RegionDesc::shape, {.required = true},
+          "In the character's frame, on the ground under the root at rest; it moves with the root.");
+  v.field("keep_out", &RegionDesc::keep_out, {}, "The point must stay outside instead of inside.");
+}
+
+template <class V>
 void fields(V& v, const CharacterDesc*) {
   v.constant("format", "contort.character/1");
   v.field("name", &CharacterDesc::name, kName, "Unique name.");
@@ -169,6 +179,7 @@ void fields(V& v, const CharacterDesc*) {
   v.field("objects", &CharacterDesc::objects, {.max_count = 64}, "Objects that may be attached.");
   v.field("control_groups", &CharacterDesc::control_groups, {.max_count = 16},
           "What dynamic control uses together, in its order; none: found from the parts.");
+  v.field("regions", &CharacterDesc::regions, {.max_count = 64}, "Where points of the figure must stay or not come.");
 }
 
 template <class V>

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "checks/check.h"
 #include "checks/clip_speed.h"
 
 namespace contort {
@@ -100,7 +101,7 @@ TEST(Pop, AFindingIsAPopOrTooFastButNeverBoth) {
   EXPECT_EQ(s.findings[0].finding.first_frame, 1);
   EXPECT_EQ(s.findings[0].finding.last_frame, 1);
   EXPECT_NEAR(s.findings[0].finding.worst_margin, 50.0 - 2.0 / kStep_s, 1e-9);
-  EXPECT_NEAR(s.findings[0].finding.depth, (2.0 / kStep_s - 50.0) / kPopScale_rad_s, 1e-9);
+  EXPECT_NEAR(s.findings[0].finding.depth, (2.0 / kStep_s - 50.0) / find_check("pop").scale, 1e-9);
   EXPECT_EQ(s.findings[1].finding.check, "angular_velocity");
   EXPECT_EQ(s.findings[1].finding.first_frame, 5);
   EXPECT_EQ(s.findings[1].finding.last_frame, 8);

@@ -51,6 +51,7 @@ inline PartDesc arm_part() {
   part.joints = {slide, lift, wrist};
   part.colliders.push_back({"box", "slide", Box{{0, 0, 0}, {0.1, 0.1, 0.1}, {}}});
   part.sockets.push_back({"inside", "slide", {-0.1, 0, 0}, {}});
+  part.sockets.push_back({"grip", "slide", {0, 0, 0}, {}});  // at rest where the base's socket is
   return part;
 }
 
@@ -68,6 +69,8 @@ inline Library library() {
   desc.slots.push_back({"arm_left", "arm", Side::left, "base", "left", {"small_arm"}});
   desc.slots.push_back({"arm_right", "arm", Side::right, "base", "right", {"small_arm"}});
   desc.objects = {"peg"};
+  // The left box's inner side is 0.2 m left of the middle; 5 cm further left at most.
+  desc.regions = {{"left box", "arm_left/inside", Box{{-0.375, 0.1, 0}, {0.625, 1, 1}, {}}, false}};
   library.characters["small"] = desc;
   return library;
 }
@@ -144,7 +147,8 @@ inline double margin_of(const std::string& check_name, const Character& characte
   }
   const CheckSettings settings;
   MarginFold fold(check.subject_count(character), settings.merge_gap_frames);
-  check.measure({character, motion, world, settings}, fold);
+  const Environment level;
+  check.measure({character, motion, world, settings, level, nullptr}, fold);
   for (int s = 0; s < check.subject_count(character); ++s)
     if (check.subject(character, s).name == subject) return fold.smallest()[static_cast<std::size_t>(s)];
   ADD_FAILURE() << check_name << " does not judge " << subject;

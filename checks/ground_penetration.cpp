@@ -1,0 +1,62 @@
+// ground_penetration: how far each body is above the ground. The deepest point of a collider is a corner or end of its
+// core less its radius: exact on planes and slopes; on steps and height fields, whose distance is taken along the
+// normal under a point, a ridge between two corners can reach deeper.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "checks/check.h"
+#include "checks/solid_points.h"
+
+namespace contort {
+
+namespace {
+
+// Soles are as soft as this, and colliders as coarse.
+constexpr double kSink_m = 0.005;
+
+// Level ground has a formula.
+double lowest(const Solid& solid) {
+  double reach_m = std::fabs(solid.half_segment_m.y);
+  if (solid.core == Solid::Core::box)
+    for (int k = 0; k < 3; ++k) reach_m += std::fabs(solid.axes[k].y) * solid.half_m[k];
+  return solid.center_m.y - reach_m - solid.radius_m;
+}
+
+double height_above(const Environment& environment, const Solid& solid) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Vec3& point : core_points(solid)) {
+    const double distance_m = environment.nearest_ground(point).distance_m - solid.radius_m;
+    if (!(distance_m >= least_m)) least_m = distance_m;  // NaN stays
+  }
+  return least_m;
+}
+
+}  // namespace
+
+int ground_penetration_subject_count(const Character& character) { return static_cast<int>(character.bodies().size()); }
+
+Subject ground_penetration_subject(const Character& character, int subject) {
+  return {character.bodies()[static_cast<std::size_t>(subject)].name, "m"};
+}
+
+void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
+  std::vector<Solid> own;
+  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider.shape));
+  const std::span<const Body> bodies = in.character.bodies();
+  const bool is_level = in.environment.is_level();
+  const double level_m = in.environment.height_at(0.0, 0.0);
+  for (int frame = 0; frame < in.motion.frame_count; ++frame)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const Rigid& world_from_body = in.world_at(frame)[static_cast<std::size_t>(bodies[b].joint)];
+      double least_m = std::numeric_limits<double>::infinity();
+      for (int c = 0; c < bodies[b].collider_count; ++c) {
+        const Solid solid = moved(world_from_body, own[static_cast<std::size_t>(bodies[b].first_collider + c)]);
+        const double height_m = is_level ? lowest(solid) - level_m : height_above(in.environment, solid);
+        if (!(height_m >= least_m)) least_m = height_m;
+      }
+      fold.report(static_cast<int>(b), frame, least_m + kSink_m);
+    }
+}
+
+}  // namespace contort

@@ -1,0 +1,22 @@
+// How far a joint is between two poses. Shared by the checks that judge motion of joints.
+#pragma once
+
+#include "generator/character/character.h"
+
+namespace contort {
+
+// rad: the angle between two coordinates of a hinge, for a ball that of the rotation between them, the short way, so
+// that the sign of a quaternion does not matter; metres for a prismatic joint. Poses are whole rows of coordinates.
+double joint_step(const Joint& joint, const double* before, const double* now);
+
+// The same with its direction in the joint's frame: (x, 0, 0) for a hinge or prismatic joint, a rotation vector for a
+// ball.
+Vec3 joint_step_vector(const Joint& joint, const double* before, const double* now);
+
+// Of joints of all kinds together: metres count ten times, as 1 cm is about as plain to see as 0.1 rad.
+double likeness_rad(const Joint& joint, const double* before, const double* now);
+
+// "rad/s" or "m/s", and so on: the unit of a joint's coordinate with this ending.
+std::string_view unit_of(const Joint& joint, std::string_view angular, std::string_view linear);
+
+}  // namespace contort

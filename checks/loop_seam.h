@@ -1,0 +1,21 @@
+// loop_seam: a clip that is played in a loop must end as it begins. Per rotation channel, the angle between its last
+// and its first key is judged. Authors close loops in two ways: the last key repeats the first one, or it is the one
+// before it; so the seam may be as wide as the steps next to it explain, twice the wider one, and 1 degree at least.
+#pragma once
+
+#include <vector>
+
+#include "checks/fold.h"
+#include "checks/settings.h"
+#include "generator/asset/asset.h"
+
+namespace contort {
+
+inline constexpr double kSeam_rad = 1.0 * kRadPerDeg;  // nobody sees it
+inline constexpr double kSeamFactor = 2.0;
+
+// One finding for each node whose seam is wider, in the order of channels; frames are the number of the last key. Rules
+// of the settings for loop_seam apply by node label. Channels with fewer than three keys have no seam.
+std::vector<Finding> check_loop_seam(const Asset& asset, const AssetClip& clip, const CheckSettings& settings = {});
+
+}  // namespace contort

@@ -1,0 +1,58 @@
+// residue: what an additive action adds must be gone when it is over. Judged where nothing else moved the part from the
+// frame before it to the frame after it: then the part must be where it was.
+#include <algorithm>
+
+#include "checks/joint_steps.h"
+#include "checks/plan.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kLeft_rad = 0.1 * kRadPerDeg;
+
+double difference_rad(const CheckInput& in, const Part& part, int before, int after) {
+  double most = 0.0;
+  for (const Joint& joint : in.character.joints().subspan(static_cast<std::size_t>(part.first_joint),
+                                                          static_cast<std::size_t>(part.joint_count)))
+    if (const double d = likeness_rad(joint, in.motion.row(before).data(), in.motion.row(after).data()); !(d <= most))
+      most = d;
+  return most;
+}
+
+// Additives may follow each other: from the first one's start to the last one's end.
+ActionSpan merged(const CheckInput& in, ActionSpan span) {
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const ActionSpan& other : in.motion.spans)
+      if (other.part == span.part && other.first_frame <= span.last_frame + 1 && other.last_frame > span.last_frame)
+        span.last_frame = other.last_frame, grows = true;
+  }
+  return span;
+}
+
+}  // namespace
+
+int residue_subject_count(const Character& character) { return static_cast<int>(character.parts().size()); }
+
+Subject residue_subject(const Character& character, int subject) {
+  return {character.parts()[static_cast<std::size_t>(subject)].slot, "rad"};
+}
+
+void residue_measure(const CheckInput& in, MarginFold& fold) {
+  if (in.timeline == nullptr || in.motion.response.dof_count > 0) return;
+  for (const ActionSpan& first : in.motion.spans) {
+    const PlannedAction* action = planned_of(*in.timeline, first);
+    if (action == nullptr || action->def->layer != Layer::additive) continue;
+    const int before = first.first_frame - 1, after = merged(in, first).last_frame + 1;
+    if (before < 0 || after >= in.motion.frame_count) continue;
+    if (has_layer(in, first.part, Layer::overwrite, before, after) ||
+        has_layer(in, first.part, Layer::ik, before, after) ||
+        has_layer(in, first.part, Layer::additive, before, before))
+      continue;
+    const Part& part = in.character.parts()[static_cast<std::size_t>(first.part)];
+    fold.report(first.part, after, kLeft_rad - difference_rad(in, part, before, after));
+  }
+}
+
+}  // namespace contort

@@ -1,0 +1,70 @@
+// What the checks are to do, as a file says it: limits that are moved or switched off, and findings that somebody has
+// agreed to live with for a time. A moved limit is how the check judges; a waiver judges nothing: the check runs as
+// ever, and the waiver hides what it found, until its day has come or until it hides nothing any more. Both are
+// reported.
+//
+//   {"format": "contort.settings/1",
+//    "limits": [{"check": "joint_range", "subject": "arm_*/elbow max", "tolerance": 0.05, "reason": "soft stop"}],
+//    "waivers": [{"check": "self_collision", "subject": "* ~ torso/chest", "phase": "impact", "reason": "ticket 12",
+//                 "owner": "ana", "expires": "2027-03-01"}]}
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/core/result.h"
+
+namespace contort {
+
+enum class LimitUse { change, ignore };
+
+// Changes or ignores the limits of the subjects that match. Of several rules for one subject the last one counts.
+struct LimitRule {
+  std::string check;          // "joint_range"
+  std::string subject = "*";  // "*" is any run of characters
+  std::string phase;          // "impact"; empty: in every phase
+  LimitUse use = LimitUse::change;
+  double tolerance = 0.0;  // change: added to margins, in their unit; below 0 is stricter
+  std::string reason;
+  bool operator==(const LimitRule&) const = default;
+};
+
+struct Waiver {
+  std::string check;
+  std::string subject = "*";
+  std::string phase;     // of the worst frame; empty: any
+  double deepest = 0.0;  // hides margins down to minus this, in their unit; 0: however deep
+  std::string reason;
+  std::string owner;
+  std::string expires;  // "2027-03-01": the last day
+  bool operator==(const Waiver&) const = default;
+};
+
+struct CheckSettings {
+  double collision_band_m = 0.1;  // Clearances are measured up to this; what is farther apart is not reported.
+  int merge_gap_frames = 2;       // Safe frames between two violations that do not split a finding.
+  std::vector<LimitRule> limits;
+  std::vector<Waiver> waivers;
+  std::string today;  // "2026-11-21", not in the file: on which day waivers are judged; empty: none has expired
+  bool operator==(const CheckSettings&) const = default;
+};
+
+// Codes json.*, settings.*: unknown fields, checks and phases, days that are none.
+Result<CheckSettings> parse_settings(std::string_view text);
+std::string settings_schema();
+
+// Infinite where the rule ignores.
+double tolerance_of(const LimitRule& rule);
+
+// What the rules without a phase add to the margins of a subject: 0 where none is meant, infinite where it is ignored.
+double tolerance_of(const CheckSettings& settings, std::string_view check, std::string_view subject);
+
+// Whether a text is a day of the calendar, YYYY-MM-DD.
+bool is_day(std::string_view text);
+
+// Whether a subject is meant by a pattern.
+bool matches(std::string_view pattern, std::string_view text);
+
+}  // namespace contort

@@ -1,0 +1,17 @@
+#include "checks/solid_points.h"
+
+namespace contort {
+
+std::vector<Vec3> core_points(const Solid& solid) {
+  if (solid.core == Solid::Core::point) return {solid.center_m};
+  if (solid.core == Solid::Core::segment)
+    return {solid.center_m - solid.half_segment_m, solid.center_m + solid.half_segment_m};
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 side((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    corners.push_back(solid.center_m + solid.axes * (side * solid.half_m));
+  }
+  return corners;
+}
+
+}  // namespace contort

@@ -1,0 +1,33 @@
+// Which findings waivers hide, and which waivers hide nothing any more.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "checks/circumstances.h"
+#include "checks/fold.h"
+#include "checks/settings.h"
+
+namespace contort {
+
+struct WaiverUse {
+  int hidden = 0;        // findings
+  bool expired = false;  // then it hides nothing; `hidden` says what it would have
+  bool operator==(const WaiverUse&) const = default;
+};
+
+struct Waived {
+  std::vector<int> by;          // for each finding: index of the waiver that hides it, or -1
+  std::vector<WaiverUse> uses;  // for each waiver
+  bool operator==(const Waived&) const = default;
+};
+
+// `phases`: of each finding's worst frame; empty for animations made elsewhere, which have none. `today`: "2026-11-21".
+// A margin that is not a number is hidden only by a waiver without `deepest`.
+Waived waive(const std::vector<Waiver>& waivers, const std::vector<Finding>& findings, const std::vector<Phase>& phases,
+             std::string_view today);
+
+// Adds what waivers hid in one motion to what they hid before; an empty total is one of zeros.
+void add_uses(const std::vector<WaiverUse>& uses, std::vector<WaiverUse>& total);
+
+}  // namespace contort

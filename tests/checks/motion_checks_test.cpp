@@ -1,0 +1,242 @@
+// foot_slide, bind_pose_flash, pop, angular_acceleration, residue, reach_error and stuck on motions that are known:
+// made by hand for one property, or generated from specs that must be quiet.
+#include <gtest/gtest.h>
+
+#include "checks/evaluate.h"
+#include "tests/checks/small_character.h"
+
+namespace contort {
+namespace {
+
+Stage staged(const std::string& spec) {
+  const Result<Spec> parsed = parse_spec(spec);
+  EXPECT_TRUE(parsed) << to_line(parsed.issue());
+  Result<Stage> stage = build_stage(*parsed, stock_library());
+  EXPECT_TRUE(stage) << to_line(stage.issue());
+  return std::move(stage).value();
+}
+
+std::string playing(const std::string& actions, const std::string& more = R"("character": {"name": "human"}, )") {
+  return R"({"format": "contort.spec/1", "hold_frames": 20, )" + more + R"("sequences": [{"clips": [{"actions": [)" +
+         actions + "]}]}]}";
+}
+
+std::vector<Finding> found(const Stage& stage, const char* check) { return Evaluator().run(stage, check).findings; }
+
+// ---- foot_slide
+
+// A ball of 10 cm on the ground that turns and moves forward.
+Library ball_library() {
+  PartDesc part;
+  part.name = part.kind = "ball";
+  part.colliders.push_back({"ball", "", Sphere{{0, 0.1, 0}, 0.1}});
+  Library library;
+  library.parts["ball"] = part;
+  CharacterDesc desc;
+  desc.name = "ball";
+  desc.slots.push_back({"ball", "ball", Side::center, "", "", {"ball"}});
+  library.characters["ball"] = desc;
+  return library;
+}
+
+// One turn per second, forward as fast as `rolls` times what rolling would be.
+std::vector<Finding> found_of_ball(double rolls, double height_m = 0.0) {
+  const Character ball = small::build(ball_library(), {"ball", {}, {}});
+  Motion motion = small::at_rest(ball, 60);
+  for (int frame = 0; frame < 60; ++frame) {
+    const double angle = 2.0 * kPi * frame / 60.0;
+    const Quat q = axis_angle(Vec3(1, 0, 0), angle);
+    const Vec3 center(0, 0.1 + height_m, rolls * 0.1 * angle);
+    motion.root[static_cast<std::size_t>(frame)] = {q, center - q * Vec3(0, 0.1, 0)};
+  }
+  return Evaluator().judge(ball, motion, "foot_slide");
+}
+
+TEST(FootSlide, WhatRollsDoesNotSlide) {
+  EXPECT_TRUE(found_of_ball(1.0).empty());
+  EXPECT_FALSE(found_of_ball(-1.0).empty()) << "it turns against its way";
+  EXPECT_FALSE(found_of_ball(4.0).empty());
+  EXPECT_TRUE(found_of_ball(4.0, 0.01).empty()) << "in the air";
+}
+
+TEST(FootSlide, IsMeasuredFromWhereItCameDown) {
+  const Character character = small::build();
+  Motion motion = small::at_rest(character, 30);
+  for (int frame = 0; frame < 30; ++frame) {  // 2 mm a frame: each step is small, all together are 5.8 cm
+    motion.root[static_cast<std::size_t>(frame)].p_m.z += 0.002 * frame;
+  }
+  const std::vector<Finding> findings = Evaluator().judge(character, motion, "foot_slide");
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].first_frame, 11);
+  EXPECT_NEAR(findings[0].worst_margin, 0.02 - 0.058, 1e-9);
+  Motion hopping = motion;
+  for (int frame = 0; frame < 30; ++frame)
+    if (frame % 8 == 7) hopping.root[static_cast<std::size_t>(frame)].p_m.y += 0.01;
+  EXPECT_TRUE(Evaluator().judge(character, hopping, "foot_slide").empty()) << "it came down anew";
+}
+
+TEST(FootSlide, WalksOnPlanesSlopesAndStairsStandFirm) {
+  for (const char* ground : {R"({"type": "plane"})", R"({"type": "slope", "slope_deg": 12})",
+                             R"({"type": "steps", "depth_m": 0.45, "height_m": 0.1})"})
+    for (const char* who : {"human", "mech", "quadruped"}) {
+      const std::string slot = std::string(who) == "quadruped" ? "hips" : "waist";
+      const Stage stage = staged(playing(
+          R"({"action": "walk", "slot": ")" + slot + R"(", "duration_frames": 240})",
+          R"("character": {"name": ")" + std::string(who) + R"("}, "environment": {"ground": )" + ground + "}, "));
+      for (const Finding& f : found(stage, "foot_slide"))
+        ADD_FAILURE() << who << " " << ground << ": " << f.subject << " " << f.worst_margin << " at " << f.worst_frame;
+    }
+}
+
+// ---- bind_pose_flash
+
+// The left arm at these angles, degrees, at 10 Hz.
+std::size_t flashes(const std::vector<double>& lift_deg) {
+  const Character character = small::build();
+  Motion motion = small::at_rest(character, static_cast<int>(lift_deg.size()), 10.0);
+  for (std::size_t frame = 0; frame < lift_deg.size(); ++frame)
+    small::set(motion, static_cast<int>(frame), small::joint_of(character, "arm_left/lift"),
+               lift_deg[frame] * kRadPerDeg);
+  return Evaluator().judge(character, motion, "bind_pose_flash").size();
+}
+
+TEST(BindPoseFlash, IsOneOrTwoFramesAmongOthers) {
+  EXPECT_EQ(flashes({30, 30, 0, 30, 30}), 1U);
+  EXPECT_EQ(flashes({30, 30, 0, 0.5, 32, 30}), 1U);
+  EXPECT_EQ(flashes({30, 30, 0, 0, 0, 30}), 0U) << "a stop at rest";
+  EXPECT_EQ(flashes({0, 30, 30, 30}), 0U) << "it begins at rest";
+  EXPECT_EQ(flashes({30, 30, 30, 0}), 0U) << "it ends there";
+  EXPECT_EQ(flashes({30, 0, 30, 30, 30, 30, 0, 30}), 2U);
+  EXPECT_EQ(flashes({8, 8, 0, 8, 8}), 0U) << "too near to tell";
+  EXPECT_EQ(flashes({30, 30, 2, 30, 30}), 0U) << "not the rest pose";
+}
+
+TEST(BindPoseFlash, ASwingThroughTheRestPoseIsNone) { EXPECT_EQ(flashes({-20, -12, 0, 12, 20}), 0U); }
+
+// ---- pop and angular_velocity: never both
+
+TEST(JointPop, AnIntervalIsAPopOrTooFast) {
+  const Character character = small::build();
+  const auto checks_of = [&](const std::vector<double>& lift_deg) {
+    Motion motion = small::at_rest(character, static_cast<int>(lift_deg.size()), 60.0);
+    for (std::size_t frame = 0; frame < lift_deg.size(); ++frame)
+      small::set(motion, static_cast<int>(frame), small::joint_of(character, "arm_left/lift"),
+                 lift_deg[frame] * kRadPerDeg);
+    std::string names;
+    for (const char* check : {"angular_velocity", "pop"})
+      for (const Finding& f : Evaluator().judge(character, motion, check))
+        names += f.check + " " + std::to_string(f.first_frame) + "-" + std::to_string(f.last_frame) + " ";
+    return names;
+  };
+  // 300 deg/s are 5 degrees a frame.
+  EXPECT_EQ(checks_of({0, 0, 20, 20, 20}), "pop 2-2 ");
+  EXPECT_EQ(checks_of({0, 3, 10, 18, 26, 30, 31}), "angular_velocity 2-4 ");
+  EXPECT_EQ(checks_of({0, 0, 20, 0, 0}), "pop 2-3 ") << "there and back";
+  EXPECT_EQ(checks_of({0, 4, 8, 12}), "");
+}
+
+TEST(JointPop, AnActionOfNoLengthIsOne) {
+  const Stage stage = staged(playing(R"({"action": "pose", "slot": "arm_left", "start_frame": 10,
+      "duration_frames": 0, "params": {"elbow_deg": 100}})"));
+  const std::vector<Finding> pops = found(stage, "pop");
+  ASSERT_EQ(pops.size(), 1U);
+  EXPECT_EQ(pops[0].subject, "arm_left/elbow");
+  EXPECT_TRUE(found(stage, "angular_velocity").empty());
+}
+
+// ---- angular_acceleration
+
+TEST(AngularAcceleration, ABlowMayChangeSpeedsAtOnce) {
+  const Character character = small::build();
+  Motion motion = small::moved_by_dynamics(character, 6);
+  for (int frame = 3; frame < 6; ++frame)
+    small::set(motion, frame, small::joint_of(character, "arm_left/lift"), 4.9 * kRadPerDeg * (frame - 2));
+  EXPECT_EQ(Evaluator().judge(character, motion, "angular_acceleration").size(), 1U);
+  motion.response.impacts = {{2, 1, {}, {}}};
+  EXPECT_TRUE(Evaluator().judge(character, motion, "angular_acceleration").empty());
+}
+
+// ---- residue, reach_error, stuck
+
+TEST(Residue, NothingIsLeftOfAdditivesThatPlay) {
+  for (const char* action : {R"({"action": "hit_reaction", "slot": "torso", "start_frame": 5})",
+                             R"({"action": "recoil", "slot": "arm_right", "start_frame": 5},
+                                {"action": "recoil", "slot": "arm_right", "start_frame": 9})"})
+    EXPECT_TRUE(found(staged(playing(action)), "residue").empty()) << action;
+}
+
+// What a generator that forgets to take its additive back would make.
+TEST(Residue, IsFoundWhereAnAdditiveStays) {
+  const Stage stage = staged(playing(R"({"action": "recoil", "slot": "arm_right", "start_frame": 5})"));
+  Motion motion = generate(stage);
+  ASSERT_EQ(motion.spans.size(), 1U);
+  const int elbow = stage.character->find_joint("arm_right/elbow");
+  const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
+  for (int frame = motion.spans[0].last_frame; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
+  const std::vector<Finding> findings =
+      Evaluator().judge(*stage.character, motion, "residue", stage.environment, &stage.timeline);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].subject, "arm_right");
+  EXPECT_NEAR(findings[0].worst_margin, 0.1 * kRadPerDeg - 0.01, 1e-9);
+}
+
+std::string reach_to(const std::string& target, const std::string& more = "") {
+  return playing(R"({"action": "reach", "slot": "arm_left", "duration_frames": 40, "params": {"target_m": )" + target +
+                 "}}" + more);
+}
+
+TEST(ReachError, SaysHowFarAPointOutOfReachIsMissed) {
+  EXPECT_TRUE(found(staged(reach_to("[0.35, 1.2, 0.35]")), "reach_error").empty());
+  const Stage stage = staged(reach_to("[0.2, 1.4, 3.0]"));
+  const std::vector<Finding> findings = found(stage, "reach_error");
+  ASSERT_EQ(findings.size(), 1U);
+  const Motion motion = generate(stage);
+  std::vector<Rigid> world(stage.character->joints().size());
+  forward_kinematics(*stage.character, motion.root[40], motion.row(40), world);
+  const int tip = stage.character->find_socket(findings[0].subject);
+  ASSERT_GE(tip, 0) << findings[0].subject;
+  const Vec3 at = world_from_socket(*stage.character, world, tip).p_m;
+  EXPECT_NEAR(findings[0].worst_margin, 0.001 - glm::length(at - Vec3(0.2, 1.4, 3.0)), 1e-9);
+  EXPECT_EQ(findings[0].worst_frame, 40);
+}
+
+TEST(ReachError, IsNotJudgedWhereSomethingElseMovesTheLimb) {
+  const std::string far = "[0.2, 1.4, 3.0]";
+  EXPECT_TRUE(found(staged(reach_to(far, R"(, {"action": "recoil", "slot": "arm_left", "start_frame": 35,
+      "duration_frames": 20})")),
+                    "reach_error")
+                  .empty())
+      << "an additive on top";
+  EXPECT_TRUE(found(staged(reach_to(far, R"(, {"action": "reach", "slot": "arm_left", "start_frame": 30,
+      "duration_frames": 20, "params": {"target_m": [0.35, 1.2, 0.35]}})")),
+                    "reach_error")
+                  .empty())
+      << "another one took over";
+}
+
+TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
+  const std::string spec = R"({"format": "contort.spec/1",
+    "character": {"name": "human", "attachments": [{"object": "rifle", "slot": "hand_right", "socket": "grip"}]},
+    "sequences": [{"clips": [{"actions": [
+      {"action": "weapon_hold", "slot": "arm_left", "duration_frames": 60},
+      {"action": "reach", "slot": "arm_right", "duration_frames": 50, "params": {"target_m": TARGET}}]}]}]})";
+  const auto holding = [&](const std::string& target) {
+    std::string text = spec;
+    return found(staged(text.replace(text.find("TARGET"), 6, target)), "reach_error");
+  };
+  bool is_missed = false;
+  for (const Finding& f : holding("[-0.8, 1.4, -0.2]")) is_missed = is_missed || f.subject.starts_with("hand_left");
+  EXPECT_TRUE(is_missed) << "the rifle goes behind the body";
+}
+
+TEST(Stuck, QueuesOfSpecsRunDry) {
+  const Stage stage = staged(playing(R"({"action": "pose", "slot": "arm_left", "params": {"elbow_deg": 40}})"));
+  EXPECT_TRUE(found(stage, "stuck").empty());
+  Motion motion = generate(stage);
+  ASSERT_EQ(motion.queue.size(), 1U);
+  motion.queue[0].last_frame = motion.frame_count - 1;
+  EXPECT_EQ(Evaluator().judge(*stage.character, motion, "stuck", stage.environment, &stage.timeline).size(), 1U);
+}
+
+}  // namespace
+}  // namespace contort
