@@ -9,6 +9,10 @@
 
 namespace contort {
 
+// Of a whole character. Every pair of colliders is looked at: 523,776 at most.
+inline constexpr std::size_t kMaxCharacterJoints = 1024;
+inline constexpr std::size_t kMaxCharacterColliders = 1024;
+
 // Where a part docks: a joint of what is built so far, and a frame on it.
 struct Dock {
   int joint = 0;

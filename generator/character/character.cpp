@@ -137,7 +137,15 @@ class CharacterBuilder {
       dock = dock_at(socket);
     }
     add_part(assembly_, slot, part->second, dock);
-    return Done{};
+    return check_size(pointer);
+  }
+
+  Result<Done> check_size(const std::string& pointer) const {
+    if (assembly_.joints.size() <= kMaxCharacterJoints && assembly_.colliders.size() <= kMaxCharacterColliders)
+      return Done{};
+    return Issue{"character.too_large", pointer,
+                 "more than " + std::to_string(kMaxCharacterJoints) + " joints or " +
+                     std::to_string(kMaxCharacterColliders) + " colliders in all"};
   }
 
   Dock dock_at(int socket) const {
@@ -163,6 +171,7 @@ class CharacterBuilder {
         return unknown("unknown_socket", pointer + "/socket", attachment.slot + "/" + attachment.socket,
                        socket_names());
       add_object(assembly_, object->second, dock_at(socket));
+      if (const Result<Done> size = check_size(pointer); !size) return size;
       seen.push_back(attachment.object);
     }
     return Done{};

@@ -205,8 +205,8 @@ class Character {
 bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
-// .unknown_object, .too_many_handles, .duplicate_object, .duplicate_name, .no_slot, .no_part, .bad_root, .unknown_point and those of check_part; pointers
-// go into the CharacterChoice
+// .unknown_object, .unknown_point, .too_many_handles, .too_large, .duplicate_object, .duplicate_name, .no_slot, .no_part,
+// .bad_root and those of check_part; pointers go into the CharacterChoice
 // ("/parts/arm_left"), or, with the file's name in the text, into the description at fault.
 Result<Character> build_character(const CharacterChoice& choice, const Library& library);
 

@@ -1,5 +1,6 @@
 // Which colliders form a body, and which bodies may not touch.
 #include <algorithm>
+#include <map>
 
 #include "generator/character/assembly.h"
 
@@ -17,16 +18,18 @@ std::string body_name(const Assembly& assembly, const Collider& collider) {
   return own_joint ? owner + "/" + joint.body_name : owner;
 }
 
-// The body that carries joint's body: massless links in between are the axes of one anatomical joint, not bodies.
-int carrier(const Assembly& assembly, int joint) {
-  int parent = assembly.joints[static_cast<std::size_t>(joint)].parent;
-  const auto is_link = [&](int j) {
-    const bool solid = std::any_of(assembly.colliders.begin(), assembly.colliders.end(),
-                                   [j](const Collider& c) { return c.joint == j; });
-    return j > 0 && !solid && assembly.joints[static_cast<std::size_t>(j)].mass_kg <= 0.0;
-  };
-  while (parent >= 0 && is_link(parent)) parent = assembly.joints[static_cast<std::size_t>(parent)].parent;
-  return parent;
+// For each joint, the body that carries its body: massless links in between are the axes of one anatomical joint, not
+// bodies.
+std::vector<int> find_carriers(const Assembly& assembly) {
+  std::vector<char> solid(assembly.joints.size(), 0);
+  for (const Collider& collider : assembly.colliders) solid[static_cast<std::size_t>(collider.joint)] = 1;
+  std::vector<int> carriers;
+  for (const Joint& joint : assembly.joints) {
+    const auto parent = static_cast<std::size_t>(joint.parent);
+    const bool on_link = joint.parent > 0 && solid[parent] == 0 && assembly.joints[parent].mass_kg <= 0.0;
+    carriers.push_back(on_link ? carriers[parent] : joint.parent);
+  }
+  return carriers;
 }
 
 const char* kinship(const std::vector<int>& carriers, int joint_a, int joint_b) {
@@ -57,15 +60,15 @@ CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies
                               const std::vector<AllowedPair>& by_user) {
   CollisionPlan plan;
   plan.bodies = std::move(bodies);
-  std::vector<int> carriers;
-  for (std::size_t j = 0; j < assembly.joints.size(); ++j) carriers.push_back(carrier(assembly, static_cast<int>(j)));
+  const std::vector<int> carriers = find_carriers(assembly);
+  std::map<std::pair<int, int>, const AllowedPair*> named;  // the first of equal ones
+  for (const AllowedPair& pair : by_user) named.try_emplace({pair.a, pair.b}, &pair);
   const auto sort_pair = [&](int a, int b, const char* kin) {
-    const auto user =
-        std::find_if(by_user.begin(), by_user.end(), [&](const AllowedPair& p) { return p.a == a && p.b == b; });
+    const auto user = named.find({a, b});
     if (kin != nullptr)
       plan.allowed.push_back({a, b, kin});
-    else if (user != by_user.end())
-      plan.allowed.push_back(*user);
+    else if (user != named.end())
+      plan.allowed.push_back(*user->second);
     else
       plan.colliders.push_back({a, b});
   };

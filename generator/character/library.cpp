@@ -90,7 +90,7 @@ Result<Done> load_folder(const std::string& folder, Library& into) {
   if (error) return Issue{"library.unreadable", "", folder + ": " + error.message()};
   std::sort(paths.begin(), paths.end());
   for (const std::string& path : paths) {
-    const Result<std::string> text = read_file(path);
+    const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
     if (!text) return text.issue();
     if (const Result<Done> added = add_description(*text, into); !added) {
       Issue issue = added.issue();

@@ -27,6 +27,7 @@ Result<std::string> read_file(const std::string& path, std::size_t max_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return Issue{"file.unreadable", "", "cannot read " + path + ": " + std::strerror(errno)};
   std::string bytes;
+  if (const auto size = std::filesystem::file_size(path, error); !error && size <= max_bytes) bytes.reserve(size);
   char block[65536];
   while (file.read(block, sizeof block) || file.gcount() > 0) {
     bytes.append(block, static_cast<std::size_t>(file.gcount()));

@@ -54,25 +54,50 @@ std::string plain(const std::string& message) {
 
 std::string range_text(const Rule& rule) { return "[" + shortest(rule.low) + ", " + shortest(rule.high) + "]"; }
 
-// Thrown inside the parser callback only, and caught in parse_document.
-struct Refusal {
-  Issue issue;
-};
+constexpr std::size_t kMaxKeys = 10'000;  // of an object; no list of fields allows more than 4096
 
-class DocumentGuard {  // depth and duplicate keys, seen while parsing
+// Looks at a document before it becomes a tree: depth, number of values, duplicate keys. Not as a callback of the
+// parser: with one, each object of a list costs a look at all objects before it.
+class DocumentGuard final : public Json::json_sax_t {
  public:
-  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > kMaxDepth) throw Refusal{{"json.too_deep", "", "nested deeper than " + std::to_string(kMaxDepth)}};
-    if (event == Json::parse_event_t::object_start) keys_.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys_.pop_back();
-    if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second)
-      throw Refusal{
-          {"json.duplicate_key", "", "the key " + quoted(parsed.get<std::string>()) + " stands twice in one object"}};
-    return true;
+  bool null() override { return count(); }
+  bool boolean(bool) override { return count(); }
+  bool number_integer(number_integer_t) override { return count(); }
+  bool number_unsigned(number_unsigned_t) override { return count(); }
+  bool number_float(number_float_t, const string_t&) override { return count(); }
+  bool string(string_t&) override { return count(); }
+  bool binary(binary_t&) override { return count(); }
+  bool start_array(std::size_t) override { return count() && open(); }
+  bool end_array() override { return --depth_, true; }
+  bool start_object(std::size_t) override { return keys_.emplace_back(), count() && open(); }
+  bool end_object() override { return keys_.pop_back(), --depth_, true; }
+  bool key(string_t& name) override {
+    if (keys_.back().size() == kMaxKeys)
+      return refuse("too_large", "an object of more keys than the allowed " + std::to_string(kMaxKeys));
+    if (keys_.back().insert(name).second) return count();
+    return refuse("duplicate_key", "the key " + json_fields::quoted(name) + " stands twice in one object");
   }
+  bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+    const std::string what = error.what();  // "[json.exception.…] parse error at line 1, …"
+    const std::size_t start = what.find("] ");
+    return refuse("syntax", plain(start == std::string::npos ? what : what.substr(start + 2)));
+  }
+  const Issue& issue() const { return issue_; }
 
  private:
-  std::vector<std::set<std::string>> keys_;
+  bool refuse(const char* code, std::string text) {
+    issue_ = {std::string("json.") + code, "", std::move(text)};
+    return false;
+  }
+  bool count() {
+    return ++values_ <= kMaxValues || refuse("too_large", "more values than the allowed " + std::to_string(kMaxValues));
+  }
+  bool open() { return ++depth_ <= kMaxDepth || refuse("too_deep", "nested deeper than " + std::to_string(kMaxDepth)); }
+
+  int depth_ = 0;
+  std::size_t values_ = 0;
+  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  Issue issue_;
 };
 
 }  // namespace
@@ -101,17 +126,9 @@ Result<Json> parse_document(std::string_view text) {
   if (text.size() > kMaxDocumentBytes)
     return Issue{"json.too_large", "",
                  std::to_string(text.size()) + " bytes, allowed are " + std::to_string(kMaxDocumentBytes)};
-  try {
-    DocumentGuard guard;
-    return Json::parse(
-        text, [&guard](int depth, Json::parse_event_t event, Json& parsed) { return guard(depth, event, parsed); });
-  } catch (const Refusal& refusal) {
-    return refusal.issue;
-  } catch (const Json::exception& error) {
-    const std::string what = error.what();  // "[json.exception.…] parse error at line 1, …"
-    const std::size_t start = what.find("] ");
-    return Issue{"json.syntax", "", plain(start == std::string::npos ? what : what.substr(start + 2))};
-  }
+  DocumentGuard guard;
+  if (!Json::sax_parse(text, &guard)) return guard.issue();
+  return Json::parse(text);
 }
 
 std::string kind_of(const Json& value) {

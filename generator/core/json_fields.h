@@ -28,6 +28,7 @@ using Json = nlohmann::json;
 
 inline constexpr std::size_t kMaxDocumentBytes = 16 << 20;
 inline constexpr int kMaxDepth = 64;
+inline constexpr std::size_t kMaxValues = 2'000'000;  // of a document, keys included
 
 // name: [a-z0-9_]{1,64} · label: 1 to 200 bytes · prose: up to 4000 bytes · hex: up to 256 KiB of digits 0-9a-f
 enum class Text { name, label, prose, hex };
@@ -60,7 +61,7 @@ class ReadContext {
   Issue issue_;
 };
 
-// JSON text to a tree: size and depth bounded, duplicate keys refused. Codes json.syntax, .too_large, .too_deep,
+// JSON text to a tree: size, depth and number of values bounded, duplicate keys refused. Codes json.syntax, .too_large, .too_deep,
 // .duplicate_key.
 Result<Json> parse_document(std::string_view text);
 

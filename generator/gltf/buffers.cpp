@@ -100,16 +100,16 @@ Result<std::vector<Bytes>> load_buffers(std::span<const BufferRef> buffers, cons
     const std::string pointer = "/buffers/" + std::to_string(out.size());
     Result<Bytes> loaded = load_buffer(buffer, out.empty(), source, pointer);
     if (!loaded) return loaded.issue();
+    total += loaded->size();  // all that was read: thousands of buffers may be the first bytes of one large file
+    if (total > kMaxGltfBytes)
+      return Issue{"gltf.too_large", pointer,
+                   "the buffers have more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes in all"};
     const bool has_data = buffer.has_uri || !loaded->empty();
     if (has_data && loaded->size() < buffer.byte_length)
       return Issue{"gltf.truncated", pointer + "/byteLength",
                    "found " + std::to_string(buffer.byte_length) + "; the data has " + std::to_string(loaded->size())};
     out.push_back(std::move(loaded).value());
     if (has_data) out.back().resize(buffer.byte_length);
-    total += out.back().size();
-    if (total > kMaxGltfBytes)
-      return Issue{"gltf.too_large", pointer,
-                   "the buffers have more than the allowed " + std::to_string(kMaxGltfBytes) + " bytes in all"};
   }
   return out;
 }

@@ -1,11 +1,13 @@
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
 #include "generator/asset/labels.h"
 #include "generator/gltf/from_model.h"
+#include "generator/gltf/limits.h"
 
 namespace contort {
 
@@ -53,8 +55,14 @@ Vec3 read_vector(const std::vector<double>& xyz, const Vec3& fallback) {
   return xyz.empty() ? fallback : Vec3(xyz[0], xyz[1], xyz[2]);
 }
 
+bool is_moderate(const std::vector<double>& numbers) {
+  return std::ranges::all_of(numbers, [](double number) { return std::fabs(number) <= kMaxGltfLength; });
+}
+
 Result<Trs> read_transform(const tinygltf::Node& node, const std::string& pointer) {
   Trs out;
+  if (!is_moderate(node.matrix) || !is_moderate(node.translation) || !is_moderate(node.scale))
+    return Issue{"gltf.out_of_range", pointer, "allowed are places, scales and matrices of numbers up to 1e100"};
   if (!node.matrix.empty()) {
     if (decompose(node.matrix, out)) return out;
     return Issue{"gltf.bad_node", pointer + "/matrix", "allowed is a product of translation, rotation and scale only"};

@@ -19,13 +19,25 @@ struct BonePlace {
   const AsfBone* bone = nullptr;
   std::size_t first_dof = 0;
 };
-using BonePlaces = std::map<std::string_view, BonePlace>;
+struct BonePlaces {
+  std::map<std::string_view, BonePlace> of_bone;
+  std::int64_t turned_and_moved = 0;  // bones that turn, and those that move: each has keys
+};
+
+bool turns(const AsfBone& bone) {
+  return std::ranges::any_of(bone.dofs, [](const AsfDof& dof) { return is_rotation(dof.kind); });
+}
+bool moves(const AsfBone& bone) {
+  return std::ranges::any_of(bone.dofs,
+                             [](const AsfDof& dof) { return dof.kind >= DofKind::tx && dof.kind <= DofKind::tz; });
+}
 
 BonePlaces places_of(const AsfSkeleton& skeleton) {
   BonePlaces out;
   std::size_t dof = 0;
   for (const AsfBone& bone : skeleton.bones) {
-    out[bone.name] = {&bone, dof};
+    out.of_bone[bone.name] = {&bone, dof};
+    out.turned_and_moved += (turns(bone) ? 1 : 0) + (moves(bone) ? 1 : 0);
     dof += bone.dofs.size();
   }
   return out;
@@ -47,8 +59,8 @@ void read_frame_number(MocapWords& words, AmcMotion& motion) {
 void read_bone(MocapWords& words, const BonePlaces& places, double rad, std::vector<bool>& known,
                std::span<double> row) {
   const std::string_view name = words.next();
-  const auto found = places.find(name);
-  if (found == places.end()) return words.fail("unknown_bone", "the skeleton has no bone " + quoted_word(name));
+  const auto found = places.of_bone.find(name);
+  if (found == places.of_bone.end()) return words.fail("unknown_bone", "the skeleton has no bone " + quoted_word(name));
   const auto& [bone, first_dof] = found->second;
   if (bone->dofs.empty() || known[first_dof])
     return words.fail("bad_bone", quoted_word(name) + (bone->dofs.empty() ? " does not move in this skeleton"
@@ -57,8 +69,8 @@ void read_bone(MocapWords& words, const BonePlaces& places, double rad, std::vec
     if (words.line_ends())
       return words.fail("too_few_values", "found " + std::to_string(i) + " numbers, " + quoted_word(name) + " has " +
                                               std::to_string(bone->dofs.size()) + " degrees of freedom");
-    const bool turns = is_rotation(bone->dofs[i].kind);
-    row[first_dof + i] = words.number(turns ? kMaxMocapAngle_deg : kMaxMocapLength) * (turns ? rad : 1.0);
+    const bool is_angle = is_rotation(bone->dofs[i].kind);
+    row[first_dof + i] = words.number(is_angle ? kMaxMocapAngle_deg : kMaxMocapLength) * (is_angle ? rad : 1.0);
     known[first_dof + i] = true;
   }
   if (words.ok() && !words.line_ends())
@@ -66,11 +78,19 @@ void read_bone(MocapWords& words, const BonePlaces& places, double rad, std::vec
                                       " degrees of freedom of " + quoted_word(name));
 }
 
+// Before memory is taken for one frame more.
+void check_size(MocapWords& words, const AmcMotion& motion, std::int64_t turned_and_moved) {
+  const std::int64_t frames = std::int64_t{motion.frame_count} + 1;
+  if (frames * motion.dof_count > kMaxMocapNumbers)
+    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapNumbers) + " numbers");
+  if (frames * turned_and_moved > kMaxMocapKeys)
+    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapKeys) + " keys");
+}
+
 void read_frame(MocapWords& words, const BonePlaces& places, double rad, AmcMotion& motion) {
   read_frame_number(words, motion);
   const auto dofs = static_cast<std::size_t>(motion.dof_count);
-  if (motion.values.size() + dofs > static_cast<std::size_t>(kMaxMocapNumbers))
-    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapNumbers) + " numbers");
+  check_size(words, motion, places.turned_and_moved);
   if (!words.ok()) return;
   motion.values.resize(motion.values.size() + dofs);
   const std::span<double> row = std::span(motion.values).last(dofs);
@@ -135,19 +155,18 @@ std::vector<AssetNode> to_nodes(const AsfSkeleton& skeleton) {
 
 void add_bone_channels(const AsfBone& bone, int node, const Vec3& rest, std::size_t first_dof, const AmcMotion& motion,
                        const std::vector<double>& times_s, AssetClip& clip) {
-  AssetChannel turns{node, ChannelPath::rotation, Interpolation::linear, times_s, {}};
+  if (bone.dofs.empty()) return;  // thousands of bones that stay, in millions of frames
+  AssetChannel rotations{node, ChannelPath::rotation, Interpolation::linear, times_s, {}};
   AssetChannel shifts{node, ChannelPath::translation, Interpolation::linear, times_s, {}};
   for (int frame = 0; frame < motion.frame_count; ++frame) {
     const std::span<const double> values = motion.row(frame).subspan(first_dof, bone.dofs.size());
     const Quat q = turn_of(bone, values);
     const Vec3 p = rest + shift_of(bone, values);
-    turns.values.insert(turns.values.end(), {q.x, q.y, q.z, q.w});
+    rotations.values.insert(rotations.values.end(), {q.x, q.y, q.z, q.w});
     shifts.values.insert(shifts.values.end(), {p.x, p.y, p.z});
   }
-  const auto any = [&bone](auto&& of_kind) { return std::any_of(bone.dofs.begin(), bone.dofs.end(), of_kind); };
-  if (any([](const AsfDof& dof) { return is_rotation(dof.kind); })) clip.channels.push_back(std::move(turns));
-  if (any([](const AsfDof& dof) { return dof.kind >= DofKind::tx && dof.kind <= DofKind::tz; }))
-    clip.channels.push_back(std::move(shifts));
+  if (turns(bone)) clip.channels.push_back(std::move(rotations));
+  if (moves(bone)) clip.channels.push_back(std::move(shifts));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ void read_bone_line(MocapWords& words, RawBone& out) {
   if (is_same_word(what, "name")) {
     bone.name = words.rest_of_line();
   } else if (is_same_word(what, "direction")) {
-    bone.direction = words.vector(kMaxMocapLength);
+    bone.direction = words.vector(kMaxMocapDirection);
   } else if (is_same_word(what, "length")) {
     bone.length = words.number(kMaxMocapLength);
   } else if (is_same_word(what, "axis")) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <span>
 
 #include "generator/asset/labels.h"
@@ -186,16 +187,26 @@ void read_frames(MocapWords& words, const Hierarchy& hierarchy, int frames, doub
   }
 }
 
+// Rotations and translations that have channels.
+std::int64_t count_targets(const Hierarchy& hierarchy) {
+  std::set<std::pair<int, bool>> targets;
+  for (const BvhChannel& channel : hierarchy.channels) targets.emplace(channel.node, channel.is_rotation);
+  return static_cast<std::int64_t>(targets.size());
+}
+
 // The number of frames, or a fault where the text cannot hold them: two bytes for each number at least. So no memory is
 // taken for what a file only claims.
-int read_frame_count(MocapWords& words, std::size_t channels) {
+int read_frame_count(MocapWords& words, const Hierarchy& hierarchy) {
   words.expect("Frames:");
   const int frames = words.count("frames", kMaxMocapNumbers);
+  const std::size_t channels = hierarchy.channels.size();
   const std::int64_t numbers = static_cast<std::int64_t>(frames) * static_cast<std::int64_t>(channels);
   if (numbers > kMaxMocapNumbers || (channels == 0 && frames > 0))
     words.fail("too_large", "found " + std::to_string(frames) + " frames of " + std::to_string(channels) +
                                 " channels, allowed are 1 channel or more and " + std::to_string(kMaxMocapNumbers) +
                                 " numbers in all");
+  else if (frames * count_targets(hierarchy) > kMaxMocapKeys)
+    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapKeys) + " keys");
   else if (numbers > static_cast<std::int64_t>(words.bytes_left() / 2 + 1))
     words.fail("too_few_values", "the text is too short for " + std::to_string(frames) + " frames");
   return words.ok() ? frames : 0;
@@ -204,7 +215,7 @@ int read_frame_count(MocapWords& words, std::size_t channels) {
 AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const std::string& name) {
   AssetClip clip{name, name.empty() ? "#0" : name, {}, 0.0, 0.0};
   words.expect("MOTION");
-  const int frames = read_frame_count(words, hierarchy.channels.size());
+  const int frames = read_frame_count(words, hierarchy);
   words.expect("Frame");
   words.expect("Time:");
   const double frame_time_s = words.number(3600.0);

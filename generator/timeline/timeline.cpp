@@ -10,6 +10,8 @@ namespace contort {
 
 namespace {
 
+constexpr std::size_t kMaxActionUses = 10'000;  // in all sequences and interrupts
+
 // A stretch of content on the time line: frame = start + content * scale.
 struct Stretch {
   double start = 0.0;
@@ -85,6 +87,9 @@ class Layout {
 
  private:
   Result<Done> add_sequence(const SequenceDesc& sequence, const std::string& pointer) {
+    for (const ClipDesc& clip : sequence.clips) uses_ += clip.actions.size();
+    if (uses_ > kMaxActionUses)
+      return Issue{"spec.too_many", pointer, "the motion uses more than " + std::to_string(kMaxActionUses) + " actions"};
     const double natural = natural_length(sequence);
     const double scale = stretch_scale(natural, sequence.duration_frames);
     // Sequences change on a frame.
@@ -274,6 +279,7 @@ class Layout {
   const TimelineInput& input_;
   const Character& character_;
   Timeline out_;
+  std::size_t uses_ = 0;
 };
 
 // 0 up to `from`, 1 after `from + length`, eased between; at once where the length is 0.

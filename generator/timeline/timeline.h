@@ -55,7 +55,7 @@ struct TimelineInput {
   const Character& character;
 };
 
-// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .unknown_name, .bad_blend, .too_long and those of
+// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .unknown_name, .bad_blend, .too_long, .too_many and those of
 // bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
 Result<Timeline> lay_out(const TimelineInput& input);
 

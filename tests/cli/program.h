@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +20,8 @@ struct Ran {
   int code = -1;  // exit code; 1000 + n where signal n ended it
   std::string out;
   std::string err;
+  double cpu_s = 0.0;
+  double peak_MB = 0.0;  // resident memory, that of this process at the fork included
 };
 
 // A running contort whose outputs go to files.
@@ -31,13 +34,18 @@ class Program {
   void send(int signal) const { ::kill(child_, signal); }
   Ran wait() const {
     int status = 0;
-    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    struct rusage used {};
+    while (::wait4(child_, &status, 0, &used) < 0 && errno == EINTR) {
     }
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), slurp(folder_ + "/stdout"),
-            slurp(folder_ + "/stderr")};
+            slurp(folder_ + "/stderr"), seconds(used.ru_utime) + seconds(used.ru_stime),
+            static_cast<double>(used.ru_maxrss) / 1024.0};
   }
 
  private:
+  static double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
   void redirect(const char* name, int to) const {
     const int file = ::open((folder_ + name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(file, to);

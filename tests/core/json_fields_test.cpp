@@ -75,6 +75,22 @@ TEST(JsonFields, DocumentsAreBounded) {
   expect_spec_refused({good + std::string(most + 1 - good.size(), ' '), "json.too_large", ""});
 }
 
+std::string list_of(std::size_t count) {
+  std::string text = "[";
+  for (std::size_t i = 1; i < count; ++i) text += "1,";
+  return text + "1]";
+}
+
+// Each costs up to a hundred bytes of memory, and two of the file.
+TEST(JsonFields, NumbersOfValuesAreBounded) {
+  expect_spec_refused({list_of(1'999'999), "spec.wrong_type", ""});
+  expect_spec_refused({list_of(2'000'000), "json.too_large", ""});
+  std::string keys = "{\"a\": 1";
+  for (int i = 1; i < 10'000; ++i) keys += ", \"" + std::to_string(i) + "\": 1";
+  expect_spec_refused({"[" + keys + "}]", "spec.wrong_type", ""});
+  expect_spec_refused({"[" + keys + ", \"b\": 1}]", "json.too_large", ""});
+}
+
 TEST(JsonFields, UnknownFieldsAreNamedWithWhatIsAllowed) {
   const Result<Spec> spec = parse_spec(spec_with(R"("colour": 1)"));
   ASSERT_FALSE(spec.ok());

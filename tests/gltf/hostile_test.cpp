@@ -84,6 +84,16 @@ const Hostile kHostile[] = {
        b.root["nodes"][1]["translation"] = {"1", "2", "3"};
      },
      "gltf.wrong_type", "/nodes/1/translation/0"},
+    {"translation that overflows when squared",
+     [](GlbBuilder& b) {
+       b.root["nodes"][1]["translation"] = {0, 1e200, 0};
+     },
+     "gltf.out_of_range", "/nodes/1"},
+    {"matrix that overflows when squared",
+     [](GlbBuilder& b) {
+       b.root["nodes"][3]["matrix"] = {1e200, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+     },
+     "gltf.out_of_range", "/nodes/3"},
     {"matrix of nine", [](GlbBuilder& b) { b.root["nodes"][3]["matrix"] = Json(std::vector<double>(9, 1.0)); },
      "gltf.out_of_range", "/nodes/3/matrix"},
     {"no channels", [](GlbBuilder& b) { b.root["animations"][0].erase("channels"); }, "gltf.missing", "/animations/0"},

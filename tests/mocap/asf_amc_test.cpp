@@ -103,6 +103,7 @@ const Hostile kHostileAsf[] = {
     {"a degree of freedom twice", "dof rx ry rz", "dof rx rx rz", "asf.bad_dof"},
     {"no order of rotations", "0 0 90  XYZ", "0 0 90  XXZ", "asf.bad_syntax"},
     {"a direction of two numbers", "direction 0 0 1", "direction 0 1", "asf.bad_number"},
+    {"a direction of no sense", "direction 0 0 1", "direction 0 0 1e7", "asf.out_of_range"},
     {"limits the wrong way round", "(0.0 45.0)", "(45.0 0.0)", "asf.bad_limit"},
     {"a limit that is none", "(0.0 45.0)", "(nan 45.0)", "asf.out_of_range"},
     {"limits too few", "           (-inf inf)\n", "", "asf.bad_number"},

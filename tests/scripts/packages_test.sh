@@ -62,7 +62,7 @@ install 0 '' product tests
 nothing_called
 
 new_machine  # one is missing, one was removed but left its settings
-fake dpkg-query "$(grep -v clang "$scratch/all" | sed 's/ii |ccache/rc |ccache/')"
+fake dpkg-query "$(grep -v '|clang"' "$scratch/all" | sed 's/ii |ccache/rc |ccache/')"
 install 0 'Missing packages (2 of ' product tests
 called ' ccache clang$'
 

@@ -81,6 +81,26 @@ all_is_well
 rm "$scratch/project/build/golden-O0/tests/contort_golden"
 expect 1 'failed: golden-O0'
 
+# libFuzzer, where it is asked for: formats that are clean pass, and one that is not fails with its file.
+all_is_well
+mkdir -p "$scratch/project/build/libfuzzer/tests/libfuzzer"
+fuzzers=$scratch/project/build/libfuzzer/tests/libfuzzer
+# shellcheck disable=SC2016  # the variables are the stand-ins'
+fake "$fuzzers/contort_seeds" 'mkdir -p "$1"'
+for name in spec case description gltf bvh asf_amc aim_table; do
+  fake "$fuzzers/fuzz_$name" 'echo "got: $*"; echo "Done 12 runs in 30 second(s)"'
+done
+expect 0 'Done 12 runs' --libfuzzer
+last_line_is '15 passed, 0 failed, 1 skipped'
+grep -q -- '-max_total_time=30 .*-rss_limit_mb=2048' "$scratch/project/build/libfuzzer/bvh.log"
+expect 0 'Done 12 runs' --libfuzzer=7
+grep -q -- '-max_total_time=7 ' "$scratch/project/build/libfuzzer/gltf.log"
+fake "$fuzzers/fuzz_case" 'echo "ERROR: AddressSanitizer: stack-overflow" >&2; exit 77'
+expect 1 'failed: libfuzzer: case (exit code 77' --libfuzzer
+last_line_is '14 passed, 1 failed, 1 skipped'
+expect 0 'got: --test-dir'  # only where it is asked for
+last_line_is '8 passed, 0 failed, 1 skipped'
+
 all_is_well
 fake "$scratch/bin/cmake" 'exit 1'
 expect 1 'failed: dev: does not build'

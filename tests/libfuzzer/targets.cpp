@@ -1,0 +1,127 @@
+// The list of targets, and what their seeds are made from: the project's own examples and stock, and small files that
+// the tests make.
+#include "tests/libfuzzer/targets.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "checks/joint_map.h"
+#include "corpus/case.h"
+#include "generator/character/library.h"
+#include "tests/corpus/temp_folder.h"
+#include "tests/gltf/glb_builder.h"
+#include "tests/mocap/asf_text.h"
+#include "tests/mocap/bvh_text.h"
+
+namespace contort::hostile {
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+Texts texts_in(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(CONTORT_SOURCE_DIR) + "/" + folder))
+    if (entry.is_regular_file()) paths.push_back(entry.path().string());
+  std::ranges::sort(paths);
+  Texts out;
+  for (const std::string& path : paths) out.push_back(slurp(path));
+  return out;
+}
+
+Spec with_masses(Spec spec, Mode mode) {
+  spec.dynamics.mode = mode;
+  spec.dynamics.loads = {{"arm_left", "wrist", Vec3(0.0), Vec3(0.3), 5.0}};
+  spec.dynamics.impacts = {{1, "arm_left", "", Vec3(0.0), Vec3(0.0, 0.0, 5.0)}};
+  return spec;
+}
+
+// The examples; one of them with masses; and a recording.
+Texts spec_seeds() {
+  Texts out = texts_in("docs/examples");
+  Spec reach = *parse_spec(slurp(std::string(CONTORT_SOURCE_DIR) + "/docs/examples/reach_hand.json"));
+  for (const Mode mode : {Mode::tracking, Mode::dynamic}) out.push_back(print_spec(with_masses(reach, mode)));
+  reach.sequences.clear();
+  reach.recording = {"small", "", 0.0, {{"Hips", "root"}}};
+  out.push_back(print_spec(reach));
+  return out;
+}
+
+Texts case_seeds() {
+  Texts out;
+  for (const std::string& text : texts_in("docs/examples")) {
+    Case stored{*parse_spec(text), {}, {}};
+    stored.spec.sequences.resize(std::min<std::size_t>(stored.spec.sequences.size(), 1));
+    stored.expect = {"joint_range", "arm_left/elbow max", "rad", 1, 2, 3, -0.5, 0.5, "00", "00", "0123456789abcdef"};
+    out.push_back(print_case(stored));
+  }
+  return out;
+}
+
+// Under names that are not taken.
+Texts description_seeds() {
+  Texts out = texts_in("docs/examples/own_actions");
+  for (auto [name, part] : stock_library().parts) part.name = "own", out.push_back(print_part(part));
+  for (auto [name, object] : stock_library().objects) object.name = "own", out.push_back(print_object(object));
+  for (auto [name, character] : stock_library().characters)
+    character.name = "own", out.push_back(print_character(character));
+  out.push_back(R"({"format": "contort.map/1", "joints": {"LeftForeArm": "arm_left/elbow"}})");
+  out.push_back(R"({"format": "contort.settings/1", "limits": [{"check": "joint_range", "subject": "arm_*/elbow max",
+    "phase": "at_rest", "use": "ignore", "tolerance": 0.1, "reason": "r"}], "waivers": [{"check": "pop", "subject": "*",
+    "deepest": 0.5, "reason": "r", "owner": "o", "expires": "2030-01-31"}]})");
+  return out;
+}
+
+std::string text_of(const testing::ByteList& bytes) {
+  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+// A channel of each interpolation; the text has its buffer from the target.
+Texts gltf_seeds() {
+  testing::GlbBuilder arm = testing::small_arm();
+  Texts out = {text_of(arm.glb())};
+  testing::GlbBuilder text = arm;
+  text.root["buffers"] = {{{"byteLength", 512}}};
+  text.root["bufferViews"] = {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 128}},
+                              {{"buffer", 0}, {"byteOffset", 128}, {"byteLength", 384}}};
+  for (testing::Json& accessor : text.root["accessors"]) accessor["bufferView"] = accessor["type"] == "SCALAR" ? 0 : 1;
+  out.push_back(text.document().dump());
+  const int times = arm.add_scalars({0.0F, 0.5F});
+  const int spline = arm.add_vec4({0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});
+  arm.add_channel(1, 1, "rotation", times, spline, "CUBICSPLINE");
+  out.push_back(text_of(arm.glb()));
+  return out;
+}
+
+Texts bvh_seeds() { return {small_bvh(), replaced(small_bvh(), "0.25", "0.01")}; }
+Texts asf_amc_seeds() { return {small_asf() + small_amc()}; }
+
+// Two postures of an arm of seven coordinates: a ball and three hinges.
+Texts aim_table_seeds() {
+  constexpr double kPostures[] = {1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0.5, 0, 0};
+  return {std::string(reinterpret_cast<const char*>(kPostures), sizeof kPostures)};
+}
+
+constexpr Target kTargets[] = {
+    {"spec", try_spec, spec_seeds},
+    {"case", try_case, case_seeds},
+    {"description", try_description, description_seeds},
+    {"gltf", try_gltf, gltf_seeds},
+    {"bvh", try_bvh, bvh_seeds},
+    {"asf_amc", try_asf_amc, asf_amc_seeds},
+    {"aim_table", try_aim_table, aim_table_seeds},
+};
+
+}  // namespace
+
+std::span<const Target> all_targets() { return kTargets; }
+
+void require(bool is_so, const char* promise) {
+  if (is_so) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+}  // namespace contort::hostile

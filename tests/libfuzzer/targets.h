@@ -1,0 +1,31 @@
+// What a user may be handed by a stranger, one target for each format: from bytes as far as the program would go with
+// them, in bounded work. libFuzzer runs them (docs/hostile_input.md), and hostile_files_test.cpp with what was found.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contort::hostile {
+
+// Whether the input was accepted. What must not happen aborts: a sanitizer's report, an assert, a failed require().
+bool try_spec(std::string_view bytes);
+bool try_case(std::string_view bytes);
+bool try_description(std::string_view bytes);  // part, object, character, action, joint map
+bool try_gltf(std::string_view bytes);         // a GLB, or the JSON of a .gltf
+bool try_bvh(std::string_view bytes);
+bool try_asf_amc(std::string_view bytes);    // an ASF, and after a line that begins with "#!" its AMC
+bool try_aim_table(std::string_view bytes);  // the postures of a table; header and hash are put around them
+
+struct Target {
+  std::string_view name;
+  bool (*run)(std::string_view bytes);
+  std::vector<std::string> (*seeds)();  // all of them accepted
+};
+std::span<const Target> all_targets();
+
+// Aborts where `is_so` is false: a promise of a reader that its input broke.
+void require(bool is_so, const char* promise);
+
+}  // namespace contort::hostile
