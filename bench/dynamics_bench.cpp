@@ -101,6 +101,38 @@ void compare_on(const char* name, const Character& character) {
       });
 }
 
+// What single ticks of one simulation take: each is measured in many runs, its median is its time, and the quantiles
+// are those over the ticks. Frames' own work between ticks counts with the tick after it.
+void print_quantiles(const char* name, const Stage& stage, const Motion& target) {
+  constexpr std::size_t kRuns = 101;
+  SimulationScratch scratch;
+  std::vector<std::vector<double>> of_tick;
+  double begin = 0.0;
+  std::size_t tick = 0;
+  scratch.after_tick = [&] {
+    const double now = thread_time_s();
+    if (tick == of_tick.size()) of_tick.emplace_back();
+    of_tick[tick++].push_back(now - begin);
+    begin = thread_time_s();
+  };
+  for (std::size_t run = 0; run < kRuns; ++run) {
+    Motion motion = target;
+    tick = 0, begin = thread_time_s();
+    simulate(*stage.character, *stage.dynamics, stage.environment, scratch, motion);
+  }
+  std::vector<double> times;
+  for (std::size_t t = 1; t < of_tick.size(); ++t) {  // the first one has all that is computed once
+    std::ranges::sort(of_tick[t]);
+    times.push_back(of_tick[t][kRuns / 2]);
+  }
+  std::ranges::sort(times);
+  const auto at = [&](double share) {
+    return 1e6 * times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+  };
+  std::printf("%-22s %zu ticks: median %.2f us   p99 %.2f us   longest %.2f us\n", name, times.size(), at(0.5),
+              at(0.99), at(1.0));
+}
+
 // A whole tick of a squat with a load and a blow, beside mj_inverse on random states of the same figure.
 void compare_tick(Mode mode) {
   Spec spec = scene("human_dynamic");
@@ -128,6 +160,7 @@ void compare_tick(Mode mode) {
   for (std::vector<double>* v : {&times, &peers, &ratios}) std::ranges::sort(*v);
   std::printf("%-22s ours %6.2f us   mj_inverse %6.2f us   ratio %.3f\n",
               mode == Mode::dynamic ? "dynamic tick" : "tracking tick", 1e6 * times[50], 1e6 * peers[50], ratios[50]);
+  print_quantiles(mode == Mode::dynamic ? "  single ticks, dynamic" : "  single ticks, tracking", stage, target);
 }
 
 }  // namespace

@@ -4,35 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "checks/hull_distance.h"
+#include "checks/segment_distance.h"
+
 namespace contort {
 
 namespace {
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
-// A segment as centre and half vector: its points are center + t * half, t in [-1, 1].
-struct Segment {
-  Vec3 center;
-  Vec3 half;
-};
-
-// Closest points of two segments: the minimum of a convex quadratic over a square. Solve for s, clamp it, solve for t;
-// if that had to be clamped, s again for the t that is left (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-double segment_distance(const Segment& a, const Segment& b) {
-  const Vec3 between = a.center - b.center;
-  const double aa = glm::dot(a.half, a.half);
-  const double bb = glm::dot(b.half, b.half);
-  const double ab = glm::dot(a.half, b.half);
-  const double ar = glm::dot(a.half, between);
-  const double br = glm::dot(b.half, between);
-  const double determinant = aa * bb - ab * ab;
-  double s = 0.0;  // parallel segments and points: any s will do, t settles the rest
-  if (determinant > 1e-14 * aa * bb) s = std::clamp((ab * br - ar * bb) / determinant, -1.0, 1.0);
-  const double free_t = bb > 0.0 ? (ab * s + br) / bb : 0.0;
-  const double t = std::clamp(free_t, -1.0, 1.0);
-  if ((t != free_t || bb == 0.0) && aa > 0.0) s = std::clamp((ab * t - ar) / aa, -1.0, 1.0);
-  return length(between + s * a.half - t * b.half);
-}
 
 // From the nearest point of a box at the origin, along the axes, to p outside of it; 0 inside.
 double point_box_distance(const Vec3& p, const Vec3& half) { return length(glm::max(glm::abs(p) - half, Vec3(0.0))); }
@@ -166,18 +145,28 @@ double box_distance(const Solid& box, const Solid& other, double band_m) {
   return nearest_edges(l, apart, nearest_corners(l));
 }
 
+Solid hull_solid(std::shared_ptr<const Polyhedron> hull) {
+  Solid solid{Solid::Core::hull, hull->center_m};
+  for (const Vec3& corner : hull->corners_m) solid.bound_m = std::max(solid.bound_m, length(corner));
+  solid.hull = std::move(hull);
+  return solid;
+}
+
 struct MakeSolid {
   Solid operator()(const Sphere& s) const {
-    return {Solid::Core::point, s.center_m, Vec3(0.0), Mat3(1.0), Vec3(0.0), s.radius_m, s.radius_m};
+    return {Solid::Core::point, s.center_m, Vec3(0.0), Mat3(1.0), Vec3(0.0), s.radius_m, s.radius_m, {}};
   }
   Solid operator()(const Capsule& c) const {
     const Vec3 half = 0.5 * (c.b_m - c.a_m);
-    return {Solid::Core::segment, 0.5 * (c.a_m + c.b_m),    half, Mat3(1.0), Vec3(0.0),
-            c.radius_m,           length(half) + c.radius_m};
+    return {Solid::Core::segment, 0.5 * (c.a_m + c.b_m),     half, Mat3(1.0), Vec3(0.0),
+            c.radius_m,           length(half) + c.radius_m, {}};
   }
   Solid operator()(const Box& b) const {
     const Mat3 axes = glm::mat3_cast(from_rotation_vector(b.rotation_deg * kRadPerDeg));
-    return {Solid::Core::box, b.center_m, Vec3(0.0), axes, b.half_m, 0.0, length(b.half_m)};
+    return {Solid::Core::box, b.center_m, Vec3(0.0), axes, b.half_m, 0.0, length(b.half_m), {}};
+  }
+  Solid operator()(const ConvexHull& hull) const {
+    return hull_solid(std::make_shared<Polyhedron>(convex_polyhedron(hull.points_m)));
   }
 };
 
@@ -185,18 +174,53 @@ struct MakeSolid {
 
 Solid solid_of(const ColliderShape& shape) { return std::visit(MakeSolid{}, shape); }
 
+Solid solid_of(const Collider& collider) {
+  return collider.polyhedron ? hull_solid(collider.polyhedron) : solid_of(collider.shape);
+}
+
 Solid moved(const Rigid& to_from_own, const Solid& solid) {
   Solid out = solid;
   out.center_m = to_from_own * solid.center_m;
   if (solid.core == Solid::Core::segment) out.half_segment_m = to_from_own.q * solid.half_segment_m;
-  if (solid.core == Solid::Core::box) out.axes = glm::mat3_cast(to_from_own.q) * solid.axes;
+  if (solid.core == Solid::Core::box || solid.core == Solid::Core::hull)
+    out.axes = glm::mat3_cast(to_from_own.q) * solid.axes;
   return out;
+}
+
+double extent_along(const Solid& solid, const Vec3& n) {
+  double extent = std::fabs(glm::dot(solid.half_segment_m, n));
+  if (solid.core == Solid::Core::box) extent = glm::dot(glm::abs(glm::transpose(solid.axes) * n), solid.half_m);
+  if (solid.core == Solid::Core::hull) {
+    const Vec3 own = glm::transpose(solid.axes) * n;
+    for (const Vec3& corner : solid.hull->corners_m) extent = std::max(extent, glm::dot(corner, own));
+  }
+  return extent + solid.radius_m;
+}
+
+Vec3 way_out(const Solid& a, const Solid& b) {
+  if (a.core != Solid::Core::box && b.core == Solid::Core::box) return -way_out(b, a);
+  if (a.core == Solid::Core::box && b.core != Solid::Core::hull) {
+    const Local l = in_frame_of(a, b);
+    const Vec3 axis = separation(l, std::numeric_limits<double>::infinity()).axis;
+    return a.axes * (glm::dot(l.center, axis) < 0.0 ? -axis : axis);
+  }
+  constexpr double kStep_m = 1e-7;  // differences are good enough
+  const double here_m = signed_distance(a, b, std::numeric_limits<double>::infinity());
+  Vec3 slope;
+  for (int i = 0; i < 3; ++i) {
+    Solid moved_b = b;
+    moved_b.center_m[i] += kStep_m;
+    slope[i] = (signed_distance(a, moved_b, std::numeric_limits<double>::infinity()) - here_m) / kStep_m;
+  }
+  return unit_or(slope, Vec3(0, 1, 0));
 }
 
 double signed_distance(const Solid& a, const Solid& b, double band_m) {
   const double poison = a.center_m.x + a.center_m.y + a.center_m.z + b.center_m.x + b.center_m.y + b.center_m.z;
   if (!std::isfinite(poison)) return std::numeric_limits<double>::quiet_NaN();
   const double radii = a.radius_m + b.radius_m;
+  if (a.core == Solid::Core::hull) return hull_distance(a, b, band_m + radii) - radii;
+  if (b.core == Solid::Core::hull) return hull_distance(b, a, band_m + radii) - radii;
   if (a.core == Solid::Core::box) return box_distance(a, b, band_m + radii) - radii;
   if (b.core == Solid::Core::box) return box_distance(b, a, band_m + radii) - radii;
   return segment_distance({a.center_m, a.half_segment_m}, {b.center_m, b.half_segment_m}) - radii;

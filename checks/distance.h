@@ -1,25 +1,37 @@
-// Signed distances between solids. A solid is a core (point, segment or box) with a radius around it; the signed
-// distance of two solids is that of their cores less both radii. Cores apart: the Euclidean distance. Cores that
-// overlap: minus the depth, the shortest translation that parts them. Double precision, closed form, no iteration.
+// Signed distances between solids. A solid is a core (point, segment, box or convex hull) with a radius around it; the
+// signed distance of two solids is that of their cores less both radii. Cores apart: the Euclidean distance. Cores that
+// overlap: minus the depth, the shortest translation that parts them. Double precision. Closed form, but for hulls that
+// are apart (hull_distance.h), where a bounded iteration proves its result or leaves it to a closed form.
 #pragma once
 
-#include "generator/character/shape.h"
+#include <memory>
+
+#include "generator/character/character.h"
 
 namespace contort {
 
 struct Solid {
-  enum class Core { point, segment, box };
+  enum class Core { point, segment, box, hull };
   Core core = Core::point;
   Vec3 center_m{0.0};
-  Vec3 half_segment_m{0.0};  // segment: from the centre to one end
-  Mat3 axes{1.0};            // box: columns are its unit axes
-  Vec3 half_m{0.0};          // box: half of each side
-  double radius_m = 0.0;     // >= 0
-  double bound_m = 0.0;      // radius of a ball about the centre that holds the solid
+  Vec3 half_segment_m{0.0};                  // segment: from the centre to one end
+  Mat3 axes{1.0};                            // box, hull: columns are its unit axes
+  Vec3 half_m{0.0};                          // box: half of each side
+  double radius_m = 0.0;                     // >= 0
+  double bound_m = 0.0;                      // radius of a ball about the centre that holds the solid
+  std::shared_ptr<const Polyhedron> hull{};  // hull: its corners are center_m + axes * corner
 };
 
 Solid solid_of(const ColliderShape& shape);
+Solid solid_of(const Collider& collider);  // in the frame of its joint
 Solid moved(const Rigid& to_from_own, const Solid& solid);
+
+// How far it reaches from its centre along the unit vector n.
+double extent_along(const Solid& solid, const Vec3& n);
+
+// The direction in which b must move to get away from a fastest, about: of their nearest points, or of the shortest way
+// out. For bounds, which any direction gives.
+Vec3 way_out(const Solid& a, const Solid& b);
 
 // Signed distance in metres. Where it is greater than `band_m`, any number in (band_m, true distance] may come back
 // instead: far apart is far apart. NaN coordinates give NaN.

@@ -48,7 +48,7 @@ std::vector<SolePoint> points_of(const Character& character, int b) {
   const Body& body = character.bodies()[static_cast<std::size_t>(b)];
   std::vector<SolePoint> points;
   for (int c = body.first_collider; c < body.first_collider + body.collider_count; ++c) {
-    const Solid solid = solid_of(character.colliders()[static_cast<std::size_t>(c)].shape);
+    const Solid solid = solid_of(character.colliders()[static_cast<std::size_t>(c)]);
     for (const Vec3& point : core_points(solid))
       points.push_back({b, body.joint, point, solid.radius_m, false, {}, {}});
   }

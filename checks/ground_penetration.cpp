@@ -16,12 +16,7 @@ namespace {
 constexpr double kSink_m = 0.005;
 
 // Level ground has a formula.
-double lowest(const Solid& solid) {
-  double reach_m = std::fabs(solid.half_segment_m.y);
-  if (solid.core == Solid::Core::box)
-    for (int k = 0; k < 3; ++k) reach_m += std::fabs(solid.axes[k].y) * solid.half_m[k];
-  return solid.center_m.y - reach_m - solid.radius_m;
-}
+double lowest(const Solid& solid) { return solid.center_m.y - extent_along(solid, Vec3(0.0, -1.0, 0.0)); }
 
 double height_above(const Environment& environment, const Solid& solid) {
   double least_m = std::numeric_limits<double>::infinity();
@@ -42,7 +37,7 @@ Subject ground_penetration_subject(const Character& character, int subject) {
 
 void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
   std::vector<Solid> own;
-  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider.shape));
+  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
   const std::span<const Body> bodies = in.character.bodies();
   const bool is_level = in.environment.is_level();
   const double level_m = in.environment.height_at(0.0, 0.0);

@@ -46,7 +46,7 @@ void obstacle_penetration_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<Solid> obstacles = placed_obstacles(in.environment);
   if (obstacles.empty()) return;
   std::vector<Solid> own;
-  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider.shape));
+  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
   const std::span<const Body> bodies = in.character.bodies();
   for (int frame = 0; frame < in.motion.frame_count; ++frame)
     for (std::size_t b = 0; b < bodies.size(); ++b) {

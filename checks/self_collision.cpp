@@ -1,9 +1,12 @@
 // self_collision: signed distance of every judged pair of bodies, the least over their colliders. Most bodies are far
 // apart in most frames: bounding balls, first of bodies and then of colliders, dismiss those, and only what is within
-// the band is measured exactly.
+// the band is measured exactly. Between two frames the same is done with how far bodies can have come
+// (between_frames.h).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "checks/between_frames.h"
 #include "checks/check.h"
 #include "checks/distance.h"
 
@@ -25,7 +28,7 @@ bool apart(const Vec3& a, const Vec3& b, double reach_m) {
 class Clearances {
  public:
   Clearances(const Character& character, double band_m) : character_(character), band_m_(band_m) {
-    for (const Collider& collider : character.colliders()) own_.push_back(solid_of(collider.shape));
+    for (const Collider& collider : character.colliders()) own_.push_back(solid_of(collider));
     for (const Body& body : character.bodies()) own_balls_.push_back(ball_of(body));
     world_.resize(own_.size());
     balls_.resize(own_balls_.size());
@@ -120,10 +123,25 @@ Subject self_collision_subject(const Character& character, int subject) {
 
 void self_collision_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const JudgedPair> pairs = in.character.judged_pairs();
-  Clearances clearances(in.character, in.settings.collision_band_m);
+  const double band_m = in.settings.collision_band_m;
+  Clearances clearances(in.character, band_m);
+  BetweenFrames between(in.character);
+  std::vector<double> before_m(pairs.size(), std::numeric_limits<double>::quiet_NaN());
   for (int frame = 0; frame < in.motion.frame_count; ++frame) {
     clearances.place(in.world_at(frame));
-    for (std::size_t p = 0; p < pairs.size(); ++p) fold.report(static_cast<int>(p), frame, clearances.of(pairs[p]));
+    if (frame > 0)
+      between.set({in.motion.row(frame - 1), in.world_at(frame - 1)}, {in.motion.row(frame), in.world_at(frame)});
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      const double clearance_m = clearances.of(pairs[p]);
+      const double now_m = std::min(clearance_m, band_m);
+      double margin_m = clearance_m;
+      if (between.may_overlap(pairs[p], before_m[p], now_m)) {
+        const double least_m = between.least_distance(pairs[p], before_m[p], now_m);
+        if (least_m < std::min(before_m[p], now_m)) margin_m = least_m;
+      }
+      fold.report(static_cast<int>(p), frame, margin_m);
+      before_m[p] = now_m;
+    }
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// One for a point, two for a segment, eight for a box.
+// One for a point, two for a segment, eight for a box, the corners of a hull.
 std::vector<Vec3> core_points(const Solid& solid);
 
 }  // namespace contort

@@ -64,9 +64,14 @@ double distance_to(const Box& b, const Vec3& p) {
   return glm::length(glm::max(outside, Vec3(0.0))) + inside;
 }
 
+double distance_to(const ConvexHull& hull, const Vec3& p) {
+  return nearest_on(convex_polyhedron(hull.points_m), p).distance_m;
+}
+
 Vec3 center_of(const Sphere& s) { return s.center_m; }
 Vec3 center_of(const Capsule& c) { return 0.5 * (c.a_m + c.b_m); }
 Vec3 center_of(const Box& b) { return b.center_m; }
+Vec3 center_of(const ConvexHull& hull) { return convex_polyhedron(hull.points_m).center_m; }
 Vec3 center_of(const TriangleMesh& m) {
   Vec3 sum(0.0);
   for (const Vec3& p : m.positions_m) sum += p;

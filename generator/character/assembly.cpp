@@ -33,6 +33,10 @@ struct MoveShape {
     const Quat q = to_from_own.q * from_rotation_vector(b.rotation_deg * kRadPerDeg);
     return {to_from_own * b.center_m, b.half_m, to_rotation_vector(q) * kDegPerRad};
   }
+  ConvexHull operator()(ConvexHull hull) const {
+    for (Vec3& p : hull.points_m) p = to_from_own * p;
+    return hull;
+  }
   TriangleMesh operator()(TriangleMesh mesh) const {
     for (Vec3& p : mesh.positions_m) p = to_from_own * p;
     return mesh;
@@ -43,6 +47,14 @@ template <class Shape>
 Shape moved_shape(const Rigid& to_from_own, const Shape& shape) {
   if (to_from_own == Rigid{}) return shape;
   return std::visit([&](const auto& s) -> Shape { return MoveShape{to_from_own}(s); }, shape);
+}
+
+// Found from the points as authored, which check_part has seen, and then moved like them.
+std::shared_ptr<const Polyhedron> polyhedron_of(const ColliderShape& shape, bool mirror, const Rigid& to_from_own) {
+  const auto* hull = std::get_if<ConvexHull>(&shape);
+  if (hull == nullptr) return nullptr;
+  Polyhedron solid = convex_polyhedron(hull->points_m);
+  return std::make_shared<Polyhedron>(moved(to_from_own, mirror ? mirrored(std::move(solid)) : std::move(solid)));
 }
 
 MeshShape as_mesh(const ColliderShape& shape) {
@@ -139,8 +151,9 @@ class PartAdder {
 
   void add_collider(const ColliderDesc& desc) {
     const Dock dock = on(desc.joint);
-    assembly_.colliders.push_back(
-        {slot_.name + "/" + desc.name, dock.joint, moved_shape(dock.joint_from_dock, handed_.shape(desc.shape))});
+    assembly_.colliders.push_back({slot_.name + "/" + desc.name, dock.joint,
+                                   moved_shape(dock.joint_from_dock, handed_.shape(desc.shape)),
+                                   polyhedron_of(desc.shape, handed_.mirror, dock.joint_from_dock)});
   }
 
   void add_mesh_piece(const std::string& joint, const MeshShape& shape, const Vec3& color) {
@@ -197,7 +210,8 @@ void add_object(Assembly& assembly, const ObjectDesc& object, const Dock& dock) 
   fix_body(assembly.joints[static_cast<std::size_t>(dock.joint)], dock.joint_from_dock,
            principal_inertia(object.mass_kg, object.center_of_mass_m, object.inertia_kg_m2));
   for (const ColliderDesc& c : object.colliders) {
-    assembly.colliders.push_back({prefix + c.name, dock.joint, moved_shape(dock.joint_from_dock, c.shape)});
+    assembly.colliders.push_back({prefix + c.name, dock.joint, moved_shape(dock.joint_from_dock, c.shape),
+                                  polyhedron_of(c.shape, false, dock.joint_from_dock)});
     if (object.mesh.empty())
       assembly.mesh.push_back({dock.joint, moved_shape(dock.joint_from_dock, as_mesh(c.shape)), object.color});
   }

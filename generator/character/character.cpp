@@ -37,6 +37,11 @@ struct LowestPoint {
     for (int i = 0; i < 3; ++i) low -= std::fabs(r[i].y) * b.half_m[i];
     return low;
   }
+  double operator()(const ConvexHull& hull) const {
+    double low = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : hull.points_m) low = std::min(low, (world * p).y);
+    return low;
+  }
 };
 
 std::string names_of(const std::vector<std::string>& names) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "generator/character/action_desc.h"
 #include "generator/character/desc.h"
 #include "generator/character/library.h"
+#include "generator/character/polyhedron.h"
 #include "generator/core/result.h"
 
 namespace contort {
@@ -55,10 +57,10 @@ int coord_size(JointKind kind);
 int freedom_count(JointKind kind);
 
 struct Collider {
-  std::string name;     // "arm_left/forearm", or "object:rifle/barrel"
-  int joint = 0;        // The joint that moves it.
-  ColliderShape shape;  // In that joint's frame.
-  bool operator==(const Collider&) const = default;
+  std::string name;                                // "arm_left/forearm", or "object:rifle/barrel"
+  int joint = 0;                                   // The joint that moves it.
+  ColliderShape shape;                             // In that joint's frame.
+  std::shared_ptr<const Polyhedron> polyhedron{};  // Of a ConvexHull, in that joint's frame; null of other shapes.
 };
 
 // Colliders that move as one and are judged as one: those of a part or object on one joint.
@@ -205,8 +207,8 @@ class Character {
 bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,
-// .unknown_object, .unknown_point, .too_many_handles, .too_large, .duplicate_object, .duplicate_name, .no_slot, .no_part,
-// .bad_root and those of check_part; pointers go into the CharacterChoice
+// .unknown_object, .unknown_point, .too_many_handles, .too_large, .duplicate_object, .duplicate_name, .no_slot,
+// .no_part, .bad_root and those of check_part; pointers go into the CharacterChoice
 // ("/parts/arm_left"), or, with the file's name in the text, into the description at fault.
 Result<Character> build_character(const CharacterChoice& choice, const Library& library);
 

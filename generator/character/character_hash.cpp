@@ -12,6 +12,12 @@ struct HashShape {
   void operator()(const Sphere& s) const { add(0, {s.center_m}, s.radius_m); }
   void operator()(const Capsule& c) const { add(1, {c.a_m, c.b_m}, c.radius_m); }
   void operator()(const Box& b) const { add(2, {b.center_m, b.half_m, b.rotation_deg}, 0.0); }
+  void operator()(const ConvexHull& hull) const {
+    hash.add(std::uint64_t{3});
+    hash.add(static_cast<std::uint64_t>(hull.points_m.size()));
+    for (const Vec3& p : hull.points_m)
+      for (int i = 0; i < 3; ++i) hash.add(p[i]);
+  }
   void add(std::uint64_t tag, std::initializer_list<Vec3> vectors, double radius_m) const {
     hash.add(tag);
     for (const Vec3& v : vectors)

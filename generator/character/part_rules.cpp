@@ -3,6 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "generator/character/polyhedron.h"
+
 namespace contort {
 
 namespace {
@@ -152,7 +154,18 @@ Result<Done> check_facing(const PartDesc& part) {
   return Done{};
 }
 
+template <class T>
+Result<Done> check_hulls(const std::vector<T>& items, const std::string& list) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto* hull = std::get_if<ConvexHull>(&items[i].shape);
+    const std::string fault = hull == nullptr ? "" : hull_fault(hull->points_m);
+    if (!fault.empty()) return at("bad_shape", list, i, "shape/points_m", fault);
+  }
+  return Done{};
+}
+
 Result<Done> check_mesh(const std::vector<MeshDesc>& mesh) {
+  if (const Result<Done> hulls = check_hulls(mesh, "mesh"); !hulls) return hulls;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const auto* triangles = std::get_if<TriangleMesh>(&mesh[i].shape);
     if (triangles == nullptr) continue;
@@ -173,8 +186,8 @@ Result<Done> check_part(const PartDesc& part) {
   for (const Result<Done>& rule :
        {unique_names(part.joints, "joints"), unique_names(part.colliders, "colliders"),
         unique_names(part.sockets, "sockets"), known_joints(part, part.colliders, "colliders"),
-        known_joints(part, part.mesh, "mesh"), known_joints(part, part.sockets, "sockets"), check_mesh(part.mesh),
-        check_reach(part), check_facing(part)})
+        known_joints(part, part.mesh, "mesh"), known_joints(part, part.sockets, "sockets"),
+        check_hulls(part.colliders, "colliders"), check_mesh(part.mesh), check_reach(part), check_facing(part)})
     if (!rule) return rule;
   return Done{};
 }
@@ -184,7 +197,8 @@ Result<Done> check_object(const ObjectDesc& object) {
   for (Result<Done> rule :
        {unique_names(object.colliders, "colliders"), unique_names(object.points, "points"),
         known_joints(no_joints, object.colliders, "colliders"), known_joints(no_joints, object.mesh, "mesh"),
-        known_joints(no_joints, object.points, "points"), check_mesh(object.mesh)})
+        known_joints(no_joints, object.points, "points"), check_hulls(object.colliders, "colliders"),
+        check_mesh(object.mesh)})
     if (!rule) {
       Issue issue = rule.issue();
       issue.code.replace(0, std::string("part").size(), "object");

@@ -1,5 +1,6 @@
 #include "generator/character/shape.h"
 
+#include "generator/character/polyhedron.h"
 #include "generator/core/detmath.h"
 
 namespace contort {
@@ -12,6 +13,10 @@ constexpr int kSegments = 16;  // around
 Sphere mirror(const Sphere& s) { return {mirror_point(s.center_m), s.radius_m}; }
 Capsule mirror(const Capsule& c) { return {mirror_point(c.a_m), mirror_point(c.b_m), c.radius_m}; }
 Box mirror(const Box& b) { return {mirror_point(b.center_m), b.half_m, mirror_axis(b.rotation_deg)}; }
+ConvexHull mirror(ConvexHull hull) {
+  for (Vec3& p : hull.points_m) p = mirror_point(p);
+  return hull;
+}
 TriangleMesh mirror(TriangleMesh mesh) {
   for (Vec3& p : mesh.positions_m) p = mirror_point(p);
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
@@ -75,6 +80,16 @@ Triangles tessellate_box(const Box& b) {
   return out;
 }
 
+Triangles tessellate_hull(const ConvexHull& hull) {
+  const Polyhedron solid = convex_polyhedron(hull.points_m);
+  Triangles out;
+  for (const Polyhedron::Face& face : solid.faces) {
+    const auto corner = [&](int i) { return solid.center_m + solid.corner_of(face, i); };
+    for (int i = 1; i + 1 < face.count; ++i) add_triangle(out, corner(0), corner(i), corner(i + 1));
+  }
+  return out;
+}
+
 Triangles tessellate_mesh(const TriangleMesh& mesh) {
   Triangles out;
   const auto vertex = [&](std::size_t i) { return mesh.positions_m[static_cast<std::size_t>(mesh.indices[i])]; };
@@ -87,6 +102,7 @@ struct Tessellate {
   Triangles operator()(const Sphere& s) const { return tessellate_capsule({s.center_m, s.center_m, s.radius_m}); }
   Triangles operator()(const Capsule& c) const { return tessellate_capsule(c); }
   Triangles operator()(const Box& b) const { return tessellate_box(b); }
+  Triangles operator()(const ConvexHull& hull) const { return tessellate_hull(hull); }
   Triangles operator()(const TriangleMesh& mesh) const { return tessellate_mesh(mesh); }
 };
 

@@ -28,14 +28,21 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
+inline constexpr int kMaxHullPoints = 64;
+
+struct ConvexHull {  // The smallest convex solid that holds all of the points: 4 to kMaxHullPoints, not in one plane.
+  std::vector<Vec3> points_m;
+  bool operator==(const ConvexHull&) const = default;
+};
+
 struct TriangleMesh {  // Drawn only, never a collider.
   std::vector<Vec3> positions_m;
   std::vector<int> indices;  // Three to a triangle, counter-clockwise seen from outside.
   bool operator==(const TriangleMesh&) const = default;
 };
 
-using ColliderShape = std::variant<Sphere, Capsule, Box>;
-using MeshShape = std::variant<Sphere, Capsule, Box, TriangleMesh>;
+using ColliderShape = std::variant<Sphere, Capsule, Box, ConvexHull>;
+using MeshShape = std::variant<Sphere, Capsule, Box, ConvexHull, TriangleMesh>;
 
 ColliderShape mirrored(const ColliderShape& shape);
 MeshShape mirrored(const MeshShape& shape);

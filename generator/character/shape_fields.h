@@ -14,6 +14,7 @@ inline const json_fields::Rule kRotation{.low = -360, .high = 360};
 constexpr std::string_view type_name(const Sphere*) { return "sphere"; }
 constexpr std::string_view type_name(const Capsule*) { return "capsule"; }
 constexpr std::string_view type_name(const Box*) { return "box"; }
+constexpr std::string_view type_name(const ConvexHull*) { return "hull"; }
 constexpr std::string_view type_name(const TriangleMesh*) { return "triangles"; }
 
 template <class V>
@@ -37,6 +38,14 @@ void fields(V& v, const Box*) {
   v.field("center_m", &Box::center_m, kPoint, "Centre, in the joint's frame.");
   v.field("half_m", &Box::half_m, kRadius, "Half of each side.");
   v.field("rotation_deg", &Box::rotation_deg, kRotation, "Rotation vector (axis times angle).");
+}
+
+template <class V>
+void fields(V& v, const ConvexHull*) {
+  v.constant("type", "hull");
+  v.field("points_m", &ConvexHull::points_m,
+          {.low = -kMaxLength_m, .high = kMaxLength_m, .max_count = kMaxHullPoints, .required = true},
+          "Points, in the joint's frame: at least four that are not in one plane. The solid is their convex hull.");
 }
 
 template <class V>

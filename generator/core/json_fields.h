@@ -61,8 +61,8 @@ class ReadContext {
   Issue issue_;
 };
 
-// JSON text to a tree: size, depth and number of values bounded, duplicate keys refused. Codes json.syntax, .too_large, .too_deep,
-// .duplicate_key.
+// JSON text to a tree: size, depth and number of values bounded, duplicate keys refused. Codes json.syntax, .too_large,
+// .too_deep, .duplicate_key.
 Result<Json> parse_document(std::string_view text);
 
 // Shared by the visitors; the .cpp holds them once instead of in every template.

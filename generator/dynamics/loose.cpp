@@ -22,6 +22,8 @@ void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
   if (const Sphere* sphere = std::get_if<Sphere>(&collider.shape)) add(sphere->center_m, sphere->radius_m);
   if (const Capsule* capsule = std::get_if<Capsule>(&collider.shape))
     add(capsule->a_m, capsule->radius_m), add(capsule->b_m, capsule->radius_m);
+  if (const Polyhedron* hull = collider.polyhedron.get())
+    for (const Vec3& corner : hull->corners_m) add(hull->center_m + corner, 0.0);
   const Box* box = std::get_if<Box>(&collider.shape);
   if (box == nullptr) return;
   const Quat q = from_rotation_vector(box->rotation_deg * kRadPerDeg);

@@ -213,6 +213,7 @@ class Simulation {
     }
     s_.record.efforts(s_.efforts);
     if (moves) move();
+    if (s_.after_tick) s_.after_tick();
   }
 
   // Tracking alone: what that takes is measured, and changes nothing.

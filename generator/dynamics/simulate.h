@@ -2,6 +2,8 @@
 // tick.
 #pragma once
 
+#include <functional>
+
 #include "generator/dynamics/control.h"
 #include "generator/dynamics/dynamics_desc.h"
 #include "generator/dynamics/feet.h"
@@ -39,7 +41,8 @@ struct SimulationScratch {
   FigureState state;
   Feet feet;
   Recorder record;
-  std::vector<double> firmness;  // by sole
+  std::function<void()> after_tick;  // for those who measure; mostly empty
+  std::vector<double> firmness;      // by sole
   std::vector<double> tracked, acceleration, forces, bias, efforts, ease, hold, hold_forces, hold_efforts, mass,
       factors;
 };

@@ -52,8 +52,12 @@ void measure_footprint(const Character& character, Leg& leg) {
   const Socket& sole = character.sockets()[static_cast<std::size_t>(leg.sole)];
   const Rigid sole_from_joint = inverse(sole.joint_from_socket);
   for (const Collider& collider : character.colliders()) {
+    if (collider.joint != sole.joint) continue;
+    if (const auto* hull = std::get_if<ConvexHull>(&collider.shape))
+      for (const Vec3& p : hull->points_m)
+        if (const Vec3 point = sole_from_joint * p; point.y < 0.02) stretch_over(point, 0.0, leg);
     const Box* box = std::get_if<Box>(&collider.shape);
-    if (collider.joint != sole.joint || box == nullptr) continue;
+    if (box == nullptr) continue;
     const Quat q = from_rotation_vector(box->rotation_deg * kRadPerDeg);
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
@@ -133,8 +137,9 @@ std::vector<Leg> find_legs(const Character& character) {
     leg.part = static_cast<int>(p);
     leg.sole = find_sole(character, leg.part);
     if (leg.sole < 0) continue;
-    leg.foot_part = character.joints()[static_cast<std::size_t>(
-        character.sockets()[static_cast<std::size_t>(leg.sole)].joint)].part;
+    leg.foot_part =
+        character.joints()[static_cast<std::size_t>(character.sockets()[static_cast<std::size_t>(leg.sole)].joint)]
+            .part;
     find_ankles(character, part.reach.front(), leg);
     measure(character, part.reach.front(), world, leg);
     legs.push_back(leg);

@@ -1,10 +1,10 @@
 #include "generator/timeline/timeline.h"
 
-#include "generator/actions/hand.h"
-#include "generator/motion/aim_tables.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "generator/actions/hand.h"
+#include "generator/motion/aim_tables.h"
 
 namespace contort {
 
@@ -89,7 +89,8 @@ class Layout {
   Result<Done> add_sequence(const SequenceDesc& sequence, const std::string& pointer) {
     for (const ClipDesc& clip : sequence.clips) uses_ += clip.actions.size();
     if (uses_ > kMaxActionUses)
-      return Issue{"spec.too_many", pointer, "the motion uses more than " + std::to_string(kMaxActionUses) + " actions"};
+      return Issue{"spec.too_many", pointer,
+                   "the motion uses more than " + std::to_string(kMaxActionUses) + " actions"};
     const double natural = natural_length(sequence);
     const double scale = stretch_scale(natural, sequence.duration_frames);
     // Sequences change on a frame.
@@ -173,7 +174,8 @@ class Layout {
   static Result<Done> check_blends(const ActionUse& use, const ActionDef& def) {
     const std::string& name = use.action;
     if (use.blend_in_frames > 0 && def.timing == Timing::goal)
-      return Issue{"spec.bad_blend", "/blend_in_frames", "\"" + name + "\" blends in over its whole period, allowed is 0"};
+      return Issue{"spec.bad_blend", "/blend_in_frames",
+                   "\"" + name + "\" blends in over its whole period, allowed is 0"};
     if (use.blend_out_frames > 0 && def.layer == Layer::overwrite)
       return Issue{"spec.bad_blend", "/blend_out_frames", "\"" + name + "\" has nothing to fade to, allowed is 0"};
     return Done{};
@@ -222,7 +224,8 @@ class Layout {
       for (const PlannedClip& own : planned.clips) clip |= own.name == desc.when.name;
     }
     const auto unknown = [&](const char* field, const std::string& name) {
-      return Issue{"spec.unknown_name", pointer + field, "found \"" + name + "\", which nothing in this spec is called"};
+      return Issue{"spec.unknown_name", pointer + field,
+                   "found \"" + name + "\", which nothing in this spec is called"};
     };
     if (desc.when.event == Event::clip_ended && !clip) return unknown("/when/name", desc.when.name);
     if (desc.when.event == Event::sequence_ended && !sequence) return unknown("/when/name", desc.when.name);
@@ -243,7 +246,8 @@ class Layout {
   // The part whose motion an action looks at before it moves its own, or -1.
   int looks_at(const PlannedAction& action) const {
     std::size_t at = 0;
-    for (const ParamDef& def : action.def->params(character_, character_.parts()[static_cast<std::size_t>(action.named)])) {
+    for (const ParamDef& def :
+         action.def->params(character_, character_.parts()[static_cast<std::size_t>(action.named)])) {
       if (def.type == ParamType::object_point) {
         const Socket& socket = character_.sockets()[static_cast<std::size_t>(action.params[at])];
         return character_.joints()[static_cast<std::size_t>(socket.joint)].part;

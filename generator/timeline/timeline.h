@@ -22,8 +22,8 @@ struct PlannedAction {
   int use = 0;  // numbers the uses of actions: equal where one use moves several parts
   const ActionDef* def = nullptr;
   std::string name;  // that the spec uses
-  int part = 0;   // that it moves
-  int named = 0;  // that the spec names
+  int part = 0;      // that it moves
+  int named = 0;     // that the spec names
   double start = 0.0;
   double end = 0.0;  // >= start
   double speed = 1.0;
@@ -35,7 +35,7 @@ struct PlannedAction {
   std::vector<double> params;
   std::shared_ptr<const AimPlan> aim;   // where it has an own_point
   std::shared_ptr<const KeyPlan> keys;  // of key poses
-  Vec3 easy_grip_m{0.0};  // of the named part, if it is an arm: in the character's frame
+  Vec3 easy_grip_m{0.0};                // of the named part, if it is an arm: in the character's frame
 };
 
 struct Timeline {
@@ -55,8 +55,8 @@ struct TimelineInput {
   const Character& character;
 };
 
-// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .unknown_name, .bad_blend, .too_long, .too_many and those of
-// bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
+// Codes spec.unknown_action, .unknown_slot, .unsupported_action, .unknown_name, .bad_blend, .too_long, .too_many and
+// those of bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
 Result<Timeline> lay_out(const TimelineInput& input);
 
 // Progress of an action at a frame of its sequence, in [0, 1].

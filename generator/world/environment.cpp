@@ -51,7 +51,8 @@ double height_of(const HeightGround& ground, double x_m, double z_m) {
     return ground.heights_m[static_cast<std::size_t>(std::min(r, ground.rows - 1) * ground.columns +
                                                      std::min(c, ground.columns - 1))];
   };
-  const double near = at(row.index, column.index) * (1.0 - column.share) + at(row.index, column.index + 1) * column.share;
+  const double near =
+      at(row.index, column.index) * (1.0 - column.share) + at(row.index, column.index + 1) * column.share;
   const double far =
       at(row.index + 1, column.index) * (1.0 - column.share) + at(row.index + 1, column.index + 1) * column.share;
   return near * (1.0 - row.share) + far * row.share;
@@ -109,14 +110,40 @@ Surface nearest(const Box& box, const Vec3& point_m) {
   return {box.center_m + q * on, q * unit_or(apart, Vec3(0, 1, 0)), std::sqrt(glm::dot(apart, apart)), -1};
 }
 
+struct Nearest {
+  const Vec3& point_m;
+  const Polyhedron& polyhedron;
+  template <class Shape>
+  Surface operator()(const Shape& shape) const {
+    return nearest(shape, point_m);
+  }
+  Surface operator()(const ConvexHull&) const {
+    const OnSurface on = nearest_on(polyhedron, point_m);
+    return {on.point_m, on.normal, on.distance_m, -1};
+  }
+};
+
+Result<Done> check_obstacles(std::span<const ObstacleDesc> obstacles) {
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const std::string pointer = "/obstacles/" + std::to_string(i);
+    for (std::size_t j = 0; j < i; ++j)
+      if (obstacles[i].name == obstacles[j].name)
+        return Issue{"environment.duplicate_name", pointer + "/name", "found \"" + obstacles[i].name + "\" twice"};
+    const auto* hull = std::get_if<ConvexHull>(&obstacles[i].shape);
+    const std::string fault = hull == nullptr ? "" : hull_fault(hull->points_m);
+    if (!fault.empty()) return Issue{"environment.bad_shape", pointer + "/shape/points_m", fault};
+  }
+  return Done{};
+}
+
 Result<Done> check_heights(const Ground& ground) {
   const auto* grid = std::get_if<HeightGround>(&ground);
   if (grid == nullptr) return Done{};
   const std::size_t expected = static_cast<std::size_t>(grid->columns) * static_cast<std::size_t>(grid->rows);
   if (grid->heights_m.size() == expected) return Done{};
   return Issue{"environment.wrong_count", "/ground/heights_m",
-               "found " + std::to_string(grid->heights_m.size()) + " heights, expected columns times rows: " +
-                   std::to_string(expected)};
+               "found " + std::to_string(grid->heights_m.size()) +
+                   " heights, expected columns times rows: " + std::to_string(expected)};
 }
 
 }  // namespace
@@ -125,7 +152,12 @@ Environment::Environment(const EnvironmentDesc& desc)
     : world_from_environment_{axis_angle(Vec3(0, 1, 0), desc.heading_deg * kRadPerDeg), desc.position_m},
       ground_(desc.ground),
       obstacles_(desc.obstacles),
-      level_(std::holds_alternative<PlaneGround>(desc.ground)) {}
+      level_(std::holds_alternative<PlaneGround>(desc.ground)) {
+  for (const ObstacleDesc& obstacle : obstacles_) {
+    const auto* hull = std::get_if<ConvexHull>(&obstacle.shape);
+    polyhedra_.push_back(hull == nullptr ? Polyhedron{} : convex_polyhedron(hull->points_m));
+  }
+}
 
 double Environment::height_at(double x_m, double z_m) const {
   const Vec3 local = inverse(world_from_environment_) * Vec3(x_m, 0.0, z_m);
@@ -149,7 +181,7 @@ Surface Environment::nearest_obstacle(const Vec3& point_m) const {
   Surface best;
   best.distance_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    Surface surface = std::visit([&](const auto& shape) { return nearest(shape, local); }, obstacles_[i].shape);
+    Surface surface = std::visit(Nearest{local, polyhedra_[i]}, obstacles_[i].shape);
     surface.obstacle = static_cast<int>(i);
     if (surface.distance_m < best.distance_m) best = surface;
   }
@@ -166,11 +198,7 @@ int Environment::find_obstacle(std::string_view name) const {
 
 Result<Environment> build_environment(const EnvironmentDesc& desc) {
   if (Result<Done> done = check_heights(desc.ground); !done) return done.issue();
-  for (std::size_t i = 0; i < desc.obstacles.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (desc.obstacles[i].name == desc.obstacles[j].name)
-        return Issue{"environment.duplicate_name", "/obstacles/" + std::to_string(i) + "/name",
-                     "found \"" + desc.obstacles[i].name + "\" twice"};
+  if (Result<Done> done = check_obstacles(desc.obstacles); !done) return done.issue();
   return Environment(desc);
 }
 

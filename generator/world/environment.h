@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "generator/character/polyhedron.h"
 #include "generator/core/result.h"
 #include "generator/world/environment_desc.h"
 
@@ -43,10 +44,11 @@ class Environment {
   Rigid world_from_environment_;
   Ground ground_;
   std::vector<ObstacleDesc> obstacles_;  // in the environment's frame
+  std::vector<Polyhedron> polyhedra_;    // of obstacles that are hulls; empty ones for the others
   bool level_ = true;
 };
 
-// Codes environment.wrong_count (heights), .duplicate_name; pointers from the description's root.
+// Codes environment.wrong_count (heights), .duplicate_name, .bad_shape; pointers from the description's root.
 Result<Environment> build_environment(const EnvironmentDesc& desc);
 
 }  // namespace contort

@@ -97,6 +97,16 @@ const Broken<PartDesc> kBrokenParts[] = {
      "/mesh/0/shape/indices"},
     {"a negative index", [](PartDesc& p) { triangles(p.mesh[0]).indices[2] = -1; }, "part.bad_shape",
      "/mesh/0/shape/indices"},
+    {"a hull of three points",
+     [](PartDesc& p) {
+       p.colliders[1].shape = ConvexHull{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
+     },
+     "part.bad_shape", "/colliders/1/shape/points_m"},
+    {"a flat hull",
+     [](PartDesc& p) {
+       p.mesh[0].shape = ConvexHull{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}};
+     },
+     "part.bad_shape", "/mesh/0/shape/points_m"},
     {"half a triangle", [](PartDesc& p) { triangles(p.mesh[0]).indices.pop_back(); }, "part.bad_shape",
      "/mesh/0/shape/indices"},
     {"a chain from no joint", [](PartDesc& p) { p.reach[0].upper = "none"; }, "part.unknown_joint", "/reach/0/upper"},
@@ -143,6 +153,9 @@ const Broken<ObjectDesc> kBrokenObjects[] = {
      "/colliders/0/joint"},
     {"a mesh on a joint", [](ObjectDesc& o) { o.mesh[0].joint = "j"; }, "object.unknown_joint", "/mesh/0/joint"},
     {"a point on a joint", [](ObjectDesc& o) { o.points[0].joint = "j"; }, "object.unknown_joint", "/points/0/joint"},
+    {"a hull of too many points",
+     [](ObjectDesc& o) { o.colliders[0].shape = ConvexHull{std::vector<Vec3>(kMaxHullPoints + 1, Vec3(1))}; },
+     "object.bad_shape", "/colliders/0/shape/points_m"},
     {"an index beyond the vertices", [](ObjectDesc& o) { triangles(o.mesh[0]).indices[1] = 99999; }, "object.bad_shape",
      "/mesh/0/shape/indices"},
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "generator/character/polyhedron.h"
 #include "tests/core/random_space.h"
 
 namespace contort {
@@ -77,6 +78,18 @@ RC_GTEST_PROP(Shape, CapsulesAreClosedAndFilled, ()) {
   RC_ASSERT(volume(t) / whole > 0.9);
 }
 
+RC_GTEST_PROP(Shape, HullsAreClosedAndFilled, ()) {
+  const Box box{any_vec(2), Vec3(lattice_number(0.01, 1), lattice_number(0.01, 1), lattice_number(0.01, 1)),
+                any_vec(360)};
+  ConvexHull hull{{box.center_m}};
+  for (const Vec3& p : tessellate(box).positions_m) hull.points_m.push_back(p);
+  const Triangles t = tessellate(hull);
+  RC_ASSERT(t.positions_m.size() == 36U);
+  RC_ASSERT(closed(t));
+  RC_ASSERT(normals_fit(t));
+  RC_ASSERT(std::fabs(volume(t) / (8 * box.half_m.x * box.half_m.y * box.half_m.z) - 1.0) < 1e-9);
+}
+
 TEST(Shape, SpheresAreClosedAndFilled) {
   const Triangles t = tessellate(Sphere{Vec3(1, -2, 3), 0.5});
   EXPECT_TRUE(closed(t));
@@ -106,6 +119,8 @@ bool holds(const ColliderShape& shape, const Vec3& p) {
     const Vec3 own = glm::conjugate(from_rotation_vector(b->rotation_deg * kRadPerDeg)) * (p - b->center_m);
     return std::fabs(own.x) <= b->half_m.x && std::fabs(own.y) <= b->half_m.y && std::fabs(own.z) <= b->half_m.z;
   }
+  if (const auto* h = std::get_if<ConvexHull>(&shape))
+    return nearest_on(convex_polyhedron(h->points_m), p).distance_m <= 0.0;
   const auto& c = std::get<Capsule>(shape);
   const Vec3 axis = c.b_m - c.a_m;
   const double along = std::clamp(glm::dot(p - c.a_m, axis) / std::max(glm::dot(axis, axis), 1e-30), 0.0, 1.0);
@@ -116,7 +131,8 @@ bool holds(const ColliderShape& shape, const Vec3& p) {
 RC_GTEST_PROP(Shape, MirroredShapesHoldTheMirroredPoints, ()) {
   const ColliderShape shape = *rc::gen::element<ColliderShape>(
       Sphere{Vec3(0.3, -0.2, 0.1), 0.8}, Capsule{Vec3(-0.5, 0.1, 0.4), Vec3(0.6, 0.2, -0.3), 0.4},
-      Box{Vec3(0.1, 0.2, 0.3), Vec3(0.4, 0.6, 0.8), Vec3(30, -50, 70)});
+      Box{Vec3(0.1, 0.2, 0.3), Vec3(0.4, 0.6, 0.8), Vec3(30, -50, 70)},
+      ConvexHull{{Vec3(0.9, 0, 0), Vec3(-0.5, 0.8, 0), Vec3(0, -0.7, 0.3), Vec3(0.1, 0.2, 1), Vec3(0, 0, -0.8)}});
   const Vec3 p = any_vec(1.5);
   RC_ASSERT(holds(mirrored(shape), mirror_point(p)) == holds(shape, p));
   RC_ASSERT(mirrored(mirrored(shape)) == shape);

@@ -46,6 +46,11 @@ struct LowestPoint {
     }
     return low;
   }
+  double operator()(const ConvexHull& hull) const {
+    double low = 1e9;
+    for (const Vec3& p : hull.points_m) low = std::min(low, (world * p).y);
+    return low;
+  }
 };
 
 inline double lowest_point(const Character& character) {
@@ -57,7 +62,8 @@ inline double lowest_point(const Character& character) {
 }
 
 inline std::string text_of(const CharacterChoice& choice) {
-  std::string text = choice.attachments.empty() ? "" : choice.attachments[0].object + " on " + choice.attachments[0].slot;
+  std::string text =
+      choice.attachments.empty() ? "" : choice.attachments[0].object + " on " + choice.attachments[0].slot;
   for (const auto& [slot, part] : choice.parts) text += " " + slot + "=" + part;
   return text;
 }

@@ -90,9 +90,7 @@ const Hostile kHostile[] = {
      },
      "gltf.out_of_range", "/nodes/1"},
     {"matrix that overflows when squared",
-     [](GlbBuilder& b) {
-       b.root["nodes"][3]["matrix"] = {1e200, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-     },
+     [](GlbBuilder& b) { b.root["nodes"][3]["matrix"] = {1e200, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
      "gltf.out_of_range", "/nodes/3"},
     {"matrix of nine", [](GlbBuilder& b) { b.root["nodes"][3]["matrix"] = Json(std::vector<double>(9, 1.0)); },
      "gltf.out_of_range", "/nodes/3/matrix"},

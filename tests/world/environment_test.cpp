@@ -58,7 +58,8 @@ TEST(Environment, ATurnedAndMovedOneAnswersTheSameThere) {
   for (const Ground& ground : {Ground(SlopeGround{17.0, 30.0}), Ground(StepsGround{20.0, 0.3, 0.4, 0.1, 9}),
                                Ground(HeightGround{2, 2, 3.0, {0.1, 0.4, -0.2, 0.3}})}) {
     EnvironmentDesc desc = with_ground(ground);
-    desc.obstacles = {{"post", Capsule{Vec3(1, 0, 1), Vec3(1, 2, 1), 0.2}}, {"box", Box{Vec3(-1, 1, 0), Vec3(0.3, 0.5, 0.2), Vec3(10, 20, 30)}}};
+    desc.obstacles = {{"post", Capsule{Vec3(1, 0, 1), Vec3(1, 2, 1), 0.2}},
+                      {"box", Box{Vec3(-1, 1, 0), Vec3(0.3, 0.5, 0.2), Vec3(10, 20, 30)}}};
     const Environment here = built(desc);
     desc.position_m = Vec3(5.0, 1.5, -2.0), desc.heading_deg = 65.0;
     const Environment there = built(desc);
@@ -98,13 +99,33 @@ TEST(Environment, TheNearestPointOfABoxIsNearest) {
           least = std::min(least, length(box.center_m + q * (local * box.half_m) - point));
         }
     const Vec3 inside = glm::conjugate(q) * (point - box.center_m);
-    const bool is_inside = std::fabs(inside.x) < box.half_m.x && std::fabs(inside.y) < box.half_m.y &&
-                           std::fabs(inside.z) < box.half_m.z;
+    const bool is_inside =
+        std::fabs(inside.x) < box.half_m.x && std::fabs(inside.y) < box.half_m.y && std::fabs(inside.z) < box.half_m.z;
     EXPECT_EQ(nearest.distance_m < 0.0, is_inside);
     EXPECT_LE(std::fabs(nearest.distance_m), least + 1e-12);
     EXPECT_GT(std::fabs(nearest.distance_m), least - 0.03) << "the grid's own spacing";
     EXPECT_NEAR(length(nearest.point_m - point), std::fabs(nearest.distance_m), 1e-12);
     EXPECT_NEAR(length(nearest.normal), 1.0, 1e-12);
+  }
+}
+
+TEST(Environment, ABoxAsAHullIsTheSameObstacle) {
+  const Box box{Vec3(0.2, 0.5, -0.1), Vec3(0.3, 0.6, 0.2), Vec3(20.0, 35.0, -10.0)};
+  ConvexHull hull;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 side(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    hull.points_m.push_back(box.center_m + from_rotation_vector(box.rotation_deg * kRadPerDeg) * (side * box.half_m));
+  }
+  EnvironmentDesc as_box, as_hull;
+  as_box.obstacles = {{"box", box}}, as_hull.obstacles = {{"box", hull}};
+  as_box.heading_deg = as_hull.heading_deg = 40.0;
+  const Environment a = built(as_box), b = built(as_hull);
+  std::mt19937_64 engine(9);
+  std::uniform_real_distribution<double> place(-1.5, 1.5);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 point(place(engine), place(engine), place(engine));
+    EXPECT_NEAR(a.nearest_obstacle(point).distance_m, b.nearest_obstacle(point).distance_m, 1e-12);
+    EXPECT_LT(length(a.nearest_obstacle(point).point_m - b.nearest_obstacle(point).point_m), 1e-9);
   }
 }
 
@@ -116,6 +137,9 @@ TEST(Environment, WhatDoesNotFitTogetherIsRefused) {
   desc.obstacles = {{"a", Sphere{}}, {"a", Sphere{}}};
   EXPECT_EQ(build_environment(desc).issue().code, "environment.duplicate_name");
   EXPECT_EQ(build_environment(desc).issue().pointer, "/obstacles/1/name");
+  desc.obstacles = {{"a", ConvexHull{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}}}};
+  EXPECT_EQ(build_environment(desc).issue().code, "environment.bad_shape");
+  EXPECT_EQ(build_environment(desc).issue().pointer, "/obstacles/0/shape/points_m");
 }
 
 TEST(Environment, SpecsReadAndPrintIt) {

@@ -1,0 +1,208 @@
+// Signed distances of 171 pairs of 19 capsules, every pose another one, beside FCL (double) and Bullet (float) where
+// these are installed. Slices of ours and the peer's alternate in one process; printed are medians.
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "checks/distance.h"
+
+#ifdef CONTORT_HAS_FCL
+#include <fcl/narrowphase/distance.h>
+#endif
+#ifdef CONTORT_HAS_BULLET
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <btBulletCollisionCommon.h>
+#endif
+
+namespace contort {
+
+namespace {
+
+constexpr int kCapsules = 19, kPoses = 256;
+
+using Pose = std::vector<Solid>;
+
+std::vector<Pose> random_poses() {
+  std::mt19937_64 engine(1);
+  const auto uniform = [&](double half) { return half * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0); };
+  const auto in_cube = [&](double half) {
+    const double x = uniform(half), y = uniform(half), z = uniform(half);
+    return Vec3(x, y, z);
+  };
+  std::vector<Pose> poses(kPoses);
+  for (Pose& pose : poses)
+    for (int i = 0; i < kCapsules; ++i) {
+      const Vec3 center = in_cube(0.7), half = in_cube(0.15);
+      pose.push_back(solid_of(Capsule{center - half, center + half, 0.05}));
+    }
+  return poses;
+}
+
+double seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double least_of_ours(const Pose& pose) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < pose.size(); ++i)
+    for (std::size_t k = i + 1; k < pose.size(); ++k) least = std::min(least, signed_distance(pose[i], pose[k], 1e9));
+  return least;
+}
+
+using Measure = std::function<double(int pose)>;
+
+// Microseconds for a pose; `sum` keeps the work from being left out.
+double slice(const Measure& measure, double& sum) {
+  const double start = seconds();
+  for (int pose = 0; pose < kPoses; ++pose) sum += measure(pose);
+  return 1e6 * (seconds() - start) / kPoses;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void compare(const char* peer_name, const Measure& ours, const Measure& peer) {
+  std::vector<double> own_us, peer_us, ratios;
+  double own_sum = 0.0, peer_sum = 0.0;
+  for (int i = 0; i < 101; ++i) {
+    own_us.push_back(slice(ours, own_sum)), peer_us.push_back(slice(peer, peer_sum));
+    ratios.push_back(own_us.back() / peer_us.back());
+  }
+  std::printf("%s: ours %.2f us, %s %.2f us, ratio %.3f; mean of least distances %.9f and %.9f m\n", peer_name,
+              median(own_us), peer_name, median(peer_us), median(ratios), own_sum / (101 * kPoses),
+              peer_sum / (101 * kPoses));
+}
+
+Mat3 axes_of(const Solid& capsule) {
+  const Vec3 z = unit_or(capsule.half_segment_m, Vec3(0, 0, 1)), x = perpendicular(z);
+  return Mat3(x, glm::cross(z, x), z);
+}
+
+double full_length(const Solid& capsule) {
+  return 2.0 * std::sqrt(glm::dot(capsule.half_segment_m, capsule.half_segment_m));
+}
+
+#ifdef CONTORT_HAS_FCL
+struct FclPose {
+  std::vector<fcl::Capsuled> shapes;
+  std::vector<fcl::Transform3d> places;
+};
+
+FclPose to_fcl(const Pose& pose) {
+  FclPose out;
+  for (const Solid& solid : pose) {
+    fcl::Transform3d place = fcl::Transform3d::Identity();
+    const Mat3 axes = axes_of(solid);
+    for (int column = 0; column < 3; ++column)
+      for (int row = 0; row < 3; ++row) place.linear()(row, column) = axes[column][row];
+    place.translation() = fcl::Vector3d(solid.center_m.x, solid.center_m.y, solid.center_m.z);
+    out.shapes.emplace_back(solid.radius_m, full_length(solid)), out.places.push_back(place);
+  }
+  return out;
+}
+
+double least_of_fcl(const FclPose& pose) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < pose.shapes.size(); ++i)
+    for (std::size_t k = i + 1; k < pose.shapes.size(); ++k) {
+      fcl::DistanceRequestd request;
+      fcl::DistanceResultd result;
+      request.enable_nearest_points = true;
+      fcl::distance(&pose.shapes[i], pose.places[i], &pose.shapes[k], pose.places[k], request, result);
+      least = std::min(least, result.min_distance);
+    }
+  return least;
+}
+#endif
+
+#ifdef CONTORT_HAS_BULLET
+struct BulletPose {
+  std::vector<std::unique_ptr<btCapsuleShapeZ>> shapes;
+  std::vector<btTransform> places;
+};
+
+BulletPose to_bullet(const Pose& pose) {
+  BulletPose out;
+  const auto narrow = [](double v) { return static_cast<btScalar>(v); };
+  for (const Solid& solid : pose) {
+    const Mat3 m = axes_of(solid);
+    const btMatrix3x3 turn(narrow(m[0][0]), narrow(m[1][0]), narrow(m[2][0]), narrow(m[0][1]), narrow(m[1][1]),
+                           narrow(m[2][1]), narrow(m[0][2]), narrow(m[1][2]), narrow(m[2][2]));
+    out.places.emplace_back(turn,
+                            btVector3(narrow(solid.center_m.x), narrow(solid.center_m.y), narrow(solid.center_m.z)));
+    out.shapes.push_back(std::make_unique<btCapsuleShapeZ>(narrow(solid.radius_m), narrow(full_length(solid))));
+  }
+  return out;
+}
+
+// Bullet's own formula for two capsules hides in the algorithm that its dispatcher picks.
+class BulletDistance : public btManifoldResult {
+ public:
+  BulletDistance() {
+    m_closestPointDistanceThreshold = btScalar(1e9);
+    for (btCollisionObject* object : {&a_, &b_}) object->setCollisionShape(&any_);
+    const btCollisionObjectWrapper a(nullptr, &any_, &a_, a_.getWorldTransform(), -1, -1);
+    const btCollisionObjectWrapper b(nullptr, &any_, &b_, b_.getWorldTransform(), -1, -1);
+    algorithm_ = dispatcher_.findAlgorithm(&a, &b, nullptr, BT_CLOSEST_POINT_ALGORITHMS);
+  }
+  ~BulletDistance() override {
+    algorithm_->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm_);
+  }
+  void addContactPoint(const btVector3&, const btVector3&, btScalar depth) override { distance_ = depth; }
+  double between(const BulletPose& pose, std::size_t i, std::size_t k) {
+    const btCollisionObjectWrapper a(nullptr, pose.shapes[i].get(), &a_, pose.places[i], -1, -1);
+    const btCollisionObjectWrapper b(nullptr, pose.shapes[k].get(), &b_, pose.places[k], -1, -1);
+    setBody0Wrap(&a), setBody1Wrap(&b);
+    algorithm_->processCollision(&a, &b, info_, this);
+    return static_cast<double>(distance_);
+  }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDispatcherInfo info_;
+  btCapsuleShapeZ any_{btScalar(0.1), btScalar(0.1)};
+  btCollisionObject a_, b_;
+  btCollisionAlgorithm* algorithm_ = nullptr;
+  btScalar distance_ = 0;
+};
+
+double least_of_bullet(BulletDistance& distance, const BulletPose& pose) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < pose.shapes.size(); ++i)
+    for (std::size_t k = i + 1; k < pose.shapes.size(); ++k) least = std::min(least, distance.between(pose, i, k));
+  return least;
+}
+#endif
+
+}  // namespace
+
+}  // namespace contort
+
+int main() {
+  using namespace contort;
+  const std::vector<Pose> poses = random_poses();
+  const Measure ours = [&](int pose) { return least_of_ours(poses[static_cast<std::size_t>(pose)]); };
+  compare("ours again", ours, ours);
+#ifdef CONTORT_HAS_FCL
+  std::vector<FclPose> fcl_poses;
+  for (const Pose& pose : poses) fcl_poses.push_back(to_fcl(pose));
+  compare("FCL", ours, [&](int pose) { return least_of_fcl(fcl_poses[static_cast<std::size_t>(pose)]); });
+#endif
+#ifdef CONTORT_HAS_BULLET
+  std::vector<BulletPose> bullet_poses;
+  for (const Pose& pose : poses) bullet_poses.push_back(to_bullet(pose));
+  BulletDistance distance;
+  compare("Bullet", ours,
+          [&](int pose) { return least_of_bullet(distance, bullet_poses[static_cast<std::size_t>(pose)]); });
+#endif
+}

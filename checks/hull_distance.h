@@ -1,0 +1,11 @@
+// Distance of a convex hull from any core, the hull's part of checks/distance.h.
+#pragma once
+
+#include "checks/distance.h"
+
+namespace contort {
+
+// Of cores, radii left out; a.core is hull. With a band as in signed_distance.
+double hull_distance(const Solid& a, const Solid& b, double band_m);
+
+}  // namespace contort
