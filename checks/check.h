@@ -13,10 +13,11 @@
 #include "checks/settings.h"
 #include "generator/character/character.h"
 #include "generator/motion/motion.h"
-#include "generator/timeline/timeline.h"
 #include "generator/world/environment.h"
 
 namespace contort {
+
+struct Timeline;  // generator/stage.h
 
 struct CheckInput {
   const Character& character;

@@ -40,13 +40,6 @@ int first_without_balance(const Motion& motion) {
   return lost == stances.end() ? motion.frame_count : static_cast<int>(lost - stances.begin());
 }
 
-// From what is no number follow margins that are none.
-void leave_out_what_follows(std::vector<Finding>& findings) {
-  const auto is_cause = [](const Finding& f) { return f.check == "non_finite"; };
-  if (std::ranges::none_of(findings, is_cause)) return;
-  std::erase_if(findings, [&](const Finding& f) { return !is_cause(f) && std::isnan(f.worst_margin); });
-}
-
 }  // namespace
 
 Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
@@ -99,7 +92,6 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
     check.measure(input, fold);
     append_findings(check, character, fold, findings);
   }
-  leave_out_what_follows(findings);
   // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
   const int lost = first_without_balance(motion);
   std::erase_if(findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });

@@ -15,6 +15,8 @@ void fields(V& v, const JointMap*) {
 
 Result<JointMap> parse_joint_map(std::string_view text) { return json_fields::read_document<JointMap>(text, "map"); }
 
+std::string print_joint_map(const JointMap& map) { return json_fields::write_pretty(map); }
+
 std::string joint_map_schema() { return json_fields::write_schema<JointMap>("Contort joint map"); }
 
 }  // namespace contort

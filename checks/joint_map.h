@@ -17,6 +17,8 @@ struct JointMap {
 // {"format": "contort.map/1", "joints": {"mixamorig:LeftForeArm": "arm_left/elbow"}}. Codes json.*, map.*.
 Result<JointMap> parse_joint_map(std::string_view text);
 
+std::string print_joint_map(const JointMap& map);
+
 std::string joint_map_schema();
 
 }  // namespace contort

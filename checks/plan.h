@@ -3,6 +3,7 @@
 #pragma once
 
 #include "checks/check.h"
+#include "generator/stage.h"
 
 namespace contort {
 

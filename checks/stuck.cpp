@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "checks/check.h"
+#include "generator/stage.h"
 
 namespace contort {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -35,6 +36,16 @@ Issue map_issue(const std::string& node, std::string_view code, std::string text
   context.push(node);
   context.fail(code, std::move(text));
   return context.take_issue();
+}
+
+// The map that `import` left beside the character, or "".
+std::string own_map(const std::string& character, const Context& context) {
+  std::error_code error;
+  for (const std::string& folder : context.library_folders)
+    if (const std::string path = folder + "/maps/" + character + ".json";
+        !character.empty() && character.find('/') == std::string::npos && std::filesystem::exists(path, error))
+      return path;
+  return "";
 }
 
 Result<JointMap> read_map(const std::string& path) {
@@ -171,7 +182,7 @@ void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) 
 
 void check_clips(const ClipCheckOptions& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<JointMap> map = read_map(options.map);
+  const Result<JointMap> map = read_map(options.map.empty() ? own_map(options.character, context) : options.map);
   if (!map) return context.fail(map.issue());
   const Result<SpeedLimits> limits = limits_of(options, *map, context);
   if (!limits) return context.fail(limits.issue());
@@ -179,7 +190,8 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
       options.all_clips ? expand_animations(options.files) : Result<std::vector<std::string>>(options.files);
   if (!files) return context.fail(files.issue());
   Checked checked;
-  for (const auto& entry : map->joints) checked.unmatched.insert(entry.first);
+  if (!options.map.empty())  // an own map may say more than the file has
+    for (const auto& entry : map->joints) checked.unmatched.insert(entry.first);
   for (const std::string& file : *files) check_file(file, options, *limits, checked);
   if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(fit.issue());
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;

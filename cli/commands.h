@@ -48,6 +48,7 @@ void add_generate(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_shrink(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
+void add_import(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);

@@ -73,7 +73,7 @@ ParamValue draw_joint(const Joint& joint, Values& values) {
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 // A point around the chain's upper joint at rest, between 0.3 and 1.1 of the stretched chain away, in centimetres.
-ParamValue draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
+Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
   const Vec3 upper = world[static_cast<std::size_t>(chain.upper)].p_m;
@@ -112,7 +112,8 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   switch (def.domain) {
     case Domain::joint_range:
       return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
-    case Domain::within_reach: return draw_reach_point(character, part.reach.front(), values);
+    case Domain::within_reach:  // large figures reach farther than a spec may say
+      return glm::clamp(draw_reach_point(character, part.reach.front(), values), Vec3(def.low), Vec3(def.high));
     case Domain::around: return draw_around(values);
     case Domain::uniform: break;
   }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kHeaviestLoad = 0.25;    // of the figure's mass
 constexpr double kHardestBlow_m_s = 1.0;  // of impulse a kilogram; a push that a person recovers from is 0.1
+constexpr double kMostInSpecs = 10000.0;  // kg, N s: what a spec may say (spec_fields.h)
 constexpr int kLastBlow = 90;             // frame
 
 double mass_kg(const Character& character) {
@@ -30,7 +31,8 @@ LoadDesc compose_load(const int* raw, const Character& character) {
   LoadDesc load;
   load.slot = socket.name.substr(0, slash);
   load.socket = socket.name.substr(slash + 1);
-  load.mass_kg = std::max(0.5, rounded(drawn_up_to(kHeaviestLoad * mass_kg(character), raw[1]), 0.5));
+  const double heaviest_kg = std::min(kHeaviestLoad * mass_kg(character), kMostInSpecs);
+  load.mass_kg = std::max(0.5, rounded(drawn_up_to(heaviest_kg, raw[1]), 0.5));
   return load;
 }
 
@@ -38,7 +40,7 @@ ImpactDesc compose_impact(const int* raw, const Character& character) {
   ImpactDesc impact;
   impact.frame = between(raw[0], 0, kLastBlow);
   impact.slot = character.parts()[pick(raw[1], character.parts().size())].slot;
-  const double size = std::max(1.0, drawn_up_to(kHardestBlow_m_s * mass_kg(character), raw[2]));
+  const double size = std::max(1.0, drawn_up_to(std::min(kHardestBlow_m_s * mass_kg(character), kMostInSpecs), raw[2]));
   const double height = 2.0 * fraction(raw[3]) - 1.0, across = std::sqrt(1.0 - height * height);
   const det::SinCos around = det::sincos(2.0 * kPi * fraction(raw[4]));
   const Vec3 blow = size * Vec3(across * around.sin, height, across * around.cos);

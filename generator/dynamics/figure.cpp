@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/dynamics/control.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -157,6 +158,12 @@ class FigureBuilder {
     figure.groups.push_back(std::move(group));
   }
 
+  // Control has place for so many; of a figure with more limbs the first ones act.
+  static void add_found(ControlGroup group, DynamicFigure& figure) {
+    while (group.handles.size() > kMostHandles) group.handles.pop_back();
+    if (!group.handles.empty()) figure.groups.push_back(std::move(group));
+  }
+
   void add_groups(DynamicFigure& figure) const {
     for (const JointGroup& declared : character_.control_groups()) add_declared(declared, figure);
     if (!figure.groups.empty()) return;
@@ -165,9 +172,9 @@ class FigureBuilder {
     if (arms.handles.empty()) arms = limbs(figure, Role::other, "limbs");
     ControlGroup lower{"lower_body", {}, kGreatestLower, true};
     add_root_handles(lower.handles);
-    if (!arms.handles.empty()) figure.groups.push_back(std::move(arms));
-    if (ControlGroup trunk = back(figure); !trunk.handles.empty()) figure.groups.push_back(std::move(trunk));
-    if (!legs_.empty()) figure.groups.push_back(std::move(lower));
+    add_found(std::move(arms), figure);
+    add_found(back(figure), figure);
+    if (!legs_.empty()) add_found(std::move(lower), figure);
   }
 
   void add_watched(DynamicFigure& figure) const {

@@ -209,6 +209,39 @@ Result<std::vector<double>> AccessorReader::read_dense(const tinygltf::Accessor&
   return out;
 }
 
+Result<Done> AccessorReader::take_numbers(std::size_t count, const std::string& pointer) {
+  if (count > numbers_left_)
+    return Issue{"gltf.too_large", pointer + "/count",
+                 "the file has more than the allowed " + std::to_string(kMaxGltfNumbers) + " numbers in all"};
+  numbers_left_ -= count;
+  return Done{};
+}
+
+Result<std::vector<int>> AccessorReader::read_indices(int index, ElementKind kind) {
+  const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+  const std::string pointer = accessor_pointer(index);
+  const std::size_t components = row(kind).components;
+  const std::size_t size = component_bytes(accessor.componentType);
+  const bool is_unsigned = size > 0 && accessor.componentType % 2 == 1;  // 5121, 5123, 5125
+  if (accessor.type != row(kind).type || !is_unsigned || accessor.normalized)
+    return bad_accessor(pointer, std::string("allowed here are unsigned integers, ") + row(kind).name);
+  if (accessor.sparse.isSparse || accessor.bufferView < 0)
+    return Issue{"gltf.unsupported", pointer, "found indices that are sparse or compressed"};
+  if (accessor.count > kMaxGltfNumbers) return take_numbers(accessor.count, pointer).issue();
+  if (const auto taken = take_numbers(accessor.count * components, pointer); !taken) return taken.issue();
+  const auto elements = place_elements(
+      model_, {accessor.bufferView, accessor.byteOffset, size * components, size, accessor.count}, pointer);
+  if (!elements) return elements.issue();
+  std::vector<int> out;
+  for (std::size_t i = 0; i < accessor.count * components; ++i) {
+    const std::uint32_t value = little_endian(elements->at(i / components) + i % components * size, size);
+    if (value > std::uint32_t{kMaxGltfNumbers})
+      return Issue{"gltf.bad_index", pointer, "found " + std::to_string(value) + ", which is no index"};
+    out.push_back(static_cast<int>(value));
+  }
+  return out;
+}
+
 Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, std::size_t count,
                                                  bool normalized_integers) {
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
@@ -216,10 +249,8 @@ Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, st
   if (const auto format = check_format(index, kind, normalized_integers); !format) return format.issue();
   const std::size_t components = row(kind).components;
   count = std::min(count, accessor.count);
-  if (count > numbers_left_ / components)
-    return Issue{"gltf.too_large", pointer + "/count",
-                 "keys and matrices have more than the allowed " + std::to_string(kMaxGltfNumbers) + " numbers in all"};
-  numbers_left_ -= count * components;
+  if (count > kMaxGltfNumbers) return take_numbers(count, pointer).issue();
+  if (const auto taken = take_numbers(count * components, pointer); !taken) return taken.issue();
   Result<std::vector<double>> dense = read_dense(accessor, pointer, components, count);
   if (!dense) return dense.issue();
   std::vector<double> out = std::move(dense).value();

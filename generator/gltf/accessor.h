@@ -31,7 +31,12 @@ class AccessorReader {
   // .not_finite, .too_large (see kMaxGltfNumbers).
   Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count, bool normalized_integers = false);
 
+  // All elements of unsigned integers that count something: indices of vertices, numbers of joints. Codes as above, and
+  // gltf.unsupported for sparse ones.
+  Result<std::vector<int>> read_indices(int accessor, ElementKind kind);
+
  private:
+  Result<Done> take_numbers(std::size_t count, const std::string& pointer);
   Result<Done> check_format(int accessor, ElementKind kind, bool normalized_integers) const;
   Result<std::vector<double>> read_dense(const tinygltf::Accessor& accessor, const std::string& pointer,
                                          std::size_t components, std::size_t count) const;

@@ -96,6 +96,12 @@ constexpr Field kBufferView[] = {index("buffer", "buffers", kRequired), integer(
                                  integer("byteLength", 1, kMaxOffset, kRequired), integer("byteStride", 4, 252)};
 constexpr Field kBuffer[] = {integer("byteLength", 1, kMaxOffset, kRequired),
                              text("uri", false, static_cast<std::int64_t>(2 * kMaxGltfBytes))};
+constexpr Field kAttributes[] = {index("POSITION", "accessors"), index("JOINTS_0", "accessors"),
+                                 index("WEIGHTS_0", "accessors"), index("JOINTS_1", "accessors"),
+                                 index("WEIGHTS_1", "accessors")};
+constexpr Field kPrimitive[] = {object("attributes", kAttributes, kRequired), index("indices", "accessors"),
+                                integer("mode", 0, 6)};
+constexpr Field kMesh[] = {objects("primitives", kPrimitive, kRequired)};
 constexpr Field kRoot[] = {object("asset", kAsset, kRequired),
                            {"extensionsRequired", Kind::text_list, false, 0, 1000},
                            index("scene", "scenes"),
@@ -105,7 +111,8 @@ constexpr Field kRoot[] = {object("asset", kAsset, kRequired),
                            objects("animations", kAnimation),
                            objects("accessors", kAccessor),
                            objects("bufferViews", kBufferView),
-                           objects("buffers", kBuffer)};
+                           objects("buffers", kBuffer),
+                           objects("meshes", kMesh)};  // last: only read where asked for
 
 // ---- checking against the tables
 
@@ -347,12 +354,13 @@ void mark_channels_without_node(Json& root) {
 
 }  // namespace
 
-Result<GltfDocument> check_document(std::string_view text) {
+Result<GltfDocument> check_document(std::string_view text, Meshes meshes) {
   Result<Json> parsed = parse(text);
   if (!parsed) return parsed.issue();
   Json root = std::move(parsed).value();
   const Place top;
-  if (const auto checked = Checker(root).check_object(root, kRoot, top); !checked) return checked.issue();
+  const std::span<const Field> known(kRoot, std::size(kRoot) - (meshes == Meshes::read ? 0 : 1));
+  if (const auto checked = Checker(root).check_object(root, known, top); !checked) return checked.issue();
   for (const auto& checked :
        {check_version(root["asset"]), check_extensions(root), check_nodes(root), check_strides(root)})
     if (!checked) return checked.issue();

@@ -18,13 +18,15 @@ struct BufferRef {
 };
 
 struct GltfDocument {
-  // glTF again, but only what we read: no images, meshes, extensions or extras, so that no parser meets a hostile one.
-  // No buffers either; those are in `buffers`.
+  // glTF again, but only what we read: no images, extensions or extras, and meshes only where they are asked for, so
+  // that no parser meets a hostile one. No buffers either; those are in `buffers`.
   std::string json;
   std::vector<BufferRef> buffers;
 };
 
+enum class Meshes : std::uint8_t { leave_out, read };
+
 // Codes gltf.bad_json, .wrong_type, .missing, .out_of_range, .bad_index, .too_large, .unsupported.
-Result<GltfDocument> check_document(std::string_view json);
+Result<GltfDocument> check_document(std::string_view json, Meshes meshes = Meshes::leave_out);
 
 }  // namespace contort

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/asset/asset.h"
+#include "generator/asset/skinned.h"
 #include "generator/core/result.h"
 #include "generator/gltf/accessor.h"
 
@@ -25,5 +25,9 @@ Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors,
 // Fills clips. Codes gltf.bad_index, .unsupported, .duplicate_channel, .bad_times, .bad_accessor, .not_unit and those
 // of AccessorReader.
 Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset);
+
+// Fills meshes: of every node with a mesh and a skin. Primitives of points and lines, and those without joints, are
+// left out. Codes gltf.bad_mesh, .bad_index, .unsupported and those of AccessorReader.
+Result<Done> read_meshes(const tinygltf::Model& model, AccessorReader& accessors, SkinnedAsset& asset);
 
 }  // namespace contort

@@ -13,8 +13,8 @@ inline constexpr std::uint64_t kMaxGltfValues =
     1'000'000;  // JSON values; the worst cost 0.3 GB and 3 s in two parsers.
 inline constexpr std::int64_t kMaxGltfNodes = 65'536;
 inline constexpr std::int64_t kMaxGltfNameBytes = 1024;
-// Keys, tangents and matrices, counted once for every channel or skin that uses them: a thousand channels may share
-// one accessor, and a small file would unfold to gigabytes. All splines: 0.4 GB with their speeds.
+// Keys, tangents, matrices and vertices, counted once for every channel or skin that uses them: a thousand channels may
+// share one accessor, and a small file would unfold to gigabytes. All splines: 0.4 GB with their speeds.
 inline constexpr std::uint64_t kMaxGltfNumbers = std::uint64_t{16} << 20;
 // Of a node's place, scale and matrix: what is larger overflows as soon as it is squared. Accessors hold 32-bit floats.
 inline constexpr double kMaxGltfLength = 1e100;

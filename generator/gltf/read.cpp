@@ -11,6 +11,7 @@
 #include "generator/gltf/document.h"
 #include "generator/gltf/from_model.h"
 #include "generator/gltf/limits.h"
+#include "generator/gltf/vrm.h"
 
 namespace contort {
 
@@ -44,18 +45,20 @@ Result<tinygltf::Model> to_model(const GltfDocument& document) {
   return Issue{"gltf.unreadable", "", "tinygltf: " + error};
 }
 
-Result<Asset> to_asset(const tinygltf::Model& model) {
-  Asset asset;
+Result<SkinnedAsset> to_asset(const tinygltf::Model& model, Meshes meshes) {
+  SkinnedAsset out;
   AccessorReader accessors(model);
-  if (const auto read = read_nodes(model, asset); !read) return read.issue();
-  if (const auto read = read_skins(model, accessors, asset); !read) return read.issue();
-  if (const auto read = read_clips(model, accessors, asset); !read) return read.issue();
-  return asset;
+  if (const auto read = read_nodes(model, out.asset); !read) return read.issue();
+  if (const auto read = read_skins(model, accessors, out.asset); !read) return read.issue();
+  if (const auto read = read_clips(model, accessors, out.asset); !read) return read.issue();
+  if (meshes == Meshes::leave_out) return out;
+  if (const auto read = read_meshes(model, accessors, out); !read) return read.issue();
+  return out;
 }
 
-Result<Asset> read_container(const GltfContainer& container, const std::string& folder) {
+Result<SkinnedAsset> read_container(const GltfContainer& container, const std::string& folder, Meshes meshes) {
   if (const auto scanned = scan_json(container.json); !scanned) return scanned.issue();
-  const Result<GltfDocument> document = check_document(container.json);
+  const Result<GltfDocument> document = check_document(container.json, meshes);
   if (!document) return document.issue();
   auto buffers = load_buffers(document->buffers, {container.bin, container.has_bin, folder});
   if (!buffers) return buffers.issue();
@@ -64,7 +67,13 @@ Result<Asset> read_container(const GltfContainer& container, const std::string& 
   tinygltf::Model model = std::move(parsed).value();
   for (std::vector<unsigned char>& bytes : std::move(buffers).value())
     model.buffers.emplace_back().data = std::move(bytes);
-  return to_asset(model);
+  Result<SkinnedAsset> asset = to_asset(model, meshes);
+  if (!asset || meshes == Meshes::leave_out) return asset;
+  SkinnedAsset out = std::move(asset).value();
+  Result<std::map<std::string, int>> humanoid = read_humanoid(container.json, out.asset.nodes.size());
+  if (!humanoid) return humanoid.issue();
+  out.humanoid = std::move(humanoid).value();
+  return out;
 }
 
 Result<std::string> read_bytes(const std::string& path) {
@@ -73,9 +82,7 @@ Result<std::string> read_bytes(const std::string& path) {
   return Issue{bytes.issue().code == "file.too_large" ? "gltf.too_large" : "gltf.unreadable", "", bytes.issue().text};
 }
 
-}  // namespace
-
-Result<Asset> read_gltf(const std::string& path) {
+Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes) {
   const Result<std::string> text = read_bytes(path);
   if (!text) return text.issue();
   const auto bytes = std::as_bytes(std::span(*text));
@@ -86,13 +93,30 @@ Result<Asset> read_gltf(const std::string& path) {
     container = *split;
   }
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  return read_container(container, folder.empty() ? "." : folder);
+  return read_container(container, folder.empty() ? "." : folder, meshes);
 }
 
-Result<Asset> parse_glb(std::span<const std::byte> bytes) {
+Result<SkinnedAsset> parse_any(std::span<const std::byte> bytes, Meshes meshes) {
   const Result<GltfContainer> container = split_glb(bytes);
   if (!container) return container.issue();
-  return read_container(*container, "");
+  return read_container(*container, "", meshes);
 }
+
+Result<Asset> without_meshes(Result<SkinnedAsset> read) {
+  if (!read) return read.issue();
+  return std::move(std::move(read).value().asset);
+}
+
+}  // namespace
+
+Result<Asset> read_gltf(const std::string& path) { return without_meshes(read_any(path, Meshes::leave_out)); }
+
+Result<Asset> parse_glb(std::span<const std::byte> bytes) {
+  return without_meshes(parse_any(bytes, Meshes::leave_out));
+}
+
+Result<SkinnedAsset> read_skinned_gltf(const std::string& path) { return read_any(path, Meshes::read); }
+
+Result<SkinnedAsset> parse_skinned_glb(std::span<const std::byte> bytes) { return parse_any(bytes, Meshes::read); }
 
 }  // namespace contort

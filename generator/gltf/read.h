@@ -4,14 +4,15 @@
 // Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. What it forbids
 // and we let through, because it has one harmless meaning and exporters do it: accessors of 0 elements (a channel of 0
 // keys is left out), animation data with a byte stride, joints without a common root. Left out as well are channels
-// without a node, with morph weights, or whose times have no data. Not looked at: meshes, materials, textures, cameras.
+// without a node, with morph weights, or whose times have no data. Not looked at: materials, textures, cameras, and
+// meshes only where they are asked for.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <string>
 
-#include "generator/asset/asset.h"
+#include "generator/asset/skinned.h"
 #include "generator/core/result.h"
 
 namespace contort {
@@ -21,5 +22,9 @@ Result<Asset> read_gltf(const std::string& path);
 
 // A GLB in memory; all of its buffers must be inside. Reads no file.
 Result<Asset> parse_glb(std::span<const std::byte> bytes);
+
+// The same with skinned meshes and VRM's names of bones, whose faults then are faults of the file too.
+Result<SkinnedAsset> read_skinned_gltf(const std::string& path);
+Result<SkinnedAsset> parse_skinned_glb(std::span<const std::byte> bytes);
 
 }  // namespace contort

@@ -40,7 +40,8 @@ struct Cell {
 
 Cell cell_of(double coordinate_m, double spacing_m, int count) {
   const double at = std::clamp(coordinate_m / spacing_m + 0.5 * (count - 1), 0.0, static_cast<double>(count - 1));
-  const int index = std::min(static_cast<int>(at), std::max(0, count - 2));
+  // No number has no cell: any will do, as its share stays none.
+  const int index = at > 0.0 ? std::min(static_cast<int>(at), std::max(0, count - 2)) : 0;
   return {index, at - index};
 }
 

@@ -70,7 +70,7 @@ inline Library library() {
   desc.slots.push_back({"arm_right", "arm", Side::right, "base", "right", {"small_arm"}});
   desc.objects = {"peg"};
   // The left box's inner side is 0.2 m left of the middle; 5 cm further left at most.
-  desc.regions = {{"left box", "arm_left/inside", Box{{-0.375, 0.1, 0}, {0.625, 1, 1}, {}}, false}};
+  desc.regions = {{"left_box", "arm_left/inside", Box{{-0.375, 0.1, 0}, {0.625, 1, 1}, {}}, false}};
   library.characters["small"] = desc;
   return library;
 }

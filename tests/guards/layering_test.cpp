@@ -29,11 +29,12 @@ const std::vector<Layer> kLayers = {
     {"generator/mocap", {"generator/core", "generator/asset"}},
     {"generator", {"generator/*"}},  // spec, stage, generate: what the other folders see
     {"checks", {"generator/*"}},
+    {"import", {"generator/*", "checks"}},
     {"corpus", {"generator/*", "checks"}},
     {"fuzz", {"generator/*", "checks", "corpus"}},
     {"renders", {"generator/*", "checks", "corpus"}},
     {"renders/raster", {"generator/*", "checks", "corpus", "renders"}},
-    {"cli", {"generator/*", "checks", "corpus", "fuzz", "renders"}},
+    {"cli", {"generator/*", "checks", "import", "corpus", "fuzz", "renders"}},
     {"cli/render_main.cpp", {"generator/*", "checks", "corpus", "renders", "renders/raster", "cli"}},
     {"tests", {"*"}},
     {"bench", {"*"}},

@@ -27,7 +27,9 @@ void draw_any(const Joint& joint, std::mt19937_64& random, double* q) {
 double smallest_margin(const Character& character, Motion& motion) {
   const auto check = std::ranges::find(all_checks(), "joint_range", &CheckDef::name);
   MarginFold fold(check->subject_count(character), 0);
-  check->measure({character, motion, {}, {}}, fold);
+  const CheckSettings settings;
+  const Environment level;
+  check->measure({character, motion, {}, settings, level, nullptr}, fold);
   return *std::ranges::min_element(fold.smallest());
 }
 

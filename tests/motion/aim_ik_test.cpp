@@ -39,7 +39,9 @@ double smallest_margin(const Character& character, const std::vector<double>& ro
   motion.coords = rows;
   const auto check = std::ranges::find(all_checks(), "joint_range", &CheckDef::name);
   MarginFold fold(check->subject_count(character), 0);
-  check->measure({character, motion, {}, {}}, fold);
+  const CheckSettings settings;
+  const Environment level;
+  check->measure({character, motion, {}, settings, level, nullptr}, fold);
   return *std::ranges::min_element(fold.smallest());
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "generator/spec.h"
@@ -151,6 +152,16 @@ TEST(Environment, SpecsReadAndPrintIt) {
       R"({"format":"contort.spec/1","character":{"name":"human"},"environment":{"ground":{"type":"lava"}}})");
   ASSERT_FALSE(lava.ok());
   EXPECT_EQ(lava.issue().pointer, "/environment/ground/type");
+}
+
+// A figure whose root was no number took the grid's index from it, far out of the list.
+TEST(Environment, APlaceThatIsNoNumberHasNoHeight) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Environment heights = built(with_ground(HeightGround{7, 3, 0.5, std::vector<double>(21, 1.0)}));
+  EXPECT_TRUE(std::isnan(heights.height_at(nan, 0.0)));
+  EXPECT_TRUE(std::isnan(heights.height_at(0.0, nan)));
+  EXPECT_TRUE(std::isnan(heights.nearest_ground({nan, nan, nan}).distance_m));
+  EXPECT_EQ(heights.height_at(1e300, -1e300), 1.0) << "beyond the edges as at them";
 }
 
 }  // namespace

@@ -1,0 +1,119 @@
+// contort import: a rigged model becomes a character.
+#include "import/import.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
+#include "generator/gltf/read.h"
+
+namespace contort::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using json_fields::Json;
+
+struct Options {
+  std::string model;
+  std::string folder;
+  ImportOptions import;
+  bool force = false;
+  bool json = false;
+};
+
+Result<Done> refuse_existing(const Options& options, const Imported& imported) {
+  std::error_code error;
+  for (const ImportFile& file : imported.files)
+    if (const std::string path = options.folder + "/" + file.name; !options.force && fs::exists(path, error))
+      return Issue{"import.exists", "", path + " is there already; --force overwrites it"};
+  return Done{};
+}
+
+Result<Done> write_files(const Options& options, const Imported& imported) {
+  if (const Result<Done> made = make_folder(options.folder + "/maps"); !made) return made;
+  for (const ImportFile& file : imported.files)
+    if (const Result<Done> written = write_file(options.folder + "/" + file.name, file.text); !written) return written;
+  return Done{};
+}
+
+const char* build_of(const RiggedFigure& figure) {
+  return figure.is_humanoid ? "humanoid" : figure.is_quadruped ? "quadruped" : "other";
+}
+
+void print_json(const Options& options, const Imported& imported) {
+  const std::string& name = imported.cut.character.name;
+  const Json out = {{"file", options.model},
+                    {"character", name},
+                    {"folder", options.folder},
+                    {"report", name + ".import.md"},
+                    {"build", build_of(imported.figure)},
+                    {"joints", imported.figure.bones.size()},
+                    {"parts", imported.cut.parts.size()},
+                    {"mass_kg", imported.mass_kg},
+                    {"height_m", imported.figure.height_m},
+                    {"limits",
+                     {{"table", count_sources(imported, LimitSource::table)},
+                      {"clips", count_sources(imported, LimitSource::clips)},
+                      {"generic", count_sources(imported, LimitSource::generic)}}},
+                    {"contacts", {{"rest_pose", imported.contacts.at_rest}, {"own_clips", imported.contacts.in_clips}}},
+                    {"notes", imported.figure.notes}};
+  std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+void print_text(const Options& options, const Imported& imported) {
+  const std::string& name = imported.cut.character.name;
+  std::printf("%s: %s, %.3g m, %.4g kg, %zu joints in %zu parts\n", name.c_str(), build_of(imported.figure),
+              imported.figure.height_m, imported.mass_kg, imported.figure.bones.size(), imported.cut.parts.size());
+  std::printf("limits: %d from the table of people, %d from its own clips, %d generic; contacts allowed: %zu\n",
+              count_sources(imported, LimitSource::table), count_sources(imported, LimitSource::clips),
+              count_sources(imported, LimitSource::generic), imported.contacts.pairs.size());
+  std::printf("what was guessed: %s/%s.import.md\n", options.folder.c_str(), name.c_str());
+  std::printf("next: contort --library %s fuzz --character %s\n", shell_quoted(options.folder).c_str(), name.c_str());
+}
+
+void run(Options options, Context& context) {
+  if (options.import.name.empty()) options.import.name = name_of_file(options.model);
+  const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
+  if (!asset) return context.fail(asset.issue());
+  const Result<Imported> imported = import_model(*asset, options.import);
+  if (!imported) return context.fail(imported.issue());
+  if (const Result<Done> free = refuse_existing(options, *imported); !free) return context.fail(free.issue());
+  if (const Result<Done> written = write_files(options, *imported); !written)
+    return context.fail(written.issue(), kInternal);
+  if (options.json) return print_json(options, *imported);
+  print_text(options, *imported);
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("import", "Make a character of a rigged model (.glb, .gltf)");
+  command->add_option("MODEL", options->model, "Skinned model (.glb, .gltf; VRM's bones are understood)")->required();
+  command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();
+  command->add_option("--name", options->import.name, "Name of the character; else the file's");
+  CLI::Option* scale = command->add_option("--scale", options->import.metres_per_unit,
+                                           "Metres to one of the file's units; else guessed");
+  scale->check(CLI::Range(1e-6, 1e6))->check(refuse_nan);
+  command->add_option("--height-m", options->import.height_m, "How high the figure is, m; else guessed")
+      ->check(CLI::Range(1e-3, 90.0))
+      ->check(refuse_nan)
+      ->excludes(scale);
+  command->add_option("--skin", options->import.skin, "Which skin, where the file has several skeletons")
+      ->check(CLI::Range(0, 1000000));
+  command->add_flag("--mesh", options->import.draw_mesh, "Draw the model's triangles instead of the colliders");
+  command->add_flag("--force", options->force, "Overwrite files that are there");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->footer(
+      "Example: contort import robot.glb -o my_figures\n"
+      "         contort --library my_figures fuzz --character robot");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace contort::cli

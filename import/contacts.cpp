@@ -1,0 +1,113 @@
+#include "import/contacts.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "checks/distance.h"
+#include "generator/motion/kinematics.h"
+#include "generator/motion/recording.h"
+
+namespace contort {
+
+namespace {
+
+constexpr std::size_t kMostPairs = 1000;  // of a character's file
+constexpr double kOften = 0.1;            // share of the poses
+constexpr double kPosesPerClip = 24.0;
+constexpr int kMostPoses = 600;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+struct PairCount {
+  double rest_m = 0.0;  // signed distance
+  double least_m = 0.0;
+  int overlaps = 0;
+};
+
+class ContactFinder {
+ public:
+  explicit ContactFinder(const Character& character)
+      : character_(character), world_(character.joints().size()), counts_(character.judged_colliders().size()) {
+    for (const Collider& collider : character.colliders()) solids_.push_back(solid_of(collider.shape));
+  }
+
+  void rest() {
+    forward_kinematics(character_, character_.rest_root(), character_.rest_coords(), world_);
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i].rest_m = counts_[i].least_m = distance(i);
+  }
+
+  void pose(const Motion& motion, int frame) {
+    forward_kinematics(character_, motion.root[at(frame)], motion.row(frame), world_);
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const double now = distance(i);
+      counts_[i].least_m = std::min(counts_[i].least_m, now);
+      counts_[i].overlaps += now < 0.0;
+    }
+    ++poses_;
+  }
+
+  OwnContacts result() const {
+    OwnContacts out;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+      if (counts_[i].rest_m < 0.0 || is_often(i)) found.push_back(i);
+    std::stable_sort(found.begin(), found.end(),
+                     [this](std::size_t a, std::size_t b) { return counts_[a].least_m < counts_[b].least_m; });
+    for (const std::size_t i : found) {
+      if (out.pairs.size() == kMostPairs) {
+        ++out.left_out;
+        continue;
+      }
+      const ColliderPair& pair = character_.judged_colliders()[i];
+      ++(counts_[i].rest_m < 0.0 ? out.at_rest : out.in_clips);
+      out.pairs.push_back(
+          {character_.colliders()[at(pair.a)].name, character_.colliders()[at(pair.b)].name, reason(i)});
+    }
+    return out;
+  }
+
+ private:
+  double distance(std::size_t i) const {
+    const ColliderPair& pair = character_.judged_colliders()[i];
+    const auto placed = [&](int c) { return moved(world_[at(character_.colliders()[at(c)].joint)], solids_[at(c)]); };
+    return signed_distance(placed(pair.a), placed(pair.b), 0.0);
+  }
+
+  bool is_often(std::size_t i) const { return poses_ > 0 && counts_[i].overlaps >= kOften * poses_; }
+
+  std::string reason(std::size_t i) const {
+    char text[100];
+    if (counts_[i].rest_m < 0.0)
+      std::snprintf(text, sizeof text, "rest_pose: they overlap by %.4f m", -counts_[i].rest_m);
+    else
+      std::snprintf(text, sizeof text, "own_clips: they overlap in %d of %d sampled poses", counts_[i].overlaps,
+                    poses_);
+    return text;
+  }
+
+  const Character& character_;
+  std::vector<Solid> solids_;
+  std::vector<Rigid> world_;
+  std::vector<PairCount> counts_;  // by judged_colliders()
+  int poses_ = 0;
+};
+
+}  // namespace
+
+OwnContacts find_contacts(const Character& character, const Asset& asset,
+                          const std::map<std::string, std::string>& joints) {
+  ContactFinder finder(character);
+  finder.rest();
+  int poses = 0;
+  for (const AssetClip& clip : asset.clips) {
+    const double length_s = clip.last_s - clip.first_s;
+    if (poses >= kMostPoses || !(length_s > 0.0)) continue;
+    const double rate_hz = std::min(30.0, kPosesPerClip / length_s);
+    const Result<Motion> motion = follow_recording(character, {asset, clip, joints, 0.0, rate_hz, 0, Rigid{}});
+    if (!motion) continue;  // names that do not fit: then the rest pose alone tells
+    for (int frame = 0; frame < motion->frame_count; ++frame, ++poses) finder.pose(*motion, frame);
+  }
+  return finder.result();
+}
+
+}  // namespace contort

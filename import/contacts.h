@@ -1,0 +1,25 @@
+// Contacts that the model was made with.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "generator/asset/asset.h"
+#include "generator/character/character.h"
+
+namespace contort {
+
+struct OwnContacts {
+  std::vector<AllowedPairDesc> pairs;  // deepest first
+  int at_rest = 0;
+  int in_clips = 0;
+  int left_out = 0;  // more than a character may list
+};
+
+// Pairs of colliders that overlap at rest, and those that do in a tenth of the poses of the model's own clips. `joints`
+// gives the character's joint for a node's label, the root's too.
+OwnContacts find_contacts(const Character& character, const Asset& asset,
+                          const std::map<std::string, std::string>& joints);
+
+}  // namespace contort

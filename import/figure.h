@@ -1,0 +1,96 @@
+// A rigged model on its way to a character: the joints that matter, in metres, upright, facing +Z, with the vertices
+// that each owns. Stages fill it one after another: skeleton.h, roles.h, then limits.h, fit.h, masses.h and parts.h
+// read it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/asset/skinned.h"
+#include "generator/character/desc.h"
+
+namespace contort {
+
+// What words in a joint's name say; what it is in the end, its place among the others decides.
+enum class BoneFamily : std::uint8_t {
+  unknown,
+  hips,
+  spine,
+  neck,
+  head,
+  clavicle,
+  upper_arm,
+  forearm,
+  arm,
+  hand,
+  finger,
+  thigh,
+  shank,
+  leg,
+  foot,
+  toe,
+  tail
+};
+
+enum class BoneRole : std::uint8_t {
+  other,
+  root,
+  spine,
+  neck,
+  head,
+  clavicle,
+  upper_arm,
+  forearm,
+  hand,
+  finger,
+  thigh,
+  shank,
+  hock,
+  foot,
+  toe,
+  tail
+};
+
+struct Bone {
+  int node = 0;
+  int parent = -1;    // an earlier bone; -1 for the first one, which is the root
+  std::string label;  // of the node, as the file has it
+  std::string name;   // legal, and unique in the figure
+  BoneFamily family = BoneFamily::unknown;
+  bool from_vrm = false;  // family and side are those of VRM's map
+  Side side = Side::center;
+  BoneRole role = BoneRole::other;
+  Vec3 position_m{0.0};        // from the root
+  std::vector<Vec3> points_m;  // of the surface that it owns, spread evenly; from the bone's own position
+};
+
+struct RiggedFigure {
+  std::vector<Bone> bones;              // parents first
+  Quat world_from_model = kNoRotation;  // the turn that makes it face +Z
+  double metres_per_unit = 1.0;
+  double height_m = 0.0;      // of all vertices
+  double ground_m = 0.0;      // the lowest vertex, from the root
+  bool is_humanoid = false;   // two arms and two legs of two bones, spine upright
+  bool is_quadruped = false;  // four legs on the ground
+  int vertex_count = 0;
+  std::vector<std::string> notes;  // what was guessed, for the report
+};
+
+struct ImportOptions {
+  std::string name;              // of the character; a legal name
+  double metres_per_unit = 0.0;  // 0: guessed
+  double height_m = 0.0;         // 0: what the scale makes of it
+  int skin = -1;                 // of the file; -1: the one that most vertices hang on
+  bool draw_mesh = false;        // parts are drawn as the model's triangles
+};
+
+inline const Bone& bone_at(const RiggedFigure& figure, int index) {
+  return figure.bones[static_cast<std::size_t>(index)];
+}
+inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+// Children of a bone, in order.
+std::vector<int> children_of(const RiggedFigure& figure, int bone);
+
+}  // namespace contort

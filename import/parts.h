@@ -1,0 +1,42 @@
+// Cuts a figure into parts, and writes their descriptions.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "generator/core/result.h"
+#include "import/bodies.h"
+#include "import/limits.h"
+
+namespace contort {
+
+// One part to be: bones of one limb, the first of which docks at the carrier.
+struct PartPlan {
+  std::string slot;  // "arm_left"
+  std::string kind;  // "arm"
+  Side side = Side::center;
+  int carrier = -1;  // an earlier plan; -1 for the root's
+  std::vector<int> bones;
+};
+
+// Code import.too_many_parts.
+Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
+
+// What was decided for a bone, for the report.
+struct BoneReport {
+  std::string joint;  // "arm_left/elbow"; "root" for the first one
+  BoneJoint limits;
+};
+
+struct CutFigure {
+  std::vector<PartDesc> parts;
+  CharacterDesc character;
+  std::map<std::string, std::string> joint_of_node;  // labels; without the root
+  std::vector<BoneReport> bones;
+};
+
+CutFigure describe(const RiggedFigure& figure, const ClipPoses& poses, const std::vector<PartPlan>& plans,
+                   const std::string& name, const std::vector<TriangleMesh>& meshes);
+
+}  // namespace contort

@@ -1,0 +1,13 @@
+// From the file's nodes and skins to a figure's bones.
+#pragma once
+
+#include "generator/core/result.h"
+#include "import/figure.h"
+
+namespace contort {
+
+// Families, sides and names are filled too; roles are not. Codes import.no_skin, .no_vertices, .unknown_skin,
+// .too_many_joints, .flat, .too_large.
+Result<RiggedFigure> read_figure(const SkinnedAsset& asset, const ImportOptions& options);
+
+}  // namespace contort
