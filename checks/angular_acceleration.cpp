@@ -32,13 +32,10 @@ double change_of_speed(const Motion& motion, const Joint& joint, int frame) {
 
 }  // namespace
 
-int angular_acceleration_subject_count(const Character& character) {
-  return static_cast<int>(character.joints().size()) - 1;  // without the root
-}
+int angular_acceleration_subject_count(const Character& character) { return moving_joint_count(character); }
 
 Subject angular_acceleration_subject(const Character& character, int subject) {
-  const Joint& joint = character.joints()[static_cast<std::size_t>(subject) + 1];
-  return {joint.name, unit_of(joint, "rad/s^2", "m/s^2")};
+  return moving_joint(character, subject, "rad/s^2", "m/s^2");
 }
 
 void angular_acceleration_measure(const CheckInput& in, MarginFold& fold) {

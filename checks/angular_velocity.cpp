@@ -6,13 +6,10 @@
 
 namespace contort {
 
-int angular_velocity_subject_count(const Character& character) {
-  return static_cast<int>(character.joints().size()) - 1;  // without the root
-}
+int angular_velocity_subject_count(const Character& character) { return moving_joint_count(character); }
 
 Subject angular_velocity_subject(const Character& character, int subject) {
-  const Joint& joint = character.joints()[static_cast<std::size_t>(subject) + 1];
-  return {joint.name, unit_of(joint, "rad/s", "m/s")};
+  return moving_joint(character, subject, "rad/s", "m/s");
 }
 
 void angular_velocity_measure(const CheckInput& in, MarginFold& fold) {

@@ -33,4 +33,11 @@ std::string_view unit_of(const Joint& joint, std::string_view angular, std::stri
   return joint.kind == JointKind::prismatic ? linear : angular;
 }
 
+int moving_joint_count(const Character& character) { return static_cast<int>(character.joints().size()) - 1; }
+
+Subject moving_joint(const Character& character, int subject, std::string_view angular, std::string_view linear) {
+  const Joint& joint = character.joints()[static_cast<std::size_t>(subject) + 1];
+  return {joint.name, unit_of(joint, angular, linear)};
+}
+
 }  // namespace contort

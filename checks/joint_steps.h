@@ -1,6 +1,7 @@
 // How far a joint is between two poses. Shared by the checks that judge motion of joints.
 #pragma once
 
+#include "checks/check.h"
 #include "generator/character/character.h"
 
 namespace contort {
@@ -18,5 +19,9 @@ double likeness_rad(const Joint& joint, const double* before, const double* now)
 
 // "rad/s" or "m/s", and so on: the unit of a joint's coordinate with this ending.
 std::string_view unit_of(const Joint& joint, std::string_view angular, std::string_view linear);
+
+// The subjects of checks that judge every joint but the root: subject i is joint i + 1.
+int moving_joint_count(const Character& character);
+Subject moving_joint(const Character& character, int subject, std::string_view angular, std::string_view linear);
 
 }  // namespace contort

@@ -9,9 +9,6 @@
 
 namespace contort {
 
-int angular_velocity_subject_count(const Character&);
-Subject angular_velocity_subject(const Character&, int subject);
-
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
@@ -48,9 +45,11 @@ double explained_speed(const Motion& motion, const Joint& joint, int frame) {
                          static_cast<std::size_t>(frame - first));
 }
 
-int pop_subject_count(const Character& character) { return angular_velocity_subject_count(character); }
+int pop_subject_count(const Character& character) { return moving_joint_count(character); }
 
-Subject pop_subject(const Character& character, int subject) { return angular_velocity_subject(character, subject); }
+Subject pop_subject(const Character& character, int subject) {
+  return moving_joint(character, subject, "rad/s", "m/s");
+}
 
 void pop_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const Joint> joints = in.character.joints();

@@ -15,8 +15,10 @@ double difference_rad(const CheckInput& in, const Part& part, int before, int af
   double most = 0.0;
   for (const Joint& joint : in.character.joints().subspan(static_cast<std::size_t>(part.first_joint),
                                                           static_cast<std::size_t>(part.joint_count)))
-    if (const double d = likeness_rad(joint, in.motion.row(before).data(), in.motion.row(after).data()); !(d <= most))
+    if (const double d = likeness_rad(joint, in.motion.row(before).data(), in.motion.row(after).data()); !(d <= most)) {
       most = d;
+      if (d != d) break;  // no number: nothing is worse
+    }
   return most;
 }
 

@@ -73,7 +73,7 @@ void fields(V& v, const Waiver*) {
   v.field("phase", &Waiver::phase, {.may_be_empty = true}, "Of the worst frame; empty: any.");
   v.field("deepest", &Waiver::deepest, {.low = 0, .high = 1e6},
           "Hides margins down to minus this, in the check's unit; 0: however deep.");
-  v.field("reason", &Waiver::reason, {.text = Text::prose, .required = true}, "Why that is no fault for now.");
+  v.field("reason", &Waiver::reason, {.text = Text::prose, .required = true}, "Why that is no fault until then.");
   v.field("owner", &Waiver::owner, {.text = Text::label, .required = true}, "Who answers for it.");
   v.field("expires", &Waiver::expires, {.text = Text::label, .required = true}, "Last day, YYYY-MM-DD.");
 }

@@ -143,7 +143,7 @@ void print_waivers(const CheckSettings& settings, const Checked& checked) {
 }
 
 void print_one(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked) {
-  if (options.json) return print_json(options.files.front(), checked.clips);
+  if (options.json) return print_json(options.files.front(), checked.clips, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip(clip);
   print_waivers(settings, checked);
   print_result(count_findings(checked.clips), checked.clips.size(), waived_count(settings, checked));
@@ -151,7 +151,7 @@ void print_one(const ClipCheckOptions& options, const CheckSettings& settings, c
 
 void print_all(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked,
                std::size_t files) {
-  if (options.json) return print_json(checked.clips, checked.unreadable);
+  if (options.json) return print_json(checked.clips, checked.unreadable, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip_line(clip);
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());

@@ -161,13 +161,14 @@ void print_result(std::size_t findings, std::size_t clips, const std::string& mo
   std::printf("RESULT findings=%zu clips=%zu%s\n", findings, clips, more.c_str());
 }
 
-void print_json(const std::string& file, const std::vector<ClipReport>& clips) {
+void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::string& waivers) {
   Json list = Json::array();
   for (const ClipReport& clip : clips) list.push_back(clip_json(clip));
-  print_tree({{"file", file}, {"clips", list}});
+  print_tree({{"file", file}, {"clips", list}, {"waivers", Json::parse(waivers)}});
 }
 
-void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable) {
+void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable,
+                const std::string& waivers) {
   Json list = Json::array();
   for (const ClipReport& clip : clips) {
     Json one = clip_json(clip);
@@ -177,7 +178,7 @@ void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadab
   Json refused = Json::array();
   for (const auto& [file, issue] : unreadable)
     refused.push_back({{"file", file}, {"code", issue.code}, {"pointer", issue.pointer}, {"text", issue.text}});
-  print_tree({{"clips", list}, {"unreadable", refused}});
+  print_tree({{"clips", list}, {"unreadable", refused}, {"waivers", Json::parse(waivers)}});
 }
 
 std::string printable(const std::string& text) {

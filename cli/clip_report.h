@@ -36,9 +36,10 @@ void print_clip_line(const ClipReport& clip);  // one line, with the file
 // "OK …" or "FAILED …", and the line for scripts with `more` at its end.
 void print_result(std::size_t findings, std::size_t clips, const std::string& more);
 
-// A file and its clips; or clips of many files, and the files that could not be read.
-void print_json(const std::string& file, const std::vector<ClipReport>& clips);
-void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable);
+// `waivers` is JSON (print.h). A file and its clips; or clips of many files, and the files that could not be read.
+void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::string& waivers);
+void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable,
+                const std::string& waivers);
 
 // Names from files may hold line ends and escape sequences: shown as "?".
 std::string printable(const std::string& text);

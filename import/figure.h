@@ -1,5 +1,5 @@
 // A rigged model on its way to a character: the joints that matter, in metres, upright, facing +Z, with the vertices
-// that each owns. Stages fill it one after another: skeleton.h, roles.h, then limits.h, fit.h, masses.h and parts.h
+// that each owns. Stages fill it one after another: skeleton.h, roles.h, then limits.h, fit.h, bodies.h and parts.h
 // read it.
 #pragma once
 
