@@ -79,6 +79,7 @@ void Evaluator::place(const Character& character, const Motion& motion) {
 std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check,
                                       const Environment& environment, const Timeline* timeline) {
   bool placed = false;
+  smallest_.clear();
   std::vector<Finding> findings;
   for (const CheckDef& check : all_checks()) {
     if (!only_check.empty() && check.name != only_check) continue;
@@ -91,6 +92,7 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
     apply_limits(check, input, fold);
     check.measure(input, fold);
     append_findings(check, character, fold, findings);
+    smallest_.push_back({&check, fold.smallest()});
   }
   // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
   const int lost = first_without_balance(motion);

@@ -28,6 +28,13 @@ struct Evaluation {
   bool operator==(const Evaluation&) const = default;
 };
 
+// How near a motion came to the limits of one check: the smallest margin of each subject, in the subject's unit;
+// +infinity where it was not judged.
+struct SmallestMargins {
+  const CheckDef* check = nullptr;
+  std::vector<double> of_subject;
+};
+
 // Owns the memory of one thread's evaluations; nothing of one evaluation reaches the next.
 class Evaluator {
  public:
@@ -42,6 +49,8 @@ class Evaluator {
                              const Environment& environment = {}, const Timeline* timeline = nullptr);
 
   const Motion& motion() const { return motion_; }  // of the last run
+  // Of the last evaluation, in the manifest's order; what guides the search.
+  const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
 
  private:
   void set_waived_apart(const Stage& stage, Evaluation& evaluation) const;
@@ -51,6 +60,7 @@ class Evaluator {
   GenerateScratch scratch_;
   Motion motion_;
   std::vector<Rigid> world_;
+  std::vector<SmallestMargins> smallest_;
 };
 
 // The deepest finding of a check and subject, or nullptr.

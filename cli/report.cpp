@@ -13,6 +13,7 @@
 #include "cli/render.h"
 #include "cli/variants.h"
 #include "corpus/corpus.h"
+#include "corpus/runs.h"
 #include "fuzz/parallel.h"
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
@@ -27,19 +28,12 @@ struct Picture {
   std::string png;
 };
 
-std::int64_t total_seen(const Bucket& bucket) {
-  std::int64_t total = 0;
-  for (const auto& [run, count] : bucket.seen) total += count;
-  return total;
-}
-
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
   row.family = bucket.family, row.check = bucket.check,
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
-  row.cases_seen = total_seen(bucket);
   row.bucket = bucket.id, row.state = bucket.state;
   row.gating = bucket.state == "new" || bucket.state == "regressed";
   row.spec_json = pretty_spec(stored.spec);
@@ -74,29 +68,31 @@ void fill_rows(const Corpus& corpus, ReportModel& model, std::vector<Picture>& p
   for (auto& [depth, row] : rows) model.rows.push_back(std::move(row));
 }
 
-void count_totals(ReportModel& model) {
+// `seen`: cases of all runs, by family.
+void count_totals(const std::map<std::string, std::int64_t>& seen, ReportModel& model) {
   std::set<std::string> families;
   for (const ReportRow& row : model.rows) families.insert(row.family);
   model.families = static_cast<std::int64_t>(families.size());
   model.buckets = static_cast<std::int64_t>(model.rows.size());
+  for (ReportRow& row : model.rows)
+    if (const auto found = seen.find(row.family); found != seen.end()) row.cases_seen = found->second;
   for (const std::string& family : families)
-    for (const ReportRow& row : model.rows)
-      if (row.family == family) {
-        model.findings += row.cases_seen;  // counted by family, so once for all of its buckets
-        break;
-      }
+    if (const auto found = seen.find(family); found != seen.end()) model.findings += found->second;
 }
 
-void add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
+// Gives the cases that showed each family.
+std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
   std::vector<Issue> damaged;
-  std::map<std::string, std::int64_t> tested;
-  for (const RunRecord& run : corpus.runs(damaged)) {
+  std::map<std::string, std::int64_t> tested, seen;
+  for (const RunRecord& run : runs_of(corpus, damaged)) {
     model.cases += run.cases;
     model.frames += run.frames;
     for (const auto& [what, count] : run.tested) tested[what] += count;
+    for (const auto& [family, count] : run.families) seen[family] += count.cases;
   }
   model.tested.assign(tested.begin(), tested.end());
   for (const Issue& issue : damaged) context.fail(issue);
+  return seen;
 }
 
 // For each slot the pairs, an action with itself too, of what its parts can do, in any character of the library.
@@ -159,8 +155,7 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
   model.title = "Contort report";
   std::vector<Picture> pictures;
   fill_rows(*corpus, model, pictures, request.folder, context);
-  count_totals(model);
-  add_runs(*corpus, model, context);
+  count_totals(add_runs(*corpus, model, context), model);
   model.pairs_possible = pairs_possible(library, model);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);

@@ -15,26 +15,12 @@ namespace contort {
 
 namespace fs = std::filesystem;
 
-// The stored form of a RunRecord: labels with spaces cannot be keys.
-struct TestedCount {
-  std::string what;
-  std::int64_t count = 0;
-  bool operator==(const TestedCount&) const = default;
-};
-struct StoredRun {
-  std::string name, tool;
-  std::int64_t cases = 0, frames = 0, failing = 0;
-  std::vector<TestedCount> tested;
-};
-
 namespace {
 
 const json_fields::Rule kNeeded{.text = json_fields::Text::label, .required = true};
 const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
 const json_fields::Rule kProse{.text = json_fields::Text::prose};
 constexpr std::string_view kStates[] = {"new", "open", "fixed", "regressed", "flaky", "quarantined"};
-
-const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
 
 std::string short_id(const Spec& spec) { return spec_id(spec).substr(0, 16); }
 
@@ -68,27 +54,10 @@ void fields(V& v, const Bucket*) {
           "Identity of the failure, without numbers.");
   v.field("features", &Bucket::features, kProse, "What the minimal spec needed.");
   v.field("state", &Bucket::state, {.required = true}, "new, open, fixed, regressed, flaky or quarantined.");
-  v.field("seen", &Bucket::seen, {.low = 0, .high = 0x1p53, .max_count = 100000}, "Cases of the family, by run.");
+  v.field("runs", &Bucket::runs, {.max_count = 100000}, "Runs that put a case here.");
   v.field("min", &Bucket::min, kLabel, "File of the smallest case.");
   v.field("worst", &Bucket::worst, kLabel, "File of the deepest case.");
   v.field("orig", &Bucket::orig, kLabel, "File of the case that min was shrunk from.");
-}
-
-template <class V>
-void fields(V& v, const TestedCount*) {
-  v.field("what", &TestedCount::what, kNeeded, "An action on a slot, a part, an object or a character.");
-  v.field("count", &TestedCount::count, {.low = 0, .high = 0x1p53, .required = true}, "How often it was drawn.");
-}
-
-template <class V>
-void fields(V& v, const StoredRun*) {
-  v.constant("format", "contort.run/1");
-  v.field("name", &StoredRun::name, {.required = true}, "Name of the run.");
-  v.field("tool", &StoredRun::tool, kLabel, "Version.");
-  v.field("cases", &StoredRun::cases, kTotal, "Cases that ran.");
-  v.field("frames", &StoredRun::frames, kTotal, "Frames that they had.");
-  v.field("failing", &StoredRun::failing, kTotal, "Cases with at least one finding.");
-  v.field("tested", &StoredRun::tested, {.max_count = 100000}, "What the cases were made of.");
 }
 
 std::string features_of(const Spec& spec) {
@@ -146,12 +115,6 @@ Result<Corpus> Corpus::open(const std::string& folder) {
 
 std::string Corpus::folder_of(const Bucket& bucket) const {
   return folder_ + "/buckets/" + bucket.check + "-" + bucket.id;
-}
-
-Result<std::string> Corpus::add_lead(const Case& lead) const {
-  const std::string path = folder_ + "/leads/" + bucket_id(family_of(lead), "") + "-" + short_id(lead.spec) + ".json";
-  if (const Result<Done> written = write_file(path, print_case(lead)); !written) return written.issue();
-  return path;
 }
 
 namespace {
@@ -253,56 +216,12 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
   if (const auto kept = files.put_pair({found.minimal, found.original}, bucket); !kept) return kept.issue();
   for (const Case* shown : {&found.original, &found.minimal})
     if (const auto kept = files.put_worst(*shown, bucket); !kept) return kept.issue();
-  std::int64_t& seen = bucket.seen[found.run];
-  seen = std::max(seen, found.seen);
+  if (const auto at = std::ranges::lower_bound(bucket.runs, found.run); at == bucket.runs.end() || *at != found.run)
+    bucket.runs.insert(at, found.run);
   if (const auto written = write_file(folder + "/bucket.json", json_fields::write_pretty(bucket)); !written)
     return written.issue();
   files.remove_replaced();
-  const std::string lead =
-      folder_ + "/leads/" + bucket_id(family_of(found.original), "") + "-" + short_id(found.original.spec) + ".json";
-  std::error_code ignored;
-  fs::remove(lead, ignored);
   return added;
-}
-
-namespace {
-
-Result<RunRecord> read_run(const std::string& path) {
-  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
-  if (!text) return text.issue();
-  const Result<StoredRun> run = json_fields::read_document<StoredRun>(*text, "run");
-  if (!run) return run.issue();
-  RunRecord record{run->name, run->tool, run->cases, run->frames, run->failing, {}};
-  for (const TestedCount& tested : run->tested) record.tested[tested.what] = tested.count;
-  return record;
-}
-
-}  // namespace
-
-Result<Done> Corpus::add_run(const RunRecord& run) const {
-  const std::string path = folder_ + "/runs/" + run.name + ".json";
-  std::error_code error;
-  if (fs::exists(path, error))
-    if (const Result<RunRecord> present = read_run(path); present && present->cases > run.cases) return Done{};
-  StoredRun stored{run.name, run.tool, run.cases, run.frames, run.failing, {}};
-  for (const auto& [what, count] : run.tested) stored.tested.push_back({what, count});
-  return write_file(path, json_fields::write_pretty(stored));
-}
-
-std::vector<RunRecord> Corpus::runs(std::vector<Issue>& damaged) const {
-  std::vector<std::string> paths;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_ + "/runs", error)) paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
-  std::vector<RunRecord> all;
-  for (const std::string& path : paths) {
-    Result<RunRecord> run = read_run(path);
-    if (run)
-      all.push_back(std::move(run).value());
-    else
-      damaged.push_back(run.issue());
-  }
-  return all;
 }
 
 std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {

@@ -4,15 +4,14 @@
 //                                  min-<spec16>.json   smallest failing spec: what people look at
 //                                  worst-<spec16>.json deepest violation seen
 //                                  orig-<spec16>.json  the spec that min was shrunk from
-//   DIR/leads/<bucket12>-<spec16>.json               found, not shrunk yet; survives a kill
-//   DIR/runs/<run>.json                              what a run did: cases, frames, what they were made of
+//   DIR/leads/   found, not in a bucket yet (leads.h)
+//   DIR/runs/    what each run did (runs.h)
 //
 // Every write is atomic, and every update takes a minimum (by cost) or a maximum (by depth), so the order of adding
 // does not matter.
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,7 +35,7 @@ struct Bucket {
   std::string family;
   std::string features;
   std::string state = "new";
-  std::map<std::string, std::int64_t> seen;  // cases of this family, by run; a run that is repeated counts once
+  std::vector<std::string> runs;  // that put a case here, by name; how often each saw the family is in runs.h
   std::string min;                           // file names in the bucket's folder
   std::string worst;
   std::string orig;
@@ -47,19 +46,7 @@ struct Bucket {
 struct Found {
   Case minimal;
   Case original;
-  std::string run;        // name of the run for Bucket::seen
-  std::int64_t seen = 1;  // cases of this family in that run
-};
-
-// What a run did. The same run for longer replaces it; nothing in it depends on time or machine.
-struct RunRecord {
-  std::string name;  // "seed_7_0123abcd"
-  std::string tool;
-  std::int64_t cases = 0;
-  std::int64_t frames = 0;
-  std::int64_t failing = 0;                    // cases with at least one finding
-  std::map<std::string, std::int64_t> tested;  // "action pose on arm_left", "part mech_arm_shield": cases or uses
-  bool operator==(const RunRecord&) const = default;
+  std::string run;  // name of the run for Bucket::runs
 };
 
 class Corpus {
@@ -69,19 +56,12 @@ class Corpus {
   // Code corpus.not_found where the folder holds no corpus.
   static Result<Corpus> open(const std::string& folder);
 
-  // Keeps a failure that is not shrunk yet; the path of its file.
-  Result<std::string> add_lead(const Case& lead) const;
-
   // Stores a failure under its bucket. `is_new`: the bucket was not there before.
   struct Added {
     std::string bucket;  // folder of the bucket
     bool is_new = false;
   };
   Result<Added> add(const Found& found) const;
-
-  // Keeps the record unless one of the same name with more cases is there. The texts of `tested` are labels.
-  Result<Done> add_run(const RunRecord& run) const;
-  std::vector<RunRecord> runs(std::vector<Issue>& damaged) const;  // by name
 
   // All buckets, by folder name. Folders that cannot be read are reported in `damaged`, never skipped silently.
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;

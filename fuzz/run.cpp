@@ -6,7 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "corpus/leads.h"
 #include "corpus/replay.h"
+#include "corpus/runs.h"
 #include "fuzz/parallel.h"
 #include "generator/core/hash.h"
 
@@ -111,7 +113,6 @@ class Run {
       if (config_.cases >= 0) count = std::min(count, config_.cases - first);
       run_batch(first, static_cast<int>(count));
     }
-    count_late_families();
     record_run();
     report();
     return std::move(result_);
@@ -172,7 +173,9 @@ class Run {
     for (const std::string& use : outcome.uses) ++result_.tested[use];
     for (const std::string& pair : outcome.pairs) ++result_.tested[pair];
     for (Case& failure : outcome.failures) {
-      const std::int64_t seen = ++result_.families[family_of(failure)];
+      const std::string family = family_of(failure);
+      FamilyCount& count = record_.families.try_emplace(family, FamilyCount{0, failure.provenance.index}).first->second;
+      const std::int64_t seen = result_.families[family] = ++count.cases;
       if (seen <= config_.shrinks_per_family) candidates.push_back(std::move(failure));
     }
     totals.families = static_cast<int>(result_.families.size());
@@ -193,7 +196,7 @@ class Run {
   void settle(const std::vector<Case>& candidates) {
     std::vector<std::string> leads;
     for (const Case& candidate : candidates) {
-      const Result<std::string> lead = corpus_.add_lead(candidate);
+      const Result<std::string> lead = keep_lead(corpus_, {run_name_, candidate, {}});
       if (!lead) return fail(lead.issue());
       leads.push_back(*lead);
     }
@@ -230,10 +233,9 @@ class Run {
   }
 
   void store(const Case& minimal, const Case& original) {
-    const std::string family = family_of(original);
-    const Result<Corpus::Added> added = corpus_.add({minimal, original, run_name_, result_.families[family]});
+    const Result<Corpus::Added> added = corpus_.add({minimal, original, run_name_});
     if (!added) return fail(added.issue());
-    stored_[family].push_back({minimal, original});
+    drop_lead(corpus_, {run_name_, original, {}});
     std::vector<std::string>& list = added->is_new ? result_.new_buckets : result_.known_buckets;
     const auto known = [&](const std::vector<std::string>& l) {
       return std::find(l.begin(), l.end(), added->bucket) != l.end();
@@ -242,20 +244,13 @@ class Run {
     result_.totals.buckets_new = static_cast<int>(result_.new_buckets.size());
   }
 
-  // Buckets were stored with the count of that moment; the family may have been seen again since.
-  void count_late_families() {
-    for (const auto& [family, pairs] : stored_)
-      for (const auto& [minimal, original] : pairs)
-        if (ok())
-          if (const auto added = corpus_.add({minimal, original, run_name_, result_.families[family]}); !added)
-            fail(added.issue());
-  }
-
   void record_run() {
     const RunProgress& totals = result_.totals;
-    const RunRecord record{run_name_, config_.tool, totals.cases, totals.frames, totals.failing, result_.tested};
+    record_.name = run_name_, record_.tool = config_.tool;
+    record_.cases = totals.cases, record_.frames = totals.frames, record_.failing = totals.failing;
+    record_.discarded = result_.discarded, record_.tested = result_.tested;
     if (!ok()) return;
-    if (const Result<Done> kept = corpus_.add_run(record); !kept) fail(kept.issue());
+    if (const Result<Done> kept = keep_run(corpus_, record_); !kept) fail(kept.issue());
   }
 
   void fail(const Issue& issue) {
@@ -276,7 +271,7 @@ class Run {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<Evaluator> evaluators_;
   std::string run_name_;
-  std::map<std::string, std::vector<std::pair<Case, Case>>> stored_;  // by family: minimal and original
+  RunRecord record_;
   std::atomic<int> shrinking_{0};
   RunResult result_;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corpus/leads.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/corpus/temp_folder.h"
 
@@ -37,13 +38,12 @@ Case made_up_nan(Case c) {
   return c;
 }
 
-Found found(int elbow_deg, int duration, std::int64_t seed, int seen = 1) {
+Found found(int elbow_deg, int duration, std::int64_t seed) {
   Found f;
   f.original = made_up(elbow_deg + 7, duration + 40, seed);
   f.minimal = made_up(elbow_deg, duration, seed);
   f.minimal.provenance.shrunk_from = spec_id(f.original.spec);
   f.run = "seed_" + std::to_string(seed);
-  f.seen = seen;
   return f;
 }
 
@@ -79,7 +79,7 @@ Tree corpus_of(const std::vector<Found>& founds) {
 
 // Few different values, so that equal minimal specs with different origins, equal depths and equal runs all occur.
 Found draw_found() {
-  Found f = found(151 + *rc::gen::inRange(0, 3), 30, *rc::gen::inRange(0, 3), *rc::gen::inRange(1, 4));
+  Found f = found(151 + *rc::gen::inRange(0, 3), 30, *rc::gen::inRange(0, 3));
   f.original = made_up(160 + *rc::gen::inRange(0, 3), 60 + *rc::gen::inRange(0, 2), f.original.provenance.seed);
   f.minimal.provenance.shrunk_from = spec_id(f.original.spec);
   if (*rc::gen::inRange(0, 4) == 0) f.minimal.expect.subject = f.original.expect.subject = "arm_right/elbow max";
@@ -149,19 +149,19 @@ TEST(CorpusAdd, NothingIsDeeperThanNaN) {
   EXPECT_TRUE(std::isnan(stored(corpus, bucket, bucket.worst).expect.worst_margin));
 }
 
-TEST(CorpusAdd, ABucketIsNewOnceAndCountsARunOnce) {
+TEST(CorpusAdd, ABucketIsNewOnceAndNamesARunOnce) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
-  const auto first = corpus.add(found(160, 40, 1, 3));
-  const auto again = corpus.add(found(160, 40, 1, 2));
-  const auto other = corpus.add(found(165, 40, 2, 5));
+  const auto first = corpus.add(found(160, 40, 2));
+  const auto again = corpus.add(found(160, 40, 2));
+  const auto other = corpus.add(found(165, 40, 1));
   ASSERT_TRUE(first && again && other);
   EXPECT_TRUE(first->is_new);
   EXPECT_FALSE(again->is_new);
   EXPECT_FALSE(other->is_new);
   EXPECT_EQ(first->bucket, other->bucket);
-  const std::map<std::string, std::int64_t> seen = {{"seed_1", 3}, {"seed_2", 5}};
-  EXPECT_EQ(only_bucket(corpus).seen, seen);
+  const std::vector<std::string> runs = {"seed_1", "seed_2"};
+  EXPECT_EQ(only_bucket(corpus).runs, runs);
 }
 
 TEST(CorpusAdd, KeepsTheStateThatAPersonGaveABucket) {
@@ -209,17 +209,31 @@ TEST(CorpusAdd, AStateThatDoesNotExistIsRefused) {
   EXPECT_EQ(refused.issue().code, "bucket.unknown_state");
 }
 
-TEST(CorpusAdd, ALeadGoesOnlyWhenItsBucketIsWritten) {
+TEST(Leads, AreKeptWithAndWithoutTheirMinimalCaseUntilTheyAreDropped) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
   const Found f = found(160, 40, 1);
-  const Result<std::string> lead = corpus.add_lead(f.original);
-  ASSERT_TRUE(lead);
-  const Result<Case> read = read_case(*lead);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(*read, f.original);
-  ASSERT_TRUE(corpus.add(f));
-  EXPECT_FALSE(std::filesystem::exists(*lead));
+  Lead lead{"seed_1", f.original, {}};
+  ASSERT_TRUE(keep_lead(corpus, lead));
+  std::vector<Issue> damaged;
+  EXPECT_EQ(leads_of(corpus, damaged), std::vector<Lead>{lead});
+  lead.minimal = f.minimal;
+  ASSERT_TRUE(keep_lead(corpus, lead));
+  EXPECT_EQ(leads_of(corpus, damaged), std::vector<Lead>{lead});
+  drop_lead(corpus, lead);
+  EXPECT_TRUE(damaged.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(corpus.folder() + "/leads"));
+}
+
+TEST(Leads, ThatCannotBeReadAreReportedAndTheOthersGiven) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const Lead lead{"seed_1", found(160, 40, 1).original, {}};
+  ASSERT_TRUE(keep_lead(corpus, lead));
+  spill(corpus.folder() + "/leads/seed_1/odd.json", "{");
+  std::vector<Issue> damaged;
+  EXPECT_EQ(leads_of(corpus, damaged), std::vector<Lead>{lead});
+  EXPECT_EQ(damaged.size(), 1U);
 }
 
 // Root may write everywhere, so what is in the way here are files where folders should be, and folders for files.
@@ -227,8 +241,6 @@ TEST(CorpusUnwritable, ABucketFolderThatCannotBeMadeLosesNothing) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
   const Found f = found(160, 40, 1);
-  const Result<std::string> lead = corpus.add_lead(f.original);
-  ASSERT_TRUE(lead);
   Bucket bucket;
   bucket.check = "joint_range";
   bucket.id = bucket_id(family_of(f.minimal), features_of(f.minimal.spec));
@@ -236,24 +248,20 @@ TEST(CorpusUnwritable, ABucketFolderThatCannotBeMadeLosesNothing) {
   const auto added = corpus.add(f);
   ASSERT_FALSE(added);
   EXPECT_EQ(added.issue().code, "file.unwritable");
-  EXPECT_TRUE(std::filesystem::exists(*lead));
   EXPECT_EQ(slurp(corpus.folder_of(bucket)), "in the way");
 }
 
-TEST(CorpusUnwritable, ABucketFileThatCannotBeReplacedKeepsTheLeadAndTheOldCases) {
+TEST(CorpusUnwritable, ABucketFileThatCannotBeReplacedKeepsTheOldCases) {
   const TempFolder folder;
   const Corpus corpus = create(folder);
   const auto added = corpus.add(found(160, 40, 1));
   ASSERT_TRUE(added);
   const Found better = found(155, 30, 2);
-  const Result<std::string> lead = corpus.add_lead(better.original);
-  ASSERT_TRUE(lead);
   const std::string blocked = added->bucket + "/min-" + spec_id(better.minimal.spec).substr(0, 16) + ".json";
   std::filesystem::create_directories(blocked + "/x");
   const auto refused = corpus.add(better);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.issue().code, "file.unwritable");
-  EXPECT_TRUE(std::filesystem::exists(*lead));
   const Bucket bucket = only_bucket(corpus);
   for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) stored(corpus, bucket, file);
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corpus/replay.h"
+#include "corpus/runs.h"
 #include "fuzz/parallel.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/temp_folder.h"
@@ -81,7 +82,7 @@ void expect_bucket_is_sound(const Corpus& corpus, const Bucket& bucket) {
   EXPECT_FALSE(cheaper(orig.spec, min.spec)) << bucket.id;
   EXPECT_EQ(min.provenance.shrunk_from, spec_id(orig.spec)) << bucket.id;
   EXPECT_EQ(bucket_id(bucket.family, features_of(min.spec)), bucket.id);
-  EXPECT_EQ(bucket.seen.size(), 1U);
+  EXPECT_EQ(bucket.runs.size(), 1U);
 }
 
 class Runs : public testing::Test {
@@ -146,19 +147,22 @@ TEST_F(Runs, CountWhatTheyDid) {
   for (const auto& [what, count] : result.tested)
     if (what.rfind("character ", 0) == 0) characters += count;
   EXPECT_EQ(characters, 40);
-  for (const Bucket& bucket : buckets_of(corpus))
-    for (const auto& [run_name, seen] : bucket.seen) EXPECT_EQ(seen, result.families.at(bucket.family)) << run_name;
 }
 
 TEST_F(Runs, AreRecordedInTheCorpus) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run(config_of(20, 2), corpus);
   std::vector<Issue> damaged;
-  const std::vector<RunRecord> records = corpus.runs(damaged);
+  const std::vector<RunRecord> records = runs_of(corpus, damaged);
   ASSERT_EQ(records.size(), 1U);
   EXPECT_EQ(records[0].cases, 20);
   EXPECT_EQ(records[0].frames, result.totals.frames);
   EXPECT_EQ(records[0].tested, result.tested);
+  ASSERT_EQ(records[0].families.size(), result.families.size());
+  for (const auto& [family, count] : records[0].families) {
+    EXPECT_EQ(count.cases, result.families.at(family));
+    EXPECT_LT(count.first_index, 20);
+  }
 }
 
 TEST_F(Runs, OfDifferentCharactersAreDifferentRuns) {
@@ -169,7 +173,7 @@ TEST_F(Runs, OfDifferentCharactersAreDifferentRuns) {
     run(config, corpus);
   }
   std::vector<Issue> damaged;
-  EXPECT_EQ(corpus.runs(damaged).size(), 2U);
+  EXPECT_EQ(runs_of(corpus, damaged).size(), 2U);
 }
 
 TEST_F(Runs, OfNoCasesLeaveAnEmptyCorpus) {

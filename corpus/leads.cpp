@@ -1,0 +1,81 @@
+#include "corpus/leads.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "generator/core/files.h"
+
+namespace contort {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kMinimal = "-min.json";
+
+std::string folder_of(const Corpus& corpus, const Lead& lead) { return corpus.folder() + "/leads/" + lead.run; }
+
+// Indices in file names have equal length, so that names sort as indices do.
+std::string stem_of(const Lead& lead) {
+  std::string index = std::to_string(lead.original.provenance.index);
+  index.insert(0, 16 - std::min<std::size_t>(16, index.size()), '0');
+  return bucket_id(family_of(lead.original), "") + "-" + index;
+}
+
+std::vector<std::string> case_files(const Corpus& corpus) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(corpus.folder() + "/leads", error))
+    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+// `path` is the original's.
+Result<Lead> read_lead(const std::string& path) {
+  Result<Case> original = read_case(path);
+  if (!original) return original.issue();
+  Lead lead{fs::path(path).parent_path().filename().string(), std::move(original).value(), {}};
+  const std::string minimal = path.substr(0, path.size() - 5) + std::string(kMinimal);
+  if (std::error_code error; !fs::exists(minimal, error)) return lead;
+  Result<Case> smaller = read_case(minimal);
+  if (!smaller) return smaller.issue();
+  lead.minimal = std::move(smaller).value();
+  return lead;
+}
+
+}  // namespace
+
+Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
+  const std::string folder = folder_of(corpus, lead);
+  if (const Result<Done> made = make_folder(folder); !made) return made.issue();
+  const std::string stem = folder + "/" + stem_of(lead);
+  if (const Result<Done> kept = write_file(stem + ".json", print_case(lead.original)); !kept) return kept.issue();
+  if (lead.minimal)
+    if (const Result<Done> kept = write_file(stem + std::string(kMinimal), print_case(*lead.minimal)); !kept)
+      return kept.issue();
+  return stem + ".json";
+}
+
+std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
+  std::vector<Lead> all;
+  for (const std::string& path : case_files(corpus)) {
+    if (path.ends_with(kMinimal)) continue;
+    Result<Lead> lead = read_lead(path);
+    if (lead)
+      all.push_back(std::move(lead).value());
+    else
+      damaged.push_back(lead.issue());
+  }
+  return all;
+}
+
+void drop_lead(const Corpus& corpus, const Lead& lead) {
+  std::error_code ignored;
+  const std::string stem = folder_of(corpus, lead) + "/" + stem_of(lead);
+  fs::remove(stem + std::string(kMinimal), ignored);
+  fs::remove(stem + ".json", ignored);
+  fs::remove(folder_of(corpus, lead), ignored);  // only an empty folder goes
+}
+
+}  // namespace contort

@@ -1,0 +1,33 @@
+// A failure on its way into a bucket, as case files that can be replayed:
+//
+//   DIR/leads/<run>/<family12>-<index>.json       as it was drawn; written as soon as it is wanted
+//                   <family12>-<index>-min.json   what it was shrunk to
+//
+// So a kill loses nothing, and a shard can hand over what it found.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/corpus.h"
+
+namespace contort {
+
+struct Lead {
+  std::string run;
+  Case original;                // provenance.index: which case of the run
+  std::optional<Case> minimal;  // once it was shrunk
+  bool operator==(const Lead&) const = default;
+};
+
+// Writes what it has; the path of the original.
+Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
+
+// By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.
+std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged);
+
+// Once its bucket holds it. The folder of a run goes with its last lead.
+void drop_lead(const Corpus& corpus, const Lead& lead);
+
+}  // namespace contort

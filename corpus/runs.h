@@ -1,0 +1,53 @@
+// What a run did, and which failures it met: DIR/runs/<run>.json. Counts add up over the shards of a run.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corpus/corpus.h"
+
+namespace contort {
+
+// How often a family was seen, and where first. The first index of all families together is the discovery curve.
+struct FamilyCount {
+  std::int64_t cases = 0;
+  std::int64_t first_index = 0;
+  bool operator==(const FamilyCount&) const = default;
+};
+
+// What one way of drawing cases found.
+struct ArmCount {
+  std::int64_t cases = 0;
+  std::int64_t failing = 0;
+  std::int64_t families = 0;  // that it was the first to see
+  bool operator==(const ArmCount&) const = default;
+};
+
+// Nothing in it depends on time or machine. `shard` of `shards` ran; a whole run is shard 0 of 1.
+struct RunRecord {
+  std::string name;  // "seed_7_0123abcd"
+  std::string tool;
+  int shard = 0;
+  int shards = 1;
+  std::int64_t cases = 0;
+  std::int64_t frames = 0;
+  std::int64_t failing = 0;                     // cases with at least one finding
+  std::int64_t discarded = 0;                   // drawn specs that did not build: a fault of the draw
+  std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
+  std::map<std::string, FamilyCount> families;  // family_of(Case)
+  std::map<std::string, ArmCount> arms;         // "uniform", "guided"
+  bool operator==(const RunRecord&) const = default;
+};
+
+// "seed_7_0123abcd", of a shard "seed_7_0123abcd.shard_3_of_16".
+std::string record_name(const RunRecord& run);
+
+// Keeps the record unless one of the same name with more cases is there.
+Result<Done> keep_run(const Corpus& corpus, const RunRecord& run);
+
+// By file name. Files that cannot be read are reported in `damaged`.
+std::vector<RunRecord> runs_of(const Corpus& corpus, std::vector<Issue>& damaged);
+
+}  // namespace contort
