@@ -50,6 +50,7 @@ void add_shrink(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_import(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_merge(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_tables(CLI::App& app, Context& context);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "cli/commands.h"
@@ -11,6 +12,7 @@
 #include "cli/print.h"
 #include "cli/report.h"
 #include "fuzz/run.h"
+#include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -26,6 +28,11 @@ struct Options {
   std::string time;
   std::int64_t seed = 1;
   int jobs = 0;
+  std::string shard;
+  std::string profile;
+  bool resume = false;
+  double case_timeout_s = 10.0;
+  std::int64_t memory_mb = 4096;
   int shrinks_per_family = 2;
   int shrink_evaluations = 300;
   std::string corpus = "contort-out/corpus";
@@ -58,20 +65,56 @@ class ProgressLine {
   bool shown_;
 };
 
-Result<RunConfig> configure(const Options& options, const CheckSettings& settings, const Library& library) {
-  RunConfig config;
-  config.checks = settings;
-  config.draw.characters = options.characters;
-  if (config.draw.characters.empty())
-    for (const auto& [name, desc] : library.characters) config.draw.characters.push_back(name);
-  for (const std::string& name : config.draw.characters)
+// The characters of the command line, else of the profile, else all.
+Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& library) {
+  DrawConfig draw;
+  if (!options.profile.empty()) {
+    Result<Profile> profile = load_profile(options.profile);
+    if (!profile) return profile.issue();
+    if (const Result<Done> known = validate(*profile, library); !known) return known.issue();
+    draw.profile = std::move(profile).value();
+  }
+  draw.characters = options.characters.empty() ? draw.profile.characters : options.characters;
+  if (draw.characters.empty())
+    for (const auto& [name, desc] : library.characters) draw.characters.push_back(name);
+  for (const std::string& name : draw.characters)
     if (const auto built = build_character({name, {}, {}}, library); !built) return built.issue();
-  if (!options.time.empty()) {
-    const Result<double> time_s = parse_time_s(options.time);
+  return draw;
+}
+
+// What the command line says, else the profile.
+Result<Done> choose_how_long(const Options& options, RunConfig& config) {
+  const Profile& profile = config.draw.profile;
+  const bool says_nothing = options.cases < 0 && options.time.empty();
+  const std::string& time = says_nothing ? profile.time : options.time;
+  if (!time.empty()) {
+    const Result<double> time_s = parse_time_s(time);
     if (!time_s) return time_s.issue();
     config.time_s = *time_s;
   }
-  config.cases = options.cases >= 0 ? options.cases : options.time.empty() ? 2000 : -1;
+  config.cases = options.cases >= 0 ? options.cases : !time.empty() ? -1 : profile.cases > 0 ? profile.cases : 2000;
+  return Done{};
+}
+
+Result<Shard> choose_shard(const Options& options) {
+  if (!options.shard.empty()) return parse_shard(options.shard);
+  const Result<std::optional<Shard>> said = shard_of_environment([](const char* name) { return std::getenv(name); });
+  if (!said) return said.issue();
+  return said->value_or(Shard{});
+}
+
+Result<RunConfig> configure(const Options& options, const CheckSettings& settings, const Library& library) {
+  RunConfig config;
+  config.checks = settings;
+  Result<DrawConfig> draw = choose_what_is_drawn(options, library);
+  if (!draw) return draw.issue();
+  config.draw = std::move(draw).value();
+  if (const Result<Done> chosen = choose_how_long(options, config); !chosen) return chosen.issue();
+  const Result<Shard> shard = choose_shard(options);
+  if (!shard) return shard.issue();
+  config.shard = *shard;
+  config.resume = options.resume;
+  config.limits = {options.case_timeout_s, options.memory_mb << 20};
   config.seed = options.seed;
   config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   config.shrinks_per_family = options.shrinks_per_family;
@@ -91,18 +134,27 @@ void print_found(const RunResult& result, const std::vector<std::string>& librar
 
 void print_totals(const RunResult& result, const Options& options, const CheckSettings& settings,
                   const std::vector<std::string>& library_folders) {
-  const RunProgress& t = result.totals;
+  const RunRecord& t = result.record;
   if (options.json) {
+    json_fields::Json families = json_fields::Json::object(), arms = json_fields::Json::object();
+    for (const auto& [family, count] : t.families) families[family] = count.cases;
+    for (const auto& [arm, count] : t.arms)
+      arms[arm] = {{"cases", count.cases}, {"failing", count.failing}, {"families", 0}};
+    for (const auto& [family, count] : t.families)
+      if (arms.contains(count.first_arm)) arms[count.first_arm]["families"] = arms[count.first_arm]["families"].get<int>() + 1;
     json_fields::Json out = {{"cases", t.cases},
                              {"frames", t.frames},
                              {"failing", t.failing},
-                             {"families", result.families},
+                             {"families", families},
+                             {"arms", arms},
+                             {"shard", t.shard},
+                             {"shards", t.shards},
                              {"new_buckets", result.new_buckets},
                              {"known_buckets", result.known_buckets},
                              {"unconfirmed", result.unconfirmed},
-                             {"discarded", result.discarded},
+                             {"discarded", t.discarded},
                              {"waivers", json_fields::Json::parse(waivers_json(settings, result.waivers))},
-                             {"tested", result.tested}};
+                             {"tested", t.tested}};
     if (!options.report.empty()) out["report"] = options.report + "/index.html";
     std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
     return;
@@ -110,23 +162,27 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
   print_found(result, library_folders);
   for (const std::string& line : waiver_lines(settings, result.waivers)) std::printf("%s\n", line.c_str());
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
-              static_cast<long long>(t.cases), static_cast<long long>(t.frames), t.elapsed_s,
-              static_cast<long long>(t.failing), result.families.size(), options.corpus.c_str());
+              static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
+              static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
+  if (t.shards > 1)
+    std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
+                options.corpus.c_str());
 }
 
 // The last line, whatever else was printed.
 void print_result(const RunResult& result) {
-  const RunProgress& t = result.totals;
+  const RunRecord& t = result.record;
   std::printf("RESULT findings=%lld new=%zu known=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
               static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(),
-              result.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
+              t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
               static_cast<long long>(t.frames));
 }
 
 int exit_code_of(const RunResult& result) {
+  if (result.issue.code == "run.busy" || result.issue.code == "state.other_plan") return kBadInput;
   if (!result.issue.code.empty()) return kInternal;
   if (result.interrupted) return kInterrupted;
-  if (!result.unconfirmed.empty() || result.discarded > 0) return kInconclusive;
+  if (!result.unconfirmed.empty() || result.record.discarded > 0) return kInconclusive;
   return result.new_buckets.empty() && result.known_buckets.empty() ? kClean : kFindings;
 }
 
@@ -137,20 +193,23 @@ void run(const Options& options, Context& context) {
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
-  const Result<RunConfig> config = configure(options, *settings, *library);
-  if (!config) return context.fail(config.issue());
+  Result<RunConfig> configured = configure(options, *settings, *library);
+  if (!configured) return context.fail(configured.issue());
+  RunConfig config = std::move(configured).value();
+  if (!context.settings_file.empty())
+    if (const Result<std::string> text = read_file(context.settings_file)) config.settings = *text;
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
-  ProgressLine line(*config);
+  ProgressLine line(config);
   const RunResult result = run_fuzz(
-      *config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
+      config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
   line.clear();
   context.exit_code = exit_code_of(result);
   print_totals(result, options, *settings, context.library_folders);
-  if (!result.issue.code.empty()) context.fail(result.issue, kInternal);
-  if (result.discarded > 0)
+  if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(exit_code_of(result)));
+  if (result.record.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
-                 static_cast<long long>(result.discarded));
+                 static_cast<long long>(result.record.discarded));
   if (!options.report.empty()) make_report({options.corpus, options.report, !options.json}, *library, context);
   if (!options.json) print_result(result);
 }
@@ -168,7 +227,19 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--seed", options->seed, "Case i is a function of the seed and i")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", options->jobs, "Worker processes (default: one per core)")->check(CLI::Range(1, 1024));
+  command->add_option("--profile", options->profile,
+                      "What is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
+  command->add_option("--shard", options->shard,
+                      "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or CI_NODE_ "
+                      "variables say)");
+  command->add_flag("--resume", options->resume, "Go on where a run with the same options was killed");
+  command->add_option("--case-timeout", options->case_timeout_s, "Seconds for one case; a longer one is a finding")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  command->add_option("--memory-limit", options->memory_mb, "MB for one worker; a case that needs more is a finding")
+      ->check(CLI::Range(64, 1 << 20))
+      ->capture_default_str();
   command
       ->add_option("--shrinks-per-family", options->shrinks_per_family,
                    "Failures of one family that are shrunk and stored")

@@ -216,6 +216,8 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
   if (const auto kept = files.put_pair({found.minimal, found.original}, bucket); !kept) return kept.issue();
   for (const Case* shown : {&found.original, &found.minimal})
     if (const auto kept = files.put_worst(*shown, bucket); !kept) return kept.issue();
+  if (found.worst)
+    if (const auto kept = files.put_worst(*found.worst, bucket); !kept) return kept.issue();
   if (const auto at = std::ranges::lower_bound(bucket.runs, found.run); at == bucket.runs.end() || *at != found.run)
     bucket.runs.insert(at, found.run);
   if (const auto written = write_file(folder + "/bucket.json", json_fields::write_pretty(bucket)); !written)

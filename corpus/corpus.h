@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct Found {
   Case minimal;
   Case original;
   std::string run;  // name of the run for Bucket::runs
+  std::optional<Case> worst{};  // another one that may be deeper than both
 };
 
 class Corpus {

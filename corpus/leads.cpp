@@ -13,13 +13,17 @@ namespace {
 
 constexpr std::string_view kMinimal = "-min.json";
 
-std::string folder_of(const Corpus& corpus, const Lead& lead) { return corpus.folder() + "/leads/" + lead.run; }
+std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
 
-// Indices in file names have equal length, so that names sort as indices do.
-std::string stem_of(const Lead& lead) {
-  std::string index = std::to_string(lead.original.provenance.index);
-  index.insert(0, 16 - std::min<std::size_t>(16, index.size()), '0');
-  return bucket_id(family_of(lead.original), "") + "-" + index;
+// Without ".json". Indices in file names have equal length, so that names sort as indices do.
+std::string stem_of(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index) {
+  std::string digits = std::to_string(index);
+  digits.insert(0, 16 - std::min<std::size_t>(16, digits.size()), '0');
+  return folder_of(corpus, run) + "/" + bucket_id(family, "") + "-" + digits;
+}
+
+std::string stem_of(const Corpus& corpus, const Lead& lead) {
+  return stem_of(corpus, lead.run, family_of(lead.original), lead.original.provenance.index);
 }
 
 std::vector<std::string> case_files(const Corpus& corpus) {
@@ -31,7 +35,8 @@ std::vector<std::string> case_files(const Corpus& corpus) {
   return paths;
 }
 
-// `path` is the original's.
+}  // namespace
+
 Result<Lead> read_lead(const std::string& path) {
   Result<Case> original = read_case(path);
   if (!original) return original.issue();
@@ -44,12 +49,13 @@ Result<Lead> read_lead(const std::string& path) {
   return lead;
 }
 
-}  // namespace
+std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index) {
+  return stem_of(corpus, run, family, index) + ".json";
+}
 
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
-  const std::string folder = folder_of(corpus, lead);
-  if (const Result<Done> made = make_folder(folder); !made) return made.issue();
-  const std::string stem = folder + "/" + stem_of(lead);
+  if (const Result<Done> made = make_folder(folder_of(corpus, lead.run)); !made) return made.issue();
+  const std::string stem = stem_of(corpus, lead);
   if (const Result<Done> kept = write_file(stem + ".json", print_case(lead.original)); !kept) return kept.issue();
   if (lead.minimal)
     if (const Result<Done> kept = write_file(stem + std::string(kMinimal), print_case(*lead.minimal)); !kept)
@@ -70,12 +76,23 @@ std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
   return all;
 }
 
+Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
+  if (!lead.minimal) return Issue{"lead.not_shrunk", "", stem_of(corpus, lead) + ".json is not shrunk yet"};
+  Result<Corpus::Added> added = corpus.add({*lead.minimal, lead.original, lead.run});
+  if (added) drop_lead(corpus, lead);
+  return added;
+}
+
 void drop_lead(const Corpus& corpus, const Lead& lead) {
   std::error_code ignored;
-  const std::string stem = folder_of(corpus, lead) + "/" + stem_of(lead);
+  const std::string stem = stem_of(corpus, lead);
   fs::remove(stem + std::string(kMinimal), ignored);
   fs::remove(stem + ".json", ignored);
-  fs::remove(folder_of(corpus, lead), ignored);  // only an empty folder goes
+}
+
+void tidy_leads(const Corpus& corpus, const std::string& run) {
+  std::error_code ignored;
+  fs::remove(folder_of(corpus, run), ignored);  // only an empty folder goes
 }
 
 }  // namespace contort

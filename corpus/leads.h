@@ -6,6 +6,7 @@
 // So a kill loses nothing, and a shard can hand over what it found.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +25,21 @@ struct Lead {
 // Writes what it has; the path of the original.
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 
+// `path` is the original's.
+Result<Lead> read_lead(const std::string& path);
+
+// Where the original of a lead is.
+std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index);
+
 // By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.
 std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged);
 
-// Once its bucket holds it. The folder of a run goes with its last lead.
+// Puts a shrunk lead into its bucket and drops it.
+Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead);
+
 void drop_lead(const Corpus& corpus, const Lead& lead);
+
+// Removes the folder of a run that has no leads left and writes no more.
+void tidy_leads(const Corpus& corpus, const std::string& run);
 
 }  // namespace contort

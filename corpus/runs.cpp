@@ -3,53 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "corpus/run_fields.h"
 #include "generator/core/files.h"
-#include "generator/core/json_fields.h"
 
 namespace contort {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-using json_fields::Text;
-
-const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
-const json_fields::Rule kLabel{.text = Text::label, .may_be_empty = true};
-constexpr std::size_t kMostEntries = 1'000'000;
-
-}  // namespace
-
-template <class V>
-void fields(V& v, const FamilyCount*) {
-  v.field("cases", &FamilyCount::cases, kTotal, "Cases that showed it.");
-  v.field("first_index", &FamilyCount::first_index, kTotal, "The first of them.");
-}
-
-template <class V>
-void fields(V& v, const ArmCount*) {
-  v.field("cases", &ArmCount::cases, kTotal, "Cases that were drawn in this way.");
-  v.field("failing", &ArmCount::failing, kTotal, "Of these with at least one finding.");
-  v.field("families", &ArmCount::families, kTotal, "Families that it was the first to see.");
-}
-
-template <class V>
-void fields(V& v, const RunRecord*) {
-  v.constant("format", "contort.run/2");
-  v.field("name", &RunRecord::name, {.required = true}, "Name of the run.");
-  v.field("tool", &RunRecord::tool, kLabel, "Version.");
-  v.field("shard", &RunRecord::shard, {.low = 0, .high = 63}, "Which share of the run, from 0.");
-  v.field("shards", &RunRecord::shards, {.low = 1, .high = 64}, "Of how many.");
-  v.field("cases", &RunRecord::cases, kTotal, "Cases that ran.");
-  v.field("frames", &RunRecord::frames, kTotal, "Frames that they had.");
-  v.field("failing", &RunRecord::failing, kTotal, "Cases with at least one finding.");
-  v.field("discarded", &RunRecord::discarded, kTotal, "Drawn specs that did not build.");
-  v.field("tested", &RunRecord::tested, {.low = 0, .high = 0x1p53, .max_count = kMostEntries, .key_text = Text::label},
-          "What the cases were made of.");
-  v.field("families", &RunRecord::families, {.max_count = kMostEntries, .key_text = Text::prose},
-          "Failures, by family.");
-  v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");
-}
 
 std::string record_name(const RunRecord& run) {
   if (run.shards == 1) return run.name;
@@ -68,10 +27,45 @@ Result<RunRecord> read_run(const std::string& path) {
   return issue;
 }
 
+std::string path_of(const Corpus& corpus, const RunRecord& run) {
+  return corpus.folder() + "/runs/" + record_name(run) + ".json";
+}
+
+void add_families(const RunRecord& shard, RunRecord& sum) {
+  for (const auto& [family, count] : shard.families) {
+    FamilyCount& all = sum.families.try_emplace(family, FamilyCount{0, count.first_index, count.first_arm}).first->second;
+    all.cases += count.cases;
+    if (count.first_index >= all.first_index) continue;
+    all.first_index = count.first_index, all.first_arm = count.first_arm;
+  }
+}
+
 }  // namespace
 
+RunRecord added_up(const std::vector<RunRecord>& shards) {
+  RunRecord sum;
+  sum.name = shards.front().name, sum.tool = shards.front().tool;
+  sum.shrinks_per_family = shards.front().shrinks_per_family;
+  for (const RunRecord& shard : shards) {
+    sum.cases += shard.cases, sum.frames += shard.frames, sum.failing += shard.failing;
+    sum.discarded += shard.discarded;
+    for (const auto& [label, count] : shard.tested) sum.tested[label] += count;
+    add_families(shard, sum);
+    for (const auto& [arm, count] : shard.arms) {
+      sum.arms[arm].cases += count.cases;
+      sum.arms[arm].failing += count.failing;
+    }
+  }
+  return sum;
+}
+
+void drop_run(const Corpus& corpus, const RunRecord& run) {
+  std::error_code ignored;
+  fs::remove(path_of(corpus, run), ignored);
+}
+
 Result<Done> keep_run(const Corpus& corpus, const RunRecord& run) {
-  const std::string path = corpus.folder() + "/runs/" + record_name(run) + ".json";
+  const std::string path = path_of(corpus, run);
   std::error_code error;
   if (fs::exists(path, error))
     if (const Result<RunRecord> present = read_run(path); present && present->cases > run.cases) return Done{};

@@ -14,6 +14,7 @@ namespace contort {
 struct FamilyCount {
   std::int64_t cases = 0;
   std::int64_t first_index = 0;
+  std::string first_arm;  // "guided": how that case was drawn
   bool operator==(const FamilyCount&) const = default;
 };
 
@@ -21,7 +22,6 @@ struct FamilyCount {
 struct ArmCount {
   std::int64_t cases = 0;
   std::int64_t failing = 0;
-  std::int64_t families = 0;  // that it was the first to see
   bool operator==(const ArmCount&) const = default;
 };
 
@@ -31,6 +31,7 @@ struct RunRecord {
   std::string tool;
   int shard = 0;
   int shards = 1;
+  int shrinks_per_family = 2;  // the first so many cases of a family go into buckets
   std::int64_t cases = 0;
   std::int64_t frames = 0;
   std::int64_t failing = 0;                     // cases with at least one finding
@@ -44,8 +45,13 @@ struct RunRecord {
 // "seed_7_0123abcd", of a shard "seed_7_0123abcd.shard_3_of_16".
 std::string record_name(const RunRecord& run);
 
+void drop_run(const Corpus& corpus, const RunRecord& run);
+
 // Keeps the record unless one of the same name with more cases is there.
 Result<Done> keep_run(const Corpus& corpus, const RunRecord& run);
+
+// The sum of all shards of one run; there must be at least one.
+RunRecord added_up(const std::vector<RunRecord>& shards);
 
 // By file name. Files that cannot be read are reported in `damaged`.
 std::vector<RunRecord> runs_of(const Corpus& corpus, std::vector<Issue>& damaged);

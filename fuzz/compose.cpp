@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/compose_dynamics.h"
+#include "fuzz/features.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
 #include "generator/core/detmath.h"
@@ -16,13 +18,16 @@ namespace {
 constexpr int kTimeToReturn = 50;  // frames in which a figure may come back to its target
 
 // Mostly the default, else one of a few: 0.5, 2, 0.8, 1.25.
-double speed_of(int raw) {
+double speed_of(int raw, const Features& features) {
+  if (!features.profile().speeds || features.omits("speed")) return 1.0;
   constexpr double kSpeeds[] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5, 2.0, 0.8, 1.25};
   return kSpeeds[pick(raw, std::size(kSpeeds))];
 }
 
 // Half of the blends are at once; the others take up to 20 frames.
-int blend_of(int raw) { return std::max(0, between(raw, -20, 20)); }
+int blend_of(int raw, const Features& features) {
+  return features.omits("blend") ? 0 : std::max(0, between(raw, -20, 20));
+}
 
 // On the lattice, and never beyond the ends.
 double within(double value, double steps_per_unit, double low, double high) {
@@ -42,11 +47,15 @@ Vec3 on_lattice(const Vec3& v, double steps_per_unit) {
 // values.
 class Values {
  public:
-  explicit Values(const std::array<int, kRawValues>& raw) : raw_(raw) {}
+  Values(const std::array<int, kRawValues>& raw, double range) : raw_(raw), range_(range) {}
   double next() { return fraction(raw_[used_++ % kRawValues]); }
+  // A place in a joint's range, within the share of it that the profile allows.
+  double next_in_range() { return range_ == 1.0 ? next() : 0.5 + range_ * (next() - 0.5); }
+  double range() const { return range_; }
 
  private:
   const std::array<int, kRawValues>& raw_;
+  double range_;
   std::size_t used_ = 0;
 };
 
@@ -54,18 +63,18 @@ class Values {
 // a degree over, so the draw stays 2 % inside.
 Vec3 draw_ball_deg(const Joint& joint, Values& values) {
   const det::SinCos around = det::sincos(2.0 * kPi * values.next());
-  const double radius = 0.98 * std::sqrt(values.next());  // even over the ellipse
+  const double radius = 0.98 * values.range() * std::sqrt(values.next());  // even over the ellipse
   const Vec3 other = glm::cross(joint.axis, joint.swing_axis);
   const Vec3 swing =
       radius * (joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other);
-  const double twist = 0.98 * (joint.low + (joint.high - joint.low) * values.next());
+  const double twist = 0.98 * (joint.low + (joint.high - joint.low) * values.next_in_range());
   const Quat q = joint.swing_center * from_rotation_vector(swing) * axis_angle(joint.axis, twist);
   return on_lattice(to_rotation_vector(q) * kDegPerRad, 1.0);
 }
 
 ParamValue draw_joint(const Joint& joint, Values& values) {
   if (joint.kind == JointKind::ball) return draw_ball_deg(joint, values);
-  const double value = joint.low + (joint.high - joint.low) * values.next();
+  const double value = joint.low + (joint.high - joint.low) * values.next_in_range();
   if (joint.kind == JointKind::prismatic) return within(value, 100.0, joint.low, joint.high);
   return within(value * kDegPerRad, 1.0, joint.low * kDegPerRad, joint.high * kDegPerRad);
 }
@@ -130,60 +139,82 @@ void draw_params(const Character& character, const Part& part, const Action& act
   }
 }
 
-std::vector<const Part*> movable_parts(const Character& character) {
+// What may be moved, and by what.
+struct Stock {
+  const Character& character;
+  const Features& features;
   std::vector<const Part*> parts;
+
+  std::vector<Action> actions(const Part& part) const {
+    return features.among(actions_of(character, part), "action", features.profile().actions,
+                          [](const Action& action) { return std::string_view(action.name); });
+  }
+};
+
+Stock stock_of(const Character& character, const Features& features) {
+  Stock all{character, features, {}};
   for (const Part& part : character.parts())
-    if (!actions_of(character, part).empty()) parts.push_back(&part);
-  return parts;
+    if (!all.actions(part).empty()) all.parts.push_back(&part);
+  all.parts = features.among(all.parts, "slot", features.profile().slots,
+                             [](const Part* part) { return std::string_view(part->slot); });
+  return all;
 }
 
-ActionUse compose_action(const RawAction& raw, const Character& character, const std::vector<const Part*>& parts) {
-  const Part& part = *parts[pick(raw.slot, parts.size())];
-  const std::vector<Action> actions = actions_of(character, part);
+ActionUse compose_action(const RawAction& raw, const Stock& stock) {
+  const Part& part = *stock.parts[pick(raw.slot, stock.parts.size())];
+  const std::vector<Action> actions = stock.actions(part);
   const Action& action = actions[pick(raw.action, actions.size())];
   ActionUse use;
   use.action = action.name;
   use.slot = part.slot;
   use.start_frame = between(raw.start, 0, 40);
-  use.duration_frames = between(raw.duration, 6, 90);
-  use.speed = speed_of(raw.speed);
-  if (action.def->timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in);
-  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out);
-  draw_params(character, part, action, Values(raw.values), use);
+  const Profile& profile = stock.features.profile();
+  use.duration_frames = between(raw.duration, profile.shortest_frames, profile.longest_frames);
+  use.speed = speed_of(raw.speed, stock.features);
+  if (action.def->timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in, stock.features);
+  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out, stock.features);
+  draw_params(stock.character, part, action, Values(raw.values, profile.range), use);
   return use;
 }
 
-ClipDesc compose_clip(const RawClip& raw, const Character& character, const std::vector<const Part*>& parts) {
+ClipDesc compose_clip(const RawClip& raw, const Stock& stock) {
   ClipDesc clip;
   clip.start_frame = between(raw.start, 0, 30);
-  clip.speed = speed_of(raw.speed);
-  if (pick(raw.stretch, 5) == 0) clip.duration_frames = between(raw.stretch * 5 % (kLattice + 1), 20, 120);
-  for (const RawAction& action : raw.actions) clip.actions.push_back(compose_action(action, character, parts));
+  clip.speed = speed_of(raw.speed, stock.features);
+  const bool may_stretch = stock.features.profile().speeds && !stock.features.omits("stretch");
+  if (pick(raw.stretch, 5) == 0 && may_stretch)
+    clip.duration_frames = between(raw.stretch * 5 % (kLattice + 1), 20, 120);
+  for (const RawAction& action : raw.actions) clip.actions.push_back(compose_action(action, stock));
   return clip;
 }
 
-CharacterChoice compose_character(const RawSpec& raw, const std::string& name, const Library& library) {
+CharacterChoice compose_character(const RawSpec& raw, const std::string& name, const Features& features,
+                                  const Library& library) {
   const CharacterDesc& desc = library.characters.at(name);
   CharacterChoice choice;
   choice.name = name;
+  const double odds = features.omits("swap") ? 0.0 : features.profile().swaps;
   for (std::size_t i = 0; i < desc.slots.size(); ++i) {
     const SlotDesc& slot = desc.slots[i];
     const int raw_part = raw.parts[i % kRawParts];
-    // Half of the slots keep their default, so that a swap is a difference and not the rule.
-    if (slot.parts.size() < 2 || raw_part < kLattice / 2) continue;
-    const std::size_t option = pick((raw_part - kLattice / 2) * 2, slot.parts.size());
+    const int keeps = static_cast<int>((1.0 - odds) * kLattice);
+    if (slot.parts.size() < 2 || raw_part < keeps || odds == 0.0) continue;
+    const std::size_t option = pick(static_cast<int>((raw_part - keeps) / odds), slot.parts.size());
     if (option > 0) choice.parts[slot.name] = slot.parts[option];
   }
   return choice;
 }
 
-// Attaches each object with odds of one in three, at one of the sockets that it is made for.
-void compose_attachments(const RawSpec& raw, const Library& library, CharacterChoice& choice) {
+// Attaches each object with the odds of the profile, at one of the sockets that it is made for.
+void compose_attachments(const RawSpec& raw, const Features& features, const Library& library,
+                         CharacterChoice& choice) {
+  const double odds = features.profile().objects;
   const Result<Character> bare = build_character(choice, library);
   const CharacterDesc& desc = library.characters.at(choice.name);
   for (std::size_t i = 0; bare && i < desc.objects.size() && i < kRawObjects; ++i) {
     const auto object = library.objects.find(desc.objects[i]);
-    if (raw.objects[i] >= kLattice / 3 || object == library.objects.end()) continue;
+    if (!happens(raw.objects[i], odds) || object == library.objects.end()) continue;
+    if (features.omits("object", object->first)) continue;
     std::vector<AttachmentDesc> places;
     for (const Socket& socket : bare->sockets()) {
       const std::size_t slash = socket.name.find('/');
@@ -196,18 +227,21 @@ void compose_attachments(const RawSpec& raw, const Library& library, CharacterCh
   }
 }
 
-SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Character& character,
-                              const std::vector<const Part*>& parts) {
+SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Stock& stock) {
   SequenceDesc sequence;
   for (const RawClip& clip : raw)
-    if (!parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, character, parts));
+    if (!stock.parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, stock));
   return sequence;
 }
 
 // Half of the grounds are level; the others a slope, a flight of steps, or a rough field of 7 x 7 heights.
-Ground compose_ground(const std::array<int, kRawGround>& raw) {
+Ground compose_ground(const std::array<int, kRawGround>& raw, const Features& features) {
+  constexpr std::string_view kKinds[] = {"slope", "steps", "heights", "plane", "plane", "plane"};
   const double heading_deg = 15.0 * between(raw[1], -12, 12);
-  const std::size_t kind = pick(raw[0], 6);
+  const std::vector<std::string>& allowed = features.profile().grounds;
+  const std::size_t kind = pick(raw[0], std::size(kKinds));
+  const bool is_allowed = allowed.empty() || std::ranges::find(allowed, kKinds[kind]) != allowed.end();
+  if (!is_allowed || features.omits("ground", kKinds[kind])) return PlaneGround{};
   if (kind == 0) return SlopeGround{static_cast<double>(between(raw[2], 1, 25)), heading_deg};
   if (kind == 1)
     return StepsGround{heading_deg, between(raw[2], 4, 40) / 20.0, between(raw[3], 12, 30) / 50.0,
@@ -222,11 +256,11 @@ Ground compose_ground(const std::array<int, kRawGround>& raw) {
   return field;
 }
 
-// Every third spec has a wall beside or before the character.
-EnvironmentDesc compose_environment(const RawSpec& raw) {
+// Some specs have a wall beside or before the character.
+EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features) {
   EnvironmentDesc environment;
-  environment.ground = compose_ground(raw.ground);
-  if (raw.obstacle >= kLattice / 3) return environment;
+  environment.ground = compose_ground(raw.ground, features);
+  if (!happens(raw.obstacle, features.profile().obstacles) || features.omits("obstacle")) return environment;
   const double distance_m = contort::on_lattice(0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150), 100.0);
   Box wall;
   wall.center_m = Vec3(raw.obstacle % 2 == 0 ? distance_m : -distance_m, 1.0, 1.0);
@@ -278,36 +312,37 @@ ConditionDesc compose_condition(const RawInterrupt& raw, const Character& charac
   return when;
 }
 
-InterruptDesc compose_interrupt(const RawInterrupt& raw, const Character& character,
-                                const std::vector<const Part*>& parts, Spec& spec) {
+InterruptDesc compose_interrupt(const RawInterrupt& raw, const Stock& stock, Spec& spec) {
   InterruptDesc interrupt;
-  interrupt.when = compose_condition(raw, character, spec);
+  interrupt.when = compose_condition(raw, stock.character, spec);
   interrupt.enter = static_cast<Enter>(pick(raw.enter, 4));
   if (interrupt.enter == Enter::after_sequence) interrupt.after = named_sequence(spec, raw.after).name;
   interrupt.resume = pick(raw.resume, 3) > 0;
-  interrupt.sequence = compose_sequence(raw.clips, character, parts);
+  interrupt.sequence = compose_sequence(raw.clips, stock);
   return interrupt;
 }
 
 }  // namespace
 
-Spec compose(const RawSpec& raw, const std::vector<std::string>& characters, const Library& library) {
+Spec compose(const RawSpec& raw, const DrawConfig& config, const Library& library) {
+  const Features features(config.profile, raw.omitted);
+  const std::string& name = config.characters[pick(raw.character, config.characters.size())];
   Spec spec;
-  spec.character = compose_character(raw, characters[pick(raw.character, characters.size())], library);
-  compose_attachments(raw, library, spec.character);
-  spec.environment = compose_environment(raw);
+  spec.character = compose_character(raw, name, features, library);
+  compose_attachments(raw, features, library, spec.character);
+  spec.environment = compose_environment(raw, features);
   spec.hold_frames = between(raw.hold, 0, 10);
   const Result<Character> character = build_character(spec.character, library);
   if (!character) return spec;  // the caller's build says why
-  const std::vector<const Part*> parts = movable_parts(*character);
+  const Stock stock = stock_of(*character, features);
   for (const std::vector<RawClip>& clips : raw.sequences)
-    if (SequenceDesc sequence = compose_sequence(clips, *character, parts); !sequence.clips.empty())
+    if (SequenceDesc sequence = compose_sequence(clips, stock); !sequence.clips.empty())
       spec.sequences.push_back(std::move(sequence));
-  // Every third spec is interrupted, once or twice.
-  if (raw.interrupted < kLattice / 3 && !spec.sequences.empty())
+  const bool interrupted = happens(raw.interrupted, features.profile().interrupts) && !features.omits("interrupt");
+  if (interrupted && !spec.sequences.empty())
     for (const RawInterrupt& interrupt : raw.interrupts)
-      spec.interrupts.push_back(compose_interrupt(interrupt, *character, parts, spec));
-  spec.dynamics = compose_dynamics(raw.dynamics, *character);
+      spec.interrupts.push_back(compose_interrupt(interrupt, stock, spec));
+  spec.dynamics = compose_dynamics(raw.dynamics, features, *character);
   if (spec.dynamics.mode != Mode::kinematic) spec.hold_frames += kTimeToReturn;
   return spec;
 }

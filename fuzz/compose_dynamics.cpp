@@ -50,17 +50,19 @@ ImpactDesc compose_impact(const int* raw, const Character& character) {
 
 }  // namespace
 
-DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Character& character) {
+DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Features& features,
+                              const Character& character) {
   DynamicsDesc dynamics;
-  const std::size_t kind = pick(raw[0], 32);
-  if (kind > 1) return dynamics;
-  dynamics.mode = kind == 0 ? Mode::tracking : Mode::dynamic;
+  const Profile& profile = features.profile();
+  if (!happens(raw[0], profile.tracking + profile.dynamic)) return dynamics;
+  dynamics.mode = happens(raw[0], profile.tracking) ? Mode::tracking : Mode::dynamic;
   for (std::size_t i = 0; i < pick(raw[1], 3) && !character.sockets().empty(); ++i) {
     LoadDesc load = compose_load(&raw[3 + 2 * i], character);
     if (!load.slot.starts_with("object:")) dynamics.loads.push_back(std::move(load));
   }
   // Tracking alone has neither strength nor balance to answer a blow with.
-  for (std::size_t i = 0; i < pick(raw[2], 3) && dynamics.mode == Mode::dynamic; ++i)
+  const std::size_t blows = pick(raw[2], static_cast<std::size_t>(profile.impacts) + 1);
+  for (std::size_t i = 0; i < blows && dynamics.mode == Mode::dynamic; ++i)
     dynamics.impacts.push_back(compose_impact(&raw[7 + 5 * i], character));
   return dynamics;
 }

@@ -74,11 +74,15 @@ rc::Gen<RawSpec> raw_spec() {
 
 }  // namespace
 
-Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index) {
+RawSpec draw_raw(std::int64_t seed, std::int64_t index) {
   static const rc::Gen<RawSpec> gen = raw_spec();
   const rc::Random random(
       rc::Random::Key{{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(index), kDrawStream, 0}});
-  return compose(gen(random, kSize).value(), config.characters, library);
+  return gen(random, kSize).value();
+}
+
+Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index) {
+  return compose(draw_raw(seed, index), config, library);
 }
 
 }  // namespace contort

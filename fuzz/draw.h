@@ -1,10 +1,12 @@
-// Drawing specs. Case i of a run is a pure function of (seed, i, characters): no order, thread or machine changes it.
+// Drawing specs. Case i of a run is a pure function of (seed, i, config): no order, thread or machine changes it.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "fuzz/profile.h"
+#include "fuzz/raw.h"
 #include "generator/character/library.h"
 #include "generator/spec.h"
 
@@ -12,11 +14,15 @@ namespace contort {
 
 struct DrawConfig {
   std::vector<std::string> characters;  // names in the library; at least one
+  Profile profile{};
   bool operator==(const DrawConfig&) const = default;
 };
 
-// A spec that builds: names, parts and parameters are chosen from what the character has, values on short lattices
-// within the declared ranges. Safe to call from any thread.
+// Evenly drawn numbers. Safe to call from any thread.
+RawSpec draw_raw(std::int64_t seed, std::int64_t index);
+
+// The spec that they make: parts and parameters are chosen from what the character has, values on short lattices within
+// the declared ranges. It builds.
 Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index);
 
 }  // namespace contort

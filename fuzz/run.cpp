@@ -1,101 +1,37 @@
 #include "fuzz/run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <set>
+#include <deque>
+#include <filesystem>
 
 #include "corpus/leads.h"
-#include "corpus/replay.h"
-#include "corpus/runs.h"
-#include "fuzz/parallel.h"
+#include "fuzz/case_work.h"
+#include "fuzz/run_state.h"
 #include "generator/core/hash.h"
 
 namespace contort {
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double steady_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// What one case gave.
-struct Outcome {
-  bool ran = false;
-  bool built = false;
-  Spec spec;
-  int frames = 0;
-  std::vector<std::string> uses;  // of actions
-  std::set<std::string> pairs;    // of actions at the same time on one part
-  std::vector<WaiverUse> waivers;
-  std::vector<Case> failures;  // the deepest finding of each family, in order of first appearance
-};
+std::string plan_of(const RunConfig& config) {
+  return run_name(config) + " shrinks=" + std::to_string(config.shrinks_per_family) +
+         " evaluations=" + std::to_string(config.shrink.max_evaluations);
+}
 
-std::vector<Case> failures_of(const Spec& spec, const Stage& stage, const Motion& motion,
-                              const Evaluation& evaluation) {
-  std::vector<Case> failures;
-  std::set<std::string> seen;
-  for (const Finding& finding : evaluation.findings) {
-    if (!seen.insert(family_of(spec.character.name, finding)).second) continue;
-    const Finding& worst = *deepest(evaluation.findings, finding.check, finding.subject);
-    failures.push_back({spec,
-                        {worst.check,
-                         worst.subject,
-                         worst.unit,
-                         worst.first_frame,
-                         worst.worst_frame,
-                         worst.last_frame,
-                         worst.worst_margin,
-                         std::isfinite(worst.depth) ? worst.depth : 0.0,
-                         {},
-                         {},
-                         {}},
-                        {}});
+// "crash|human|SIGSEGV": what became of the process that ran a case.
+std::string family_of_ending(const WorkerEvent& event) {
+  const Result<Spec> spec = parse_spec(event.note);
+  const std::string character = spec ? spec->character.name : "unknown";
+  switch (event.end) {
+    case WorkerEnd::timed_out: return "timeout|" + character + "|evaluation";
+    case WorkerEnd::out_of_memory: return "memory|" + character + "|evaluation";
+    default: return "crash|" + character + "|" + event.text;
   }
-  // Hash and trace are the motion's: the same for all of its failures, and computed only where there are any.
-  if (failures.empty()) return failures;
-  const Expectation whole = expectation_of(stage, motion, evaluation, evaluation.findings.front());
-  for (Case& failure : failures) {
-    failure.expect.motion_hash = whole.motion_hash;
-    failure.expect.character_hash = whole.character_hash;
-    failure.expect.trace = whole.trace;
-  }
-  return failures;
-}
-
-// "action reach (ik) on arm_left", once for each use.
-std::vector<std::string> uses_of(const Stage& stage) {
-  std::vector<std::string> uses;
-  for (const PlannedAction& action : stage.timeline.actions)
-    if (action.part == action.named)
-      uses.push_back("action " + action.name + " (" + std::string(layer_name(action.def->layer)) + ") on " +
-                     stage.character->parts()[static_cast<std::size_t>(action.part)].slot);
-  return uses;
-}
-
-// "pair pose + reach on arm_left" for actions that move one part at the same time.
-std::set<std::string> pairs_of(const Stage& stage) {
-  std::set<std::string> pairs;
-  const Timeline& timeline = stage.timeline;
-  for (std::size_t i = 0; i < timeline.of_part.size(); ++i) {
-    const Part& part = stage.character->parts()[i % stage.character->parts().size()];
-    for (const int a : timeline.of_part[i])
-      for (const int b : timeline.of_part[i]) {
-        const PlannedAction& x = timeline.actions[static_cast<std::size_t>(a)];
-        const PlannedAction& y = timeline.actions[static_cast<std::size_t>(b)];
-        if (a == b || x.name > y.name || x.first_frame > y.last_frame || y.first_frame > x.last_frame) continue;
-        pairs.insert("pair " + x.name + " + " + y.name + " on " + part.slot);
-      }
-  }
-  return pairs;
-}
-
-// Another seed or other characters are another run: what both found is counted twice, not once.
-std::string name_of(const RunConfig& config) {
-  std::string characters;
-  for (const std::string& name : config.draw.characters) characters += name + "\n";
-  return "seed_" + std::to_string(config.seed) + "_" + content_id(characters).substr(0, 8);
 }
 
 class Run {
@@ -103,180 +39,268 @@ class Run {
   Run(const RunConfig& config, const Library& library, const Corpus& corpus,
       const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop)
       : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop) {
-    for (int i = 0; i < config.jobs; ++i) evaluators_.emplace_back(config.checks);
-    run_name_ = name_of(config);
+    if (config_.time_s > 0.0) config_.deadline_s = start_s_ + config_.time_s;
+    state_.plan = plan_of(config_);
+    state_.record.name = run_name(config_);
+    state_.record.tool = config_.tool;
+    state_.record.shrinks_per_family = config_.shrinks_per_family;
+    state_.record.shard = config_.shard.index, state_.record.shards = config_.shard.count;
   }
 
   RunResult run() {
-    for (std::int64_t first = 0; !finished(first) && ok(); first += config_.batch) {
-      std::int64_t count = config_.batch;
-      if (config_.cases >= 0) count = std::min(count, config_.cases - first);
-      run_batch(first, static_cast<int>(count));
-    }
-    record_run();
-    report();
+    const Result<RunLock> lock = RunLock::take(corpus_, state_.record);
+    if (!lock) return result_.issue = lock.issue(), std::move(result_);
+    if (config_.resume) resume();
+    if (ok()) search();
+    finish();
     return std::move(result_);
   }
 
  private:
   bool ok() const { return result_.issue.code.empty(); }
-  bool out_of_time() const { return config_.time_s > 0.0 && seconds_since(start_) >= config_.time_s; }
-  bool finished(std::int64_t first) {
+  bool out_of_time() const { return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s; }
+  bool is_last(std::int64_t index) const { return config_.cases >= 0 && index >= config_.cases; }
+  bool halted() {
     if (stop_()) result_.interrupted = true;
-    return result_.interrupted || out_of_time() || (config_.cases >= 0 && first >= config_.cases);
+    return result_.interrupted || out_of_time() || !ok();
   }
-  bool halted() { return stop_() || out_of_time(); }
 
-  void run_batch(std::int64_t first, int count) {
-    std::vector<Outcome> outcomes(static_cast<std::size_t>(count));
-    parallel_for(
-        config_.jobs, count,
-        [&](int worker, int i) {
-          if (!halted())
-            outcomes[static_cast<std::size_t>(i)] = run_case(evaluators_[static_cast<std::size_t>(worker)], first + i);
-        },
-        [&] { report(); });
-    std::vector<Case> candidates;
-    for (Outcome& outcome : outcomes) {
-      if (!outcome.ran) break;  // time is up; what ran out of order behind the gap does not count
-      fold(outcome, candidates);
+  void resume() {
+    Result<std::optional<RunState>> kept = load_state(corpus_, state_.record, state_.plan);
+    if (!kept) return fail(kept.issue());
+    if (kept->has_value()) state_ = std::move(**kept);
+    for (const CaseTask& task : state_.wanted) settling_.push_back(task);
+  }
+
+  void search() {
+    WorkerPool pool(config_.jobs, config_.limits, CaseWork(config_, library_, corpus_));
+    running_.resize(static_cast<std::size_t>(config_.jobs));
+    while (!is_last(state_.next) && !halted()) {
+      begin_round();
+      while (open_ > 0 && !(halted() && !is_any_case_running())) step(pool, !halted());
+      fold_round();
+      round_.clear(), open_ = 0, given_ = 0;
+      keep_state_sometimes();
     }
-    settle(candidates);
+    while (ok() && !result_.interrupted && (!settling_.empty() || pool.busy() > 0)) {
+      if (stop_()) result_.interrupted = true;
+      step(pool, true);
+    }
+  }
+
+  // ---- a round
+
+  struct Place {
+    CaseTask task;
+    std::optional<CaseReport> report;
+  };
+
+  void begin_round() {
+    for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
+      const int island = island_of(index);
+      if (!is_of(config_.shard, island)) continue;
+      const Lineage lineage = state_.islands[static_cast<std::size_t>(island)].lineage_of(config_.seed, index);
+      round_.push_back({{lineage, {}, {}, {}}, {}});
+    }
+    open_ = static_cast<int>(round_.size());
+  }
+
+  bool is_any_case_running() const {
+    return std::ranges::any_of(running_, [](const Running& r) { return r.place >= 0; });
+  }
+
+  // What a worker has in hand: a case of the round, or a failure to settle.
+  struct Running {
+    int place = -1;
+    std::optional<CaseTask> settled;
+  };
+
+  // Failures go first: what was found shall be on its way to the user.
+  void step(WorkerPool& pool, bool hand_out) {
+    while (hand_out) {
+      const std::optional<int> idle = pool.idle_worker();
+      if (!idle || (settling_.empty() && given_ == static_cast<int>(round_.size()))) break;
+      Running& running = running_[static_cast<std::size_t>(*idle)];
+      running = {};
+      if (!settling_.empty()) {
+        running.settled = settling_.front();
+        settling_.pop_front();
+        pool.give(*idle, print_task(*running.settled));
+      } else {
+        running.place = given_++;
+        pool.give(*idle, print_task(round_[static_cast<std::size_t>(running.place)].task));
+      }
+    }
+    if (const std::optional<WorkerEvent> event = pool.wait(100)) take(*event);
     report();
   }
 
-  Outcome run_case(Evaluator& evaluator, std::int64_t index) const {
-    Outcome outcome;
-    outcome.ran = true;
-    outcome.spec = draw_spec(config_.draw, library_, config_.seed, index);
-    const Result<Stage> stage = build_stage(outcome.spec, library_);
-    if (!stage) return outcome;
-    outcome.built = true;
-    outcome.uses = uses_of(*stage);
-    outcome.pairs = pairs_of(*stage);
-    const Evaluation evaluation = evaluator.run(*stage);
-    outcome.frames = evaluation.frame_count;
-    outcome.waivers = evaluation.waivers;
-    outcome.failures = failures_of(outcome.spec, *stage, evaluator.motion(), evaluation);
-    for (Case& failure : outcome.failures) failure.provenance = {config_.tool, config_.seed, index, "", 0, ""};
-    return outcome;
-  }
-
-  void fold(Outcome& outcome, std::vector<Case>& candidates) {
-    RunProgress& totals = result_.totals;
-    ++totals.cases;
-    totals.frames += outcome.frames;
-    if (!outcome.built) ++result_.discarded;
-    if (!outcome.failures.empty()) ++totals.failing;
-    count_tested(outcome.spec);
-    add_uses(outcome.waivers, result_.waivers);
-    for (const std::string& use : outcome.uses) ++result_.tested[use];
-    for (const std::string& pair : outcome.pairs) ++result_.tested[pair];
-    for (Case& failure : outcome.failures) {
-      const std::string family = family_of(failure);
-      FamilyCount& count = record_.families.try_emplace(family, FamilyCount{0, failure.provenance.index}).first->second;
-      const std::int64_t seen = result_.families[family] = ++count.cases;
-      if (seen <= config_.shrinks_per_family) candidates.push_back(std::move(failure));
+  void take(const WorkerEvent& event) {
+    const Running running = std::exchange(running_[static_cast<std::size_t>(event.worker)], {});
+    if (running.settled) return settled(*running.settled, event);
+    Place& place = round_[static_cast<std::size_t>(running.place)];
+    if (event.end == WorkerEnd::replied) {
+      place.report = parse_report(event.text);
+    } else {
+      place.report = CaseReport{};
+      place.report->built = true;
+      place.report->broken = {family_of_ending(event)};
+      place.task.ending = event.end == WorkerEnd::crashed ? event.text : place.report->broken.front();
     }
-    totals.families = static_cast<int>(result_.families.size());
+    --open_;
   }
 
-  void count_tested(const Spec& spec) {
-    ++result_.tested["character " + spec.character.name];
-    for (const auto& [slot, part] : spec.character.parts) ++result_.tested["part " + part];
-    for (const AttachmentDesc& attachment : spec.character.attachments) ++result_.tested["object " + attachment.object];
-    static constexpr const char* kGrounds[] = {"plane", "slope", "steps", "heights"};
-    ++result_.tested[std::string("ground ") + kGrounds[spec.environment.ground.index()]];
-    if (!spec.environment.obstacles.empty()) ++result_.tested["obstacle"];
-    for (const InterruptDesc& interrupt : spec.interrupts)
-      ++result_.tested["interrupt on " + std::string(event_name(interrupt.when.event))];
-  }
-
-  // Written to disk first, then confirmed from there, then shrunk, then stored: a kill at any point loses nothing.
-  void settle(const std::vector<Case>& candidates) {
-    std::vector<std::string> leads;
-    for (const Case& candidate : candidates) {
-      const Result<std::string> lead = keep_lead(corpus_, {run_name_, candidate, {}});
-      if (!lead) return fail(lead.issue());
-      leads.push_back(*lead);
+  // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever resumes
+  // begins it again.
+  void fold_round() {
+    const bool is_whole = open_ == 0;
+    if (!is_whole) {
+      keep_state_now();
+      is_cut_ = true;
+      if (result_.interrupted) return;
     }
-    std::vector<Case> minimal(candidates.size());
-    std::vector<char> confirmed(candidates.size(), 0);
-    shrinking_ = static_cast<int>(candidates.size());
-    parallel_for(
-        config_.jobs, static_cast<int>(candidates.size()),
-        [&](int worker, int i) {
-          const auto c = static_cast<std::size_t>(i);
-          confirmed[c] = confirm(leads[c], evaluators_[static_cast<std::size_t>(worker)]);
-          if (confirmed[c]) minimal[c] = shrink_one(candidates[c]);
-          --shrinking_;
-        },
-        [&] { report(); });
-    for (std::size_t c = 0; c < candidates.size() && ok(); ++c) {
-      if (confirmed[c])
-        store(minimal[c], candidates[c]);
-      else
-        result_.unconfirmed.push_back(leads[c]);
+    for (const Place& place : round_) {
+      if (!place.report) return;
+      fold(place.task, *place.report);
+    }
+    state_.next += kRound;
+    if (config_.cases >= 0) state_.next = std::min(state_.next, config_.cases);
+  }
+
+  void fold(const CaseTask& task, const CaseReport& report) {
+    RunRecord& record = state_.record;
+    const std::int64_t index = task.lineage.back();
+    const std::string arm_name(contort::arm_name(arm_of(config_.seed, task.lineage)));
+    ArmCount& arm = record.arms[arm_name];
+    ++record.cases, ++arm.cases;
+    record.frames += report.frames;
+    record.discarded += !report.built;
+    record.failing += !report.broken.empty(), arm.failing += !report.broken.empty();
+    for (const std::string& label : report.tested) ++record.tested[label];
+    add_uses(report.waivers, state_.waivers);
+    state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
+    for (const std::string& family : report.broken) {
+      const auto count = record.families.try_emplace(family, FamilyCount{0, index, arm_name}).first;
+      if (++count->second.cases <= config_.shrinks_per_family)
+        want({task.lineage, family, report.motion_hash, task.ending});
     }
   }
 
-  bool confirm(const std::string& lead, Evaluator& evaluator) const {
-    const Result<Case> stored = read_case(lead);
-    return stored && replay(*stored, library_, evaluator).verdict == Verdict::same;
+  // ---- failures
+
+  void want(const CaseTask& task) {
+    state_.wanted.push_back(task);
+    settling_.push_back(task);
   }
 
-  Case shrink_one(const Case& candidate) {
-    ShrinkConfig config = config_.shrink;
-    config.checks = config_.checks;
-    config.out_of_time = [this] { return halted(); };
-    return shrink(candidate, library_, config);
+  // A candidate of its shrinking may have ended the process: then the failure is kept as it was found.
+  void settled(const CaseTask& task, const WorkerEvent& event) {
+    const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
+    if (event.end != WorkerEnd::replied && task.ending.empty()) {
+      CaseTask unshrunk = task;
+      unshrunk.ending = event.text.empty() ? "limit" : event.text;
+      settling_.push_back(unshrunk);
+      return;
+    }
+    std::erase_if(state_.wanted,
+                  [&](const CaseTask& t) { return t.lineage == task.lineage && t.family == task.family; });
+    if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
+    if (!report.confirmed)
+      add_once(state_.unconfirmed, path_of_lead(task));
+    else if (config_.shard.count == 1)
+      file(task);
   }
 
-  void store(const Case& minimal, const Case& original) {
-    const Result<Corpus::Added> added = corpus_.add({minimal, original, run_name_});
+  void file(const CaseTask& task) {
+    const Result<Lead> lead = read_lead(path_of_lead(task));
+    if (!lead) return fail(lead.issue());
+    const Result<Corpus::Added> added = file_lead(corpus_, *lead);
     if (!added) return fail(added.issue());
-    drop_lead(corpus_, {run_name_, original, {}});
-    std::vector<std::string>& list = added->is_new ? result_.new_buckets : result_.known_buckets;
-    const auto known = [&](const std::vector<std::string>& l) {
-      return std::find(l.begin(), l.end(), added->bucket) != l.end();
-    };
-    if (!known(result_.new_buckets) && !known(result_.known_buckets)) list.push_back(added->bucket);
-    result_.totals.buckets_new = static_cast<int>(result_.new_buckets.size());
+    const std::string name = std::filesystem::path(added->bucket).filename();
+    if (std::ranges::find(state_.new_buckets, name) != state_.new_buckets.end()) return;
+    add_once(added->is_new ? state_.new_buckets : state_.known_buckets, name);
   }
 
-  void record_run() {
-    const RunProgress& totals = result_.totals;
-    record_.name = run_name_, record_.tool = config_.tool;
-    record_.cases = totals.cases, record_.frames = totals.frames, record_.failing = totals.failing;
-    record_.discarded = result_.discarded, record_.tested = result_.tested;
-    if (!ok()) return;
-    if (const Result<Done> kept = keep_run(corpus_, record_); !kept) fail(kept.issue());
+  std::string path_of_lead(const CaseTask& task) const {
+    return lead_path(corpus_, state_.record.name, task.family, task.lineage.back());
   }
+
+  static void add_once(std::vector<std::string>& list, const std::string& name) {
+    if (const auto at = std::ranges::lower_bound(list, name); at == list.end() || *at != name) list.insert(at, name);
+  }
+
+  // ---- the end, and what is kept until then
+
+  // As often as it costs at most 2 % of the time.
+  void keep_state_sometimes() {
+    const double now = steady_s();
+    if (now < next_keep_s_) return;
+    keep_state_now();
+    next_keep_s_ = steady_s() + std::max(kKeepEvery_s, 50.0 * (steady_s() - now));
+  }
+
+  void keep_state_now() {
+    if (!ok() || is_cut_) return;
+    if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());
+  }
+
+  void finish() {
+    tidy_leads(corpus_, state_.record.name);
+    if (ok())
+      if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());
+    if (is_last(state_.next) && state_.wanted.empty())
+      drop_state(corpus_, state_.record);
+    else
+      keep_state_now();
+    report();
+    result_.record = state_.record;
+    result_.elapsed_s = steady_s() - start_s_;
+    result_.waivers = state_.waivers;
+    for (const std::string& name : state_.new_buckets) result_.new_buckets.push_back(bucket_folder(name));
+    for (const std::string& name : state_.known_buckets) result_.known_buckets.push_back(bucket_folder(name));
+    result_.unconfirmed = state_.unconfirmed;
+  }
+
+  std::string bucket_folder(const std::string& name) const { return corpus_.folder() + "/buckets/" + name; }
 
   void fail(const Issue& issue) {
     if (ok()) result_.issue = issue;
   }
 
   void report() {
-    result_.totals.elapsed_s = seconds_since(start_);
-    result_.totals.shrinking = shrinking_;
-    progress_(result_.totals);
+    const RunRecord& record = state_.record;
+    const auto of_round = static_cast<std::int64_t>(round_.size()) - open_;
+    progress_({record.cases + of_round, record.frames, record.failing, static_cast<int>(record.families.size()),
+               static_cast<int>(state_.new_buckets.size()), static_cast<int>(state_.wanted.size()),
+               steady_s() - start_s_});
   }
 
-  const RunConfig& config_;
+  static constexpr double kKeepEvery_s = 1.0;
+
+  RunConfig config_;
   const Library& library_;
   const Corpus& corpus_;
   const std::function<void(const RunProgress&)>& progress_;
   const std::function<bool()>& stop_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::vector<Evaluator> evaluators_;
-  std::string run_name_;
-  RunRecord record_;
-  std::atomic<int> shrinking_{0};
+  const double start_s_ = steady_s();
+  double next_keep_s_ = steady_s() + kKeepEvery_s;
+  RunState state_;
+  std::vector<Place> round_;
+  int open_ = 0;   // cases of the round without a report
+  int given_ = 0;  // that were handed out
+  bool is_cut_ = false;  // the last round was not done whole; what is kept is from before it
+  std::deque<CaseTask> settling_;
+  std::vector<Running> running_;  // by worker
   RunResult result_;
 };
 
 }  // namespace
+
+std::string run_name(const RunConfig& config) {
+  std::string text = print_profile(config.draw.profile) + config.settings;
+  for (const std::string& name : config.draw.characters) text += name + "\n";
+  return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);
+}
 
 RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop) {

@@ -220,7 +220,10 @@ TEST(Leads, AreKeptWithAndWithoutTheirMinimalCaseUntilTheyAreDropped) {
   lead.minimal = f.minimal;
   ASSERT_TRUE(keep_lead(corpus, lead));
   EXPECT_EQ(leads_of(corpus, damaged), std::vector<Lead>{lead});
+  tidy_leads(corpus, "seed_1");  // not while there are any
+  EXPECT_EQ(leads_of(corpus, damaged).size(), 1U);
   drop_lead(corpus, lead);
+  tidy_leads(corpus, "seed_1");
   EXPECT_TRUE(damaged.empty());
   EXPECT_TRUE(std::filesystem::is_empty(corpus.folder() + "/leads"));
 }

@@ -193,7 +193,7 @@ RawSpec filled(int value) {
 TEST(Compose, EveryRawValueMakesASpecThatBuilds) {
   for (const int value : {0, 1, 3333, 3334, 4999, 5000, 5001, 6666, 9998, 9999, kLattice})
     for (const std::vector<std::string>& names : {std::vector<std::string>{"human"}, {"mech"}, {"quadruped"}, {"human", "mech", "quadruped"}}) {
-      const Spec spec = compose(filled(value), names, stock_library());
+      const Spec spec = compose(filled(value), {names}, stock_library());
       const Result<Stage> stage = build_stage(spec, stock_library());
       ASSERT_TRUE(stage) << value << ": " << to_line(stage.issue());
       EXPECT_EQ(spec.sequences.size(), 2U);
@@ -203,9 +203,9 @@ TEST(Compose, EveryRawValueMakesASpecThatBuilds) {
 TEST(Compose, WithoutSequencesNothingMoves) {
   RawSpec raw = filled(5000);
   raw.sequences.clear();
-  EXPECT_TRUE(compose(raw, {"human"}, stock_library()).sequences.empty());
+  EXPECT_TRUE(compose(raw, {{"human"}}, stock_library()).sequences.empty());
   raw.sequences = {{}, {RawClip{}}};
-  EXPECT_TRUE(compose(raw, {"human"}, stock_library()).sequences.empty());
+  EXPECT_TRUE(compose(raw, {{"human"}}, stock_library()).sequences.empty());
 }
 
 TEST(Compose, ACharacterOfOnesOwnIsDrawnToo) {

@@ -1,4 +1,4 @@
-// Whole runs: the same corpus for any number of threads, again and again, and nothing lost when something stops them.
+// Whole runs: the same corpus for any number of workers and shards, stopped or not, and nothing lost.
 #include "fuzz/run.h"
 
 #include <gtest/gtest.h>
@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <set>
 
+#include "corpus/merge.h"
 #include "corpus/replay.h"
 #include "corpus/runs.h"
 #include "fuzz/parallel.h"
+#include "fuzz/run_state.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/temp_folder.h"
 
@@ -38,7 +40,6 @@ RunConfig config_of(std::int64_t cases, int jobs) {
   config.seed = 4;
   config.cases = cases;
   config.jobs = jobs;
-  config.batch = 16;
   config.shrinks_per_family = 1;
   config.shrink.max_evaluations = 12;
   config.tool = "test";
@@ -99,9 +100,9 @@ TEST_F(Runs, OneThreadAndFourLeaveTheSameBytesAndRunningAgainChangesNothing) {
   const Tree tree = tree_of(one.folder());
   EXPECT_GT(tree.size(), 8U);
   EXPECT_EQ(first_difference(tree, tree_of(four.folder())), "");
-  EXPECT_EQ(first.families, second.families);
-  EXPECT_EQ(first.tested, second.tested);
-  EXPECT_EQ(first.discarded, 0);
+  EXPECT_EQ(first.record.families, second.record.families);
+  EXPECT_EQ(first.record.tested, second.record.tested);
+  EXPECT_EQ(first.record.discarded, 0);
   EXPECT_TRUE(first.unconfirmed.empty());
   EXPECT_TRUE(fs::is_empty(one.folder() + "/leads"));
   for (const Bucket& bucket : buckets_of(one)) expect_bucket_is_sound(one, bucket);
@@ -137,14 +138,12 @@ TEST_F(Runs, CountWhatTheyDid) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run(config_of(40, 2), corpus);
   EXPECT_EQ(result.issue.code, "");
-  EXPECT_EQ(result.totals.cases, 40);
-  EXPECT_GT(result.totals.failing, 0);
-  EXPECT_GT(result.totals.frames, 40 * 6);
-  EXPECT_EQ(result.totals.families, static_cast<int>(result.families.size()));
-  EXPECT_EQ(result.totals.buckets_new, static_cast<int>(result.new_buckets.size()));
+  EXPECT_EQ(result.record.cases, 40);
+  EXPECT_GT(result.record.failing, 0);
+  EXPECT_GT(result.record.frames, 40 * 6);
   EXPECT_EQ(result.new_buckets.size(), buckets_of(corpus).size());
   std::int64_t characters = 0;
-  for (const auto& [what, count] : result.tested)
+  for (const auto& [what, count] : result.record.tested)
     if (what.rfind("character ", 0) == 0) characters += count;
   EXPECT_EQ(characters, 40);
 }
@@ -154,14 +153,14 @@ TEST_F(Runs, AreRecordedInTheCorpus) {
   const RunResult result = run(config_of(20, 2), corpus);
   std::vector<Issue> damaged;
   const std::vector<RunRecord> records = runs_of(corpus, damaged);
-  ASSERT_EQ(records.size(), 1U);
-  EXPECT_EQ(records[0].cases, 20);
-  EXPECT_EQ(records[0].frames, result.totals.frames);
-  EXPECT_EQ(records[0].tested, result.tested);
-  ASSERT_EQ(records[0].families.size(), result.families.size());
-  for (const auto& [family, count] : records[0].families) {
-    EXPECT_EQ(count.cases, result.families.at(family));
+  EXPECT_EQ(records, std::vector<RunRecord>{result.record});
+  EXPECT_EQ(result.record.cases, 20);
+  std::int64_t of_arms = 0;
+  for (const auto& [arm, count] : result.record.arms) of_arms += count.cases;
+  EXPECT_EQ(of_arms, 20);
+  for (const auto& [family, count] : result.record.families) {
     EXPECT_LT(count.first_index, 20);
+    EXPECT_TRUE(result.record.arms.contains(count.first_arm)) << count.first_arm;
   }
 }
 
@@ -179,26 +178,74 @@ TEST_F(Runs, OfDifferentCharactersAreDifferentRuns) {
 TEST_F(Runs, OfNoCasesLeaveAnEmptyCorpus) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run(config_of(0, 2), corpus);
-  EXPECT_EQ(result.totals.cases, 0);
+  EXPECT_EQ(result.record.cases, 0);
   EXPECT_TRUE(result.new_buckets.empty());
   EXPECT_EQ(result.issue.code, "");
   EXPECT_FALSE(result.interrupted);
 }
 
-TEST_F(Runs, ThatAreStoppedKeepWhatTheyFound) {
+// Runs and is stopped after so many questions whether it should be; as the interrupt of a user does.
+RunResult run_until(int questions, const RunConfig& config, const Corpus& corpus) {
+  int asked = 0;
+  return run_fuzz(
+      config, library(), corpus, [](const RunProgress&) {}, [&] { return ++asked > questions; });
+}
+
+TEST_F(Runs, ThatAreStoppedAndResumedAgainAndAgainLeaveTheSameBytes) {
+  const Corpus whole = create(folder_ / "whole"), broken = create(folder_ / "broken");
+  RunConfig config = config_of(1500, 2);
+  run(config, whole);
+  config.resume = true;
+  int stops = 0;
+  while (run_until(100 + 37 * stops, config, broken).interrupted) {
+    expect_all_replay_as_the_same(broken);
+    ASSERT_LT(++stops, 200);
+  }
+  EXPECT_GT(stops, 3);
+  EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
+}
+
+TEST_F(Runs, ResumedWithOtherOptionsAreRefused) {
   const Corpus corpus = create(folder_ / "corpus");
-  std::atomic<int> asked{0};
   RunConfig config = config_of(100000, 2);
-  const RunResult result = run_fuzz(
-      config, library(), corpus, [](const RunProgress&) {}, [&] { return ++asked > 300; });
-  EXPECT_TRUE(result.interrupted);
-  EXPECT_LT(result.totals.cases, 1000);
-  EXPECT_GT(result.totals.failing, 0);
-  EXPECT_EQ(result.new_buckets.size(), buckets_of(corpus).size());
-  std::set<std::string> families;
-  for (const Bucket& bucket : buckets_of(corpus)) families.insert(bucket.family);
-  for (const auto& [family, count] : result.families) EXPECT_EQ(families.count(family), 1U) << family << count;
-  expect_all_replay_as_the_same(corpus);
+  EXPECT_TRUE(run_until(300, config, corpus).interrupted);
+  config.resume = true;
+  config.shrinks_per_family = 7;
+  const RunResult refused = run(config, corpus);
+  EXPECT_EQ(refused.issue.code, "state.other_plan");
+  EXPECT_EQ(refused.record.cases, 0);
+}
+
+TEST_F(Runs, OfTheSameNameDoNotRunTwiceAtATime) {
+  const Corpus corpus = create(folder_ / "corpus");
+  const RunConfig config = config_of(8, 1);
+  RunRecord record;
+  record.name = run_name(config);
+  {
+    const Result<RunLock> lock = RunLock::take(corpus, record);
+    ASSERT_TRUE(lock);
+    EXPECT_EQ(run(config, corpus).issue.code, "run.busy");
+  }
+  EXPECT_EQ(run(config, corpus).issue.code, "");
+}
+
+TEST_F(Runs, OfAnyNumberOfShardsMergeToOneRun) {
+  const Corpus whole = create(folder_ / "whole");
+  RunConfig config = config_of(700, 2);
+  run(config, whole);
+  for (const int count : {3, 16}) {
+    std::vector<Corpus> shards;
+    for (int i = 0; i < count; ++i) {
+      config.shard = {i, count};
+      shards.push_back(create(folder_ / (std::to_string(count) + "_" + std::to_string(i))));
+      EXPECT_TRUE(run(config, shards.back()).new_buckets.empty());
+    }
+    const Corpus into = create(folder_ / ("merged_" + std::to_string(count)));
+    const Result<Merged> merged = merge(shards, into);
+    ASSERT_TRUE(merged) << to_line(merged.issue());
+    EXPECT_TRUE(merged->incomplete.empty() && merged->damaged.empty());
+    EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(into.folder())), "") << count;
+  }
 }
 
 TEST_F(Runs, ThatAreStoppedAtOnceHaveNoCases) {
@@ -206,7 +253,7 @@ TEST_F(Runs, ThatAreStoppedAtOnceHaveNoCases) {
   const RunResult result = run_fuzz(
       config_of(100, 2), library(), corpus, [](const RunProgress&) {}, [] { return true; });
   EXPECT_TRUE(result.interrupted);
-  EXPECT_EQ(result.totals.cases, 0);
+  EXPECT_EQ(result.record.cases, 0);
 }
 
 TEST_F(Runs, EndWhenTheirTimeIsUp) {
@@ -214,9 +261,9 @@ TEST_F(Runs, EndWhenTheirTimeIsUp) {
   config.time_s = 0.3;
   const RunResult result = run(config, create(folder_ / "corpus"));
   EXPECT_FALSE(result.interrupted);
-  EXPECT_GT(result.totals.cases, 0);
-  EXPECT_GE(result.totals.elapsed_s, 0.3);
-  EXPECT_LT(result.totals.elapsed_s, 30.0);
+  EXPECT_GT(result.record.cases, 0);
+  EXPECT_GE(result.elapsed_s, 0.3);
+  EXPECT_LT(result.elapsed_s, 30.0);
 }
 
 // Root may write everywhere, so the corpus is broken by putting a file where its leads go.
@@ -232,7 +279,7 @@ TEST_F(Runs, WhoseCorpusBreaksMidwayEndWithAnIssue) {
       },
       [] { return false; });
   EXPECT_EQ(result.issue.code, "file.unwritable");
-  EXPECT_LT(result.totals.cases, 2000);
+  EXPECT_LT(result.record.cases, 2000);
   expect_all_replay_as_the_same(corpus);
 }
 

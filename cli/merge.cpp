@@ -1,0 +1,62 @@
+// contort merge: corpora of shards, nights and machines become one.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "corpus/merge.h"
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> sources;
+  std::string output;
+  bool require_complete = false;
+  bool json = false;
+};
+
+void print(const Options& options, const Merged& merged, std::size_t buckets) {
+  if (options.json) {
+    const json_fields::Json out = {{"buckets", buckets}, {"incomplete", merged.incomplete}, {"leads", merged.leads}};
+    std::printf("%s\n", out.dump(2).c_str());
+    return;
+  }
+  for (const std::string& sentence : merged.incomplete) std::printf("INCOMPLETE %s\n", sentence.c_str());
+  std::printf("RESULT buckets=%zu incomplete=%zu leads=%d\n", buckets, merged.incomplete.size(), merged.leads);
+}
+
+void run(const Options& options, Context& context) {
+  std::vector<Corpus> sources;
+  for (const std::string& folder : options.sources) {
+    Result<Corpus> corpus = Corpus::open(folder);
+    if (!corpus) return context.fail(corpus.issue());
+    sources.push_back(std::move(corpus).value());
+  }
+  const Result<Corpus> into = Corpus::create(options.output);
+  if (!into) return context.fail(into.issue(), kInternal);
+  const Result<Merged> merged = merge(sources, *into);
+  if (!merged) return context.fail(merged.issue(), kInternal);
+  std::vector<Issue> damaged = merged->damaged;
+  const std::size_t buckets = into->buckets(damaged).size();
+  for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest was merged
+  if (options.require_complete && !merged->incomplete.empty()) context.exit_code = kInconclusive;
+  print(options, *merged, buckets);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("merge", "Corpora of shards, nights or machines become one");
+  command->add_option("CORPUS", options->sources, "Corpus folders")->required();
+  command->add_option("-o,--output", options->output, "Corpus that they are added to; made where it is missing")
+      ->required();
+  command->add_flag("--require-complete", options->require_complete, "Exit with 4 where shards of a run are missing");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->footer("Example: contort merge shard-0 shard-1 shard-2 -o night");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,119 @@
+#include "corpus/merge.h"
+
+#include <algorithm>
+#include <map>
+
+#include "corpus/leads.h"
+
+namespace contort {
+
+namespace {
+
+using RunsByName = std::map<std::string, std::vector<RunRecord>>;
+
+// A bucket with its cases, from one corpus to another.
+Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus& into, Merged& merged) {
+  const auto read = [&](const std::string& name) { return read_case(from.folder_of(bucket) + "/" + name); };
+  Result<Case> minimal = read(bucket.min), original = read(bucket.orig), worst = read(bucket.worst);
+  for (const Result<Case>* stored : {&minimal, &original, &worst})
+    if (!*stored) return merged.damaged.push_back(stored->issue()), Done{};
+  Found found{std::move(minimal).value(), std::move(original).value(), "", std::move(worst).value()};
+  for (const std::string& run : bucket.runs) {
+    found.run = run;
+    if (const auto added = into.add(found); !added) return added.issue();
+  }
+  return Done{};
+}
+
+// Where both have a lead, the one that was shrunk stays.
+Result<Done> take_leads(const Corpus& from, const Corpus& into, Merged& merged) {
+  for (const Lead& lead : leads_of(from, merged.damaged)) {
+    const std::string path = lead_path(into, lead.run, family_of(lead.original), lead.original.provenance.index);
+    const Result<Lead> present = read_lead(path);
+    if (present && present->minimal && !lead.minimal) continue;
+    if (const Result<std::string> kept = keep_lead(into, lead); !kept) return kept.issue();
+  }
+  return Done{};
+}
+
+RunsByName by_name(std::vector<RunRecord> records) {
+  RunsByName runs;
+  for (RunRecord& record : records) runs[record.name].push_back(std::move(record));
+  return runs;
+}
+
+bool is_whole(const RunRecord& record) { return record.shards == 1; }
+
+std::vector<int> missing_shards(const std::vector<RunRecord>& shards) {
+  std::vector<int> missing;
+  for (int i = 0; i < shards.front().shards; ++i)
+    if (std::ranges::find(shards, i, &RunRecord::shard) == shards.end()) missing.push_back(i);
+  return missing;
+}
+
+std::string sentence_of(const std::vector<RunRecord>& shards, const std::vector<int>& missing) {
+  std::string text = shards.front().name + ": shards";
+  for (const int shard : missing) text += (text.ends_with("shards") ? " " : ", ") + std::to_string(shard);
+  return text + " of " + std::to_string(shards.front().shards) + " are missing";
+}
+
+// The first cases of each family by index, as one run would have taken them. The others of that run are not needed.
+Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
+  std::map<std::string, int> filed;
+  for (const Lead& lead : leads_of(corpus, merged.damaged)) {  // in the order of their indices
+    if (lead.run != run.name || !lead.minimal) continue;
+    if (++filed[family_of(lead.original)] > run.shrinks_per_family) {
+      drop_lead(corpus, lead);
+    } else if (const auto added = file_lead(corpus, lead); !added) {
+      return added.issue();
+    }
+  }
+  tidy_leads(corpus, run.name);
+  return Done{};
+}
+
+// Shards of different splits of one run cannot be added up; those of the finest split are looked at.
+std::vector<RunRecord> of_one_split(std::vector<RunRecord> shards) {
+  int most = 0;
+  for (const RunRecord& shard : shards) most = std::max(most, shard.shards);
+  std::erase_if(shards, [&](const RunRecord& shard) { return shard.shards != most; });
+  return shards;
+}
+
+Result<Done> complete_run(const Corpus& corpus, const std::vector<RunRecord>& records, Merged& merged) {
+  const auto whole = std::ranges::find_if(records, is_whole);
+  RunRecord run;
+  if (whole != records.end()) {
+    run = *whole;
+  } else {
+    const std::vector<RunRecord> shards = of_one_split(records);
+    if (const std::vector<int> missing = missing_shards(shards); !missing.empty())
+      return merged.incomplete.push_back(sentence_of(shards, missing)), Done{};
+    run = added_up(shards);
+    if (const Result<Done> kept = keep_run(corpus, run); !kept) return kept;
+  }
+  if (const Result<Done> filed = file_leads(corpus, run, merged); !filed) return filed;
+  for (const RunRecord& record : records)  // last, so that a kill before leaves what it takes to do it again
+    if (!is_whole(record)) drop_run(corpus, record);
+  return Done{};
+}
+
+}  // namespace
+
+Result<Merged> merge(const std::vector<Corpus>& sources, const Corpus& into) {
+  Merged merged;
+  for (const Corpus& source : sources) {
+    if (source.folder() == into.folder()) continue;
+    for (const Bucket& bucket : source.buckets(merged.damaged))
+      if (const Result<Done> taken = take_bucket(source, bucket, into, merged); !taken) return taken.issue();
+    if (const Result<Done> taken = take_leads(source, into, merged); !taken) return taken.issue();
+    for (const RunRecord& run : runs_of(source, merged.damaged))
+      if (const Result<Done> kept = keep_run(into, run); !kept) return kept.issue();
+  }
+  for (const auto& [name, records] : by_name(runs_of(into, merged.damaged)))
+    if (const Result<Done> completed = complete_run(into, records, merged); !completed) return completed.issue();
+  merged.leads = static_cast<int>(leads_of(into, merged.damaged).size());
+  return merged;
+}
+
+}  // namespace contort

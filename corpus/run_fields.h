@@ -1,0 +1,48 @@
+// Field lists (json_fields.h) of run records. Included from .cpp files only.
+#pragma once
+
+#include "corpus/runs.h"
+#include "generator/core/json_fields.h"
+
+namespace contort {
+
+namespace run_rules {
+inline const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
+inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
+inline constexpr std::size_t kMostEntries = 1'000'000;
+}  // namespace run_rules
+
+template <class V>
+void fields(V& v, const FamilyCount*) {
+  v.field("cases", &FamilyCount::cases, run_rules::kTotal, "Cases that showed it.");
+  v.field("first_index", &FamilyCount::first_index, run_rules::kTotal, "The first of them.");
+  v.field("first_arm", &FamilyCount::first_arm, {.may_be_empty = true}, "How that one was drawn.");
+}
+
+template <class V>
+void fields(V& v, const ArmCount*) {
+  v.field("cases", &ArmCount::cases, run_rules::kTotal, "Cases that were drawn in this way.");
+  v.field("failing", &ArmCount::failing, run_rules::kTotal, "Of these with at least one finding.");
+}
+
+template <class V>
+void fields(V& v, const RunRecord*) {
+  v.constant("format", "contort.run/2");
+  v.field("name", &RunRecord::name, {.required = true}, "Name of the run.");
+  v.field("tool", &RunRecord::tool, run_rules::kLabel, "Version.");
+  v.field("shard", &RunRecord::shard, {.low = 0, .high = 63}, "Which share of the run, from 0.");
+  v.field("shards", &RunRecord::shards, {.low = 1, .high = 64}, "Of how many.");
+  v.field("shrinks_per_family", &RunRecord::shrinks_per_family, {.low = 1, .high = 1000},
+          "Failures of a family that go into buckets.");
+  v.field("cases", &RunRecord::cases, run_rules::kTotal, "Cases that ran.");
+  v.field("frames", &RunRecord::frames, run_rules::kTotal, "Frames that they had.");
+  v.field("failing", &RunRecord::failing, run_rules::kTotal, "Cases with at least one finding.");
+  v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that did not build.");
+  v.field("tested", &RunRecord::tested, {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = json_fields::Text::label},
+          "What the cases were made of.");
+  v.field("families", &RunRecord::families, {.max_count = run_rules::kMostEntries, .key_text = json_fields::Text::prose},
+          "Failures, by family.");
+  v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");
+}
+
+}  // namespace contort

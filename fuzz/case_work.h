@@ -1,0 +1,59 @@
+// What a worker does with a case, and the messages that go there and back. Both are JSON, so that they can be read in a
+// debugger and are checked on arrival.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corpus/leads.h"
+#include "fuzz/islands.h"
+#include "fuzz/run.h"
+#include "fuzz/worker_pool.h"
+
+namespace contort {
+
+// Evaluate a case; or, with a family, settle that failure of it: run it again, keep it as a lead, shrink it.
+struct CaseTask {
+  Lineage lineage;
+  std::string family;
+  std::string motion_hash;  // of the first time
+  std::string ending;       // where the first time ended the process: "SIGSEGV", "timeout", "memory"
+  bool operator==(const CaseTask&) const = default;
+};
+
+struct CaseReport {
+  bool built = false;
+  int frames = 0;
+  std::string motion_hash;
+  std::vector<std::string> tested;  // labels of what the case was made of
+  std::vector<std::string> broken;  // families, in order of their first frame
+  std::vector<NearMiss> near;       // of the island's subjects
+  std::vector<WaiverUse> waivers;
+  bool confirmed = false;  // of a settled failure: the second time was bit for bit the first
+  std::string issue;       // it could not be written: code and text
+};
+
+std::string print_task(const CaseTask& task);
+CaseTask parse_task(const std::string& text);
+CaseReport parse_report(const std::string& text);
+
+// One per worker.
+class CaseWork {
+ public:
+  CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus);
+  std::string operator()(const std::string& task, WorkerSlot& slot);
+
+ private:
+  CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
+  CaseReport settle(const CaseTask& task, WorkerSlot& slot);
+  Spec spec_of(const CaseTask& task) const;
+  Case shrunk(const CaseTask& task, const Case& original, WorkerSlot& slot) const;
+
+  const RunConfig& config_;
+  const Library& library_;
+  const Corpus& corpus_;
+  Evaluator evaluator_;
+};
+
+}  // namespace contort

@@ -1,0 +1,50 @@
+// What a fuzzing run draws from: characters, slots, actions, grounds, odds and ranges. A JSON file,
+// contort.profile/1, or one of the built-in ones.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+struct Profile {
+  std::string name = "all";
+  std::string about;                    // one sentence
+  std::vector<std::string> characters;  // names in the library; empty: all
+  std::vector<std::string> slots;       // names of slots; empty: all
+  std::vector<std::string> actions;     // empty: all
+  std::vector<std::string> grounds;     // plane, slope, steps, heights; empty: all
+  double swaps = 0.5;                   // odds that a slot gets another part than its own
+  double objects = 1.0 / 3.0;           // that an object is carried
+  double interrupts = 1.0 / 3.0;
+  double obstacles = 1.0 / 3.0;
+  double tracking = 1.0 / 32.0;  // mode; a simulated frame costs three kinematic ones
+  double dynamic = 1.0 / 32.0;
+  int impacts = 2;                // of a dynamic spec, at most
+  bool speeds = true;             // clips and actions at other speeds, stretched clips
+  int shortest_frames = 6;        // of an action
+  int longest_frames = 90;        // of an action
+  double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
+  std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
+  std::string time;               // the same: "45s", "10m", "2h"; "" where there is none
+  bool operator==(const Profile&) const = default;
+};
+
+std::span<const Profile> built_in_profiles();
+
+// A built-in profile by name, or a file. Codes profile.unknown, profile.unknown_character and json.*.
+Result<Profile> load_profile(const std::string& name_or_path);
+Result<Profile> parse_profile(std::string_view json);
+std::string print_profile(const Profile& profile);
+std::string profile_schema();
+
+// Names that the library does not have are refused: a night that tests nothing must not look clean.
+Result<Done> validate(const Profile& profile, const Library& library);
+
+}  // namespace contort

@@ -1,0 +1,49 @@
+// All that a run knows, so that one that was killed can go on: DIR/runs/<record>.state, written between rounds now and
+// then and removed at the end. What was done since is done again, with the same result.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/runs.h"
+#include "fuzz/case_work.h"
+#include "fuzz/islands.h"
+
+namespace contort {
+
+struct RunState {
+  std::string plan;       // what the run was asked for; another plan is another run
+  std::int64_t next = 0;  // first case of the next round
+  RunRecord record;
+  std::vector<Island> islands = std::vector<Island>(kIslands);
+  std::vector<CaseTask> wanted;            // failures that are not settled yet
+  std::vector<std::string> new_buckets;    // names of folders
+  std::vector<std::string> known_buckets;  // names of folders
+  std::vector<std::string> unconfirmed;    // paths of leads, in the corpus
+  std::vector<WaiverUse> waivers;
+};
+
+std::string state_path(const Corpus& corpus, const RunRecord& record);
+Result<Done> keep_state(const Corpus& corpus, const RunState& state);
+
+// Nothing where none was kept. Codes state.other_plan, json.*.
+Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
+void drop_state(const Corpus& corpus, const RunRecord& record);
+
+// One process at a time may do a run; held until destroyed, or until the process ends in any way.
+class RunLock {
+ public:
+  // Code run.busy.
+  static Result<RunLock> take(const Corpus& corpus, const RunRecord& record);
+  RunLock(RunLock&& other) noexcept;
+  RunLock& operator=(RunLock&&) = delete;
+  ~RunLock();
+
+ private:
+  RunLock(int file, std::string path) : file_(file), path_(std::move(path)) {}
+  int file_;
+  std::string path_;
+};
+
+}  // namespace contort

@@ -1,0 +1,234 @@
+#include "fuzz/worker_pool.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <algorithm>
+#include <new>
+#include <system_error>
+
+#include "generator/core/assert.h"
+
+namespace contort {
+
+namespace {
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+constexpr double kLookEvery_s = 0.05;  // at limits: a look costs a file of /proc
+
+// Messages are a length and as many bytes.
+using Length = std::uint64_t;
+
+bool send_all(int socket, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t sent = ::send(socket, data, size, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    data += sent, size -= static_cast<std::size_t>(sent);
+  }
+  return true;
+}
+
+bool send_message(int socket, const std::string& text) {
+  const Length length = text.size();
+  char head[sizeof length];
+  std::memcpy(head, &length, sizeof length);
+  return send_all(socket, head, sizeof head) && send_all(socket, text.data(), text.size());
+}
+
+bool receive_all(int socket, char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t got = ::recv(socket, data, size, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    data += got, size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool receive_message(int socket, std::string& text) {
+  Length length = 0;
+  char head[sizeof length];
+  if (!receive_all(socket, head, sizeof head)) return false;
+  std::memcpy(&length, head, sizeof length);
+  text.resize(length);
+  return receive_all(socket, text.data(), length);
+}
+
+// Takes the first whole message out of what came in so far.
+std::optional<std::string> take_message(std::string& received) {
+  Length length = 0;
+  if (received.size() < sizeof length) return std::nullopt;
+  std::memcpy(&length, received.data(), sizeof length);
+  if (received.size() - sizeof length < length) return std::nullopt;
+  std::string text = received.substr(sizeof length, length);
+  received.erase(0, sizeof length + length);
+  return text;
+}
+
+std::int64_t resident_bytes(pid_t pid) {
+  std::FILE* file = std::fopen(("/proc/" + std::to_string(pid) + "/statm").c_str(), "r");
+  if (file == nullptr) return 0;
+  long long pages = 0, resident = 0;
+  const int read = std::fscanf(file, "%lld %lld", &pages, &resident);
+  std::fclose(file);
+  return read == 2 ? resident * ::sysconf(_SC_PAGESIZE) : 0;
+}
+
+std::string name_of_signal(int number) {
+  const char* name = ::sigabbrev_np(number);
+  return name == nullptr ? "signal " + std::to_string(number) : std::string("SIG") + name;
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) return name_of_signal(WTERMSIG(status));
+  return "exit " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+void WorkerSlot::note(std::string_view text) {
+  length_ = 0;
+  if (text.size() <= kMostNote) std::memcpy(text_, text.data(), text.size());
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+  if (text.size() <= kMostNote) length_ = text.size();
+}
+
+WorkerPool::WorkerPool(int workers, const WorkerLimits& limits, Work work)
+    : limits_(limits), work_(std::move(work)), workers_(static_cast<std::size_t>(workers)) {
+  for (Worker& worker : workers_) {
+    void* memory = ::mmap(nullptr, sizeof(WorkerSlot), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) fail("no memory for a worker");
+    worker.slot = new (memory) WorkerSlot;
+    start(worker);
+  }
+}
+
+WorkerPool::~WorkerPool() {
+  for (Worker& worker : workers_) {
+    ::kill(worker.pid, SIGKILL);
+    ::waitpid(worker.pid, nullptr, 0);
+    ::close(worker.socket);
+    ::munmap(worker.slot, sizeof(WorkerSlot));
+  }
+}
+
+void WorkerPool::start(Worker& worker) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket for a worker");
+  std::fflush(nullptr);  // else the child would print it again
+  const pid_t parent = ::getpid();
+  worker.pid = ::fork();
+  if (worker.pid < 0) fail("no process for a worker");
+  if (worker.pid == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(0);  // it died before we asked to be told
+    for (const Worker& other : workers_)
+      if (other.socket >= 0) ::close(other.socket);
+    ::close(ends[0]);
+    serve(ends[1], *worker.slot);
+  }
+  ::close(ends[1]);
+  worker.socket = ends[0];
+  worker.busy = false;
+  worker.received.clear();
+}
+
+// In the child. An interrupt at the terminal goes to the whole group; the pool decides what it means.
+void WorkerPool::serve(int socket, WorkerSlot& slot) {
+  ::signal(SIGINT, SIG_IGN);
+  ::signal(SIGTERM, SIG_DFL);
+  std::string task;
+  while (receive_message(socket, task))
+    if (!send_message(socket, work_(task, slot))) break;
+  ::_exit(0);
+}
+
+std::optional<int> WorkerPool::idle_worker() const {
+  for (std::size_t i = 0; i < workers_.size(); ++i)
+    if (!workers_[i].busy) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+int WorkerPool::busy() const {
+  return static_cast<int>(std::ranges::count_if(workers_, [](const Worker& worker) { return worker.busy; }));
+}
+
+void WorkerPool::give(int index, const std::string& task) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  CONTORT_ASSERT(!worker.busy);
+  worker.slot->note({});
+  worker.busy = true;
+  worker.beats = worker.slot->beats();
+  worker.since_s = now_s();
+  send_message(worker.socket, task);  // where that fails the worker is dead, and wait() will see it
+}
+
+std::optional<WorkerEvent> WorkerPool::wait(int milliseconds) {
+  std::vector<pollfd> sockets;
+  for (const Worker& worker : workers_) sockets.push_back({worker.socket, POLLIN, 0});
+  ::poll(sockets.data(), sockets.size(), milliseconds);
+  for (std::size_t i = 0; i < workers_.size(); ++i)
+    if (workers_[i].busy && sockets[i].revents != 0)
+      if (std::optional<WorkerEvent> event = receive(static_cast<int>(i))) return event;
+  if (now_s() - looked_s_ < kLookEvery_s) return std::nullopt;
+  looked_s_ = now_s();
+  for (std::size_t i = 0; i < workers_.size(); ++i)
+    if (workers_[i].busy)
+      if (std::optional<WorkerEvent> event = over_limit(static_cast<int>(i))) return event;
+  return std::nullopt;
+}
+
+std::optional<WorkerEvent> WorkerPool::receive(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  char buffer[65536];
+  const ssize_t got = ::recv(worker.socket, buffer, sizeof buffer, MSG_DONTWAIT);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
+  if (got <= 0) return bury(index, WorkerEnd::crashed);
+  worker.received.append(buffer, static_cast<std::size_t>(got));
+  std::optional<std::string> reply = take_message(worker.received);
+  if (!reply) return std::nullopt;
+  worker.busy = false;
+  return WorkerEvent{index, WorkerEnd::replied, std::move(*reply), {}};
+}
+
+std::optional<WorkerEvent> WorkerPool::over_limit(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  if (const std::uint64_t beats = worker.slot->beats(); beats != worker.beats) {
+    worker.beats = beats;
+    worker.since_s = now_s();
+  }
+  if (now_s() - worker.since_s > limits_.seconds) return bury(index, WorkerEnd::timed_out);
+  if (resident_bytes(worker.pid) > limits_.bytes) return bury(index, WorkerEnd::out_of_memory);
+  return std::nullopt;
+}
+
+// Ends the worker where it has not ended by itself, and starts another in its place.
+WorkerEvent WorkerPool::bury(int index, WorkerEnd end) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  if (end != WorkerEnd::crashed) ::kill(worker.pid, SIGKILL);
+  int status = 0;
+  while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  WorkerEvent event{index, end, end == WorkerEnd::crashed ? how_it_ended(status) : "", worker.slot->note()};
+  ::close(worker.socket);
+  worker.socket = -1;
+  start(worker);
+  return event;
+}
+
+}  // namespace contort

@@ -1,0 +1,90 @@
+// Work in processes of their own. What crashes, hangs or eats memory there ends that process alone; the pool says how,
+// and what it was doing, and starts another. The caller must have no other threads.
+#pragma once
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contort {
+
+// Memory that a worker shares with its pool. It outlives the worker.
+class WorkerSlot {
+ public:
+  static constexpr std::size_t kMostNote = 1 << 20;
+
+  // What is being done now; longer notes are kept empty. Written before the work begins.
+  void note(std::string_view text);
+  // Still alive: the time limit counts from here.
+  void beat() { beats_.fetch_add(1, std::memory_order_relaxed); }
+
+  std::string note() const { return std::string(text_, length_); }
+  std::uint64_t beats() const { return beats_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> beats_{0};
+  std::size_t length_ = 0;
+  char text_[kMostNote] = {};
+};
+
+struct WorkerLimits {
+  double seconds = 10.0;                           // between two beats
+  std::int64_t bytes = std::int64_t{4} << 30;      // resident memory
+};
+
+enum class WorkerEnd { replied, crashed, timed_out, out_of_memory };
+
+struct WorkerEvent {
+  int worker = 0;
+  WorkerEnd end = WorkerEnd::replied;
+  std::string text;  // the reply; of a crash the signal: "SIGSEGV", or "exit 3"
+  std::string note;  // where it did not reply: what it was doing
+};
+
+class WorkerPool {
+ public:
+  using Work = std::function<std::string(const std::string& task, WorkerSlot& slot)>;
+
+  // Throws std::system_error where the system gives no more processes.
+  WorkerPool(int workers, const WorkerLimits& limits, Work work);
+  ~WorkerPool();  // what still runs is killed
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  std::optional<int> idle_worker() const;
+  int busy() const;
+  void give(int worker, const std::string& task);
+
+  // The next worker that replied or ended, or nothing within the time.
+  std::optional<WorkerEvent> wait(int milliseconds);
+
+ private:
+  struct Worker {
+    pid_t pid = -1;
+    int socket = -1;
+    WorkerSlot* slot = nullptr;
+    bool busy = false;
+    std::string received;
+    std::uint64_t beats = 0;
+    double since_s = 0.0;  // of the last beat
+  };
+
+  void start(Worker& worker);
+  [[noreturn]] void serve(int socket, WorkerSlot& slot);
+  std::optional<WorkerEvent> receive(int index);
+  std::optional<WorkerEvent> over_limit(int index);
+  WorkerEvent bury(int index, WorkerEnd end);
+
+  WorkerLimits limits_;
+  Work work_;
+  std::vector<Worker> workers_;
+  double looked_s_ = 0.0;
+};
+
+}  // namespace contort

@@ -1,0 +1,108 @@
+// Workers that end in every way: the pool says how, and goes on.
+#include "fuzz/worker_pool.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+#include <thread>
+
+namespace contort {
+namespace {
+
+// What the tests' workers can do, by task.
+std::string obey(const std::string& task, WorkerSlot& slot) {
+  slot.note("doing " + task);
+  if (task == "crash") ::raise(SIGSEGV);
+  if (task == "abort") ::abort();
+  if (task == "exit") ::_exit(3);
+  if (task == "hang")
+    for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (task == "slow but alive")
+    for (int i = 0; i < 80; ++i) {
+      slot.beat();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  if (task == "eat") {
+    std::string all;
+    for (;;) all.append(std::size_t{8} << 20, 'x');
+  }
+  if (task == "long") return std::string(3'000'000, 'a');
+  return "did " + task;
+}
+
+const WorkerLimits kTight{1.0, std::int64_t{400} << 20};
+
+WorkerEvent next_event(WorkerPool& pool) {
+  for (int i = 0; i < 600; ++i)
+    if (std::optional<WorkerEvent> event = pool.wait(50)) return *event;
+  ADD_FAILURE() << "nothing happened for half a minute";
+  return {};
+}
+
+WorkerEvent outcome_of(const std::string& task) {
+  WorkerPool pool(1, kTight, obey);
+  pool.give(0, task);
+  const WorkerEvent event = next_event(pool);
+  pool.give(0, "more");  // whatever happened, there is a worker again
+  EXPECT_EQ(next_event(pool).text, "did more");
+  return event;
+}
+
+TEST(WorkerPool, GivesRepliesOfAnyLength) {
+  EXPECT_EQ(outcome_of("this").text, "did this");
+  EXPECT_EQ(outcome_of("long").text.size(), 3'000'000U);
+}
+
+TEST(WorkerPool, NamesTheSignalAndWhatWasBeingDone) {
+  for (const auto& [task, name] : std::map<std::string, std::string>{
+           {"crash", "SIGSEGV"}, {"abort", "SIGABRT"}, {"exit", "exit 3"}}) {
+    const WorkerEvent event = outcome_of(task);
+    EXPECT_EQ(event.end, WorkerEnd::crashed);
+#ifndef __SANITIZE_ADDRESS__  // which takes signals for itself and exits
+    EXPECT_EQ(event.text, name);
+#endif
+    EXPECT_EQ(event.note, "doing " + task);
+  }
+}
+
+TEST(WorkerPool, EndsWhatHangsAndWhatEatsMemory) {
+  EXPECT_EQ(outcome_of("hang").end, WorkerEnd::timed_out);
+  EXPECT_EQ(outcome_of("eat").end, WorkerEnd::out_of_memory);
+}
+
+TEST(WorkerPool, WaitsForWhatShowsThatItIsAlive) {
+  EXPECT_EQ(outcome_of("slow but alive").text, "did slow but alive");
+}
+
+TEST(WorkerPool, OthersGoOnWhileOneHangs) {
+  WorkerPool pool(2, kTight, obey);
+  pool.give(0, "hang");
+  int done = 0;
+  for (bool hangs = true; hangs;) {
+    if (pool.idle_worker() == 1) pool.give(1, "this");
+    const WorkerEvent event = next_event(pool);
+    if (event.worker == 0)
+      hangs = false;
+    else
+      done += event.text == "did this";
+  }
+  EXPECT_GT(done, 10);
+}
+
+TEST(WorkerPool, LeavesNoProcessBehind) {
+  pid_t worker = 0;
+  {
+    WorkerPool pool(1, kTight, [](const std::string&, WorkerSlot&) { return std::to_string(::getpid()); });
+    pool.give(0, "");
+    worker = static_cast<pid_t>(std::stol(next_event(pool).text));
+    EXPECT_EQ(::kill(worker, 0), 0);
+    pool.give(0, "");
+  }
+  EXPECT_NE(::kill(worker, 0), 0);
+}
+
+}  // namespace
+}  // namespace contort
