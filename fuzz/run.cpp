@@ -229,7 +229,7 @@ class Run {
     ShrinkConfig config = config_.shrink;
     config.checks = config_.checks;
     config.out_of_time = [this] { return halted(); };
-    return shrink(candidate, library_, config);
+    return shrink(candidate, library_, config).minimal;
   }
 
   void store(const Case& minimal, const Case& original) {
