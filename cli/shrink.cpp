@@ -2,10 +2,13 @@
 #include "fuzz/shrink.h"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/print.h"
 #include "corpus/corpus.h"
 #include "corpus/replay.h"
 #include "generator/core/files.h"
@@ -17,38 +20,77 @@ namespace {
 struct Options {
   std::string input;
   std::string output;
+  std::string worst;
+  std::string time;
   ShrinkConfig config;
 };
+
+// The case as it fails now, or nothing with the reason printed.
+std::optional<Case> failing_now(const Options& options, const Library& library, const CheckSettings& settings,
+                                Context& context) {
+  Result<Case> stored = read_case(options.input);
+  if (!stored) return context.fail(stored.issue()), std::nullopt;
+  Evaluator evaluator(settings);
+  const Replay now = replay(*stored, library, evaluator, {}, options.config.isolation);
+  if (now.verdict == Verdict::refused) return context.fail(now.issue), std::nullopt;
+  if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
+    return context.fail({"shrink.no_failure", "",
+                         options.input + " does not fail as it says any more (" +
+                             std::string(verdict_name(now.verdict)) + ")"}),
+           std::nullopt;
+  Case failing = std::move(stored).value();
+  failing.expect = now.now;
+  return failing;
+}
+
+// The configuration of one shrink; its time runs from now on.
+Result<ShrinkConfig> configure(const Options& options, const CheckSettings& settings) {
+  ShrinkConfig config = options.config;
+  config.checks = settings;
+  if (options.time.empty()) return config;
+  const Result<double> seconds = parse_time_s(options.time);
+  if (!seconds) return seconds.issue();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*seconds);
+  config.out_of_time = [end] { return std::chrono::steady_clock::now() >= end; };
+  return config;
+}
+
+void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string& output, const Context& context) {
+  std::printf("%s: %zu bytes of spec, was %zu (%d evaluations, %s)\n", output.c_str(),
+              print_spec(shrunk.minimal.spec).size(), print_spec(original.spec).size(), shrunk.evaluations,
+              shrunk.stopped.c_str());
+  for (const std::string& pointer : shrunk.minimal.free_fields)
+    std::printf("any value: %s\n", pointer.c_str());
+  if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
+    std::printf("worst: %s %s, %s here\n", short_number(shrunk.worst.expect.worst_margin).c_str(),
+                shrunk.worst.expect.unit.c_str(), short_number(shrunk.minimal.expect.worst_margin).c_str());
+  for (const Case& other : shrunk.also) std::printf("also met: %s\n", family_of(other).c_str());
+  std::printf("%s\n", replay_command(output, context.library_folders).c_str());
+}
 
 void run(const Options& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
-  Result<Case> stored = read_case(options.input);
-  if (!stored) return context.fail(stored.issue());
   Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
   CheckSettings without_waivers = std::move(settings).value();
   without_waivers.waivers.clear();  // what is waived is still there
-  Evaluator evaluator(without_waivers);
-  const Replay now = replay(*stored, *library, evaluator);
-  if (now.verdict == Verdict::refused) return context.fail(now.issue);
-  if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
-    return context.fail(
-        {"shrink.no_failure", "",
-         options.input + " does not fail as it says any more (" + std::string(verdict_name(now.verdict)) + ")"});
-  Case original = std::move(stored).value();
-  original.expect = now.now;
-  ShrinkConfig config = options.config;
-  config.checks = without_waivers;
-  const Case smaller = shrink(original, *library, config);
+  const Result<ShrinkConfig> config = configure(options, without_waivers);
+  if (!config) return context.fail(config.issue());
+  const std::optional<Case> original = failing_now(options, *library, without_waivers, context);
+  if (!original) return;
+  const Shrunk shrunk = shrink(*original, *library, *config);
+  if (shrunk.stopped == "flaky" || shrunk.stopped == "gone")
+    return context.fail({"shrink.flaky", "", options.input + " shows something else each time: nothing is shrunk"},
+                        kInconclusive);
   const std::string output =
-      options.output.empty() ? "min-" + spec_id(smaller.spec).substr(0, 16) + ".json" : options.output;
-  if (const Result<Done> written = write_file(output, print_case(smaller)); !written)
+      options.output.empty() ? "min-" + spec_id(shrunk.minimal.spec).substr(0, 16) + ".json" : options.output;
+  if (const Result<Done> written = write_file(output, print_case(shrunk.minimal)); !written)
     return context.fail(written.issue(), kInternal);
-  std::printf("%s: %zu bytes of spec, was %zu (%d evaluations, %s)\n", output.c_str(), print_spec(smaller.spec).size(),
-              print_spec(original.spec).size(), smaller.provenance.shrink_evaluations,
-              smaller.provenance.shrink_stopped.c_str());
-  std::printf("%s\n", replay_command(output, context.library_folders).c_str());
+  if (!options.worst.empty())
+    if (const Result<Done> written = write_file(options.worst, print_case(shrunk.worst)); !written)
+      return context.fail(written.issue(), kInternal);
+  print_shrunk(shrunk, *original, output, context);
 }
 
 }  // namespace
@@ -58,10 +100,12 @@ void add_shrink(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("shrink", "Make a case smaller, with the same failure");
   command->add_option("CASE", options->input, "Case file")->required();
   command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
+  command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
+  command->add_option("--time", options->time, "Stop after this time: 45s, 10m; results then depend on the machine");
   command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
-  command->add_option("--depth-floor", options->config.depth_floor, "Stay at least this share of the depth")
+  command->add_option("--depth-floor", options->config.depth_floor, "Stay at least this share of the depth; 0: any")
       ->check(CLI::Range(0.0, 1.0))
       ->check(refuse_nan)
       ->capture_default_str();

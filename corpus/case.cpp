@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "generator/core/hash.h"
 #include "generator/spec_fields.h"
@@ -15,7 +16,7 @@ using json_fields::Text;
 
 const Rule kText{.text = Text::label, .may_be_empty = true};
 const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
-const Rule kHash{.required = true};
+const Rule kHash{.required = true, .may_be_empty = true};  // parse_case says when
 const Rule kFrame{.low = 0, .high = 36000};
 const Rule kCount{.low = -1, .high = 0x1p53};
 
@@ -44,7 +45,8 @@ void fields(V& v, const Provenance*) {
   v.field("index", &Provenance::index, kCount, "Of the case in the run.");
   v.field("shrunk_from", &Provenance::shrunk_from, kText, "Content id of the spec before shrinking.");
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
-  v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations or time.");
+  v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");
+  v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
 }
 
 template <class V>
@@ -53,13 +55,28 @@ void fields(V& v, const Case*) {
   v.field("spec", &Case::spec, {.required = true}, "The action specification.");
   v.field("expect", &Case::expect, {.required = true}, "What running it shows.");
   v.field("provenance", &Case::provenance, {}, "Where it came from.");
+  v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = Text::label},
+          "Pointers into the spec: fields that could as well have other values.");
 }
 
 std::string family_of(const Case& stored) {
   return stored.expect.check + "|" + stored.spec.character.name + "|" + stored.expect.subject;
 }
 
-Result<Case> parse_case(std::string_view json) { return json_fields::read_document<Case>(json, "case"); }
+bool is_ending(const Expectation& expect) {
+  return expect.check == "crash" || expect.check == "timeout" || expect.check == "memory";
+}
+
+Result<Case> parse_case(std::string_view json) {
+  Result<Case> read = json_fields::read_document<Case>(json, "case");
+  if (!read || is_ending(read->expect)) return read;
+  for (const auto& [hash, name] : {std::pair(&read->expect.motion_hash, "motion_hash"),
+                                   std::pair(&read->expect.character_hash, "character_hash")})
+    if (hash->empty())
+      return Issue{"case.bad_text", std::string("/expect/") + name,
+                   "found nothing; only a crash, a timeout or memory has no hash"};
+  return read;
+}
 std::string print_case(const Case& stored) { return json_fields::write_pretty(stored); }
 std::string case_schema() { return json_fields::write_schema<Case>("Contort case"); }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "checks/evaluate.h"
 #include "generator/core/result.h"
@@ -21,7 +22,7 @@ struct Expectation {
   int last_frame = 0;
   double worst_margin = 0.0;   // < 0, or NaN
   double depth = 0.0;          // -worst_margin in the check's scale; 0 for NaN
-  std::string motion_hash;     // 16 hex digits
+  std::string motion_hash;     // 16 hex digits; "" for a crash, a timeout or memory (isolate.h)
   std::string character_hash;  // the same; another one means that the parts changed since
   std::string trace;           // motion_trace, four hex digits a frame: tells the first frame that differs
   bool operator==(const Expectation&) const = default;
@@ -34,7 +35,8 @@ struct Provenance {
   std::int64_t index = -1;  // of the case in the run
   std::string shrunk_from;  // spec_id of the spec before shrinking; "" where it was not
   int shrink_evaluations = 0;
-  std::string shrink_stopped;  // "fixpoint", "evaluations" or "time"
+  std::string shrink_stopped;   // "fixpoint", "evaluations", "time", "flaky" or "gone"
+  double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
   bool operator==(const Provenance&) const = default;
 };
 
@@ -42,11 +44,15 @@ struct Case {
   Spec spec;
   Expectation expect;
   Provenance provenance;
+  std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
   bool operator==(const Case&) const = default;
 };
 
 // "self_collision|mech|arm_left/forearm ~ torso/trunk": the identity of a failure, without numbers.
 std::string family_of(const Case& stored);
+
+// The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.
+bool is_ending(const Expectation& expect);
 
 // Codes "case.*" and "json.*".
 Result<Case> parse_case(std::string_view json);

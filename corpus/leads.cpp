@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kMinimal = "-min.json";
+constexpr std::string_view kMinimal = "-min.json", kWorst = "-worst.json";
 
 std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
 
@@ -41,11 +41,14 @@ Result<Lead> read_lead(const std::string& path) {
   Result<Case> original = read_case(path);
   if (!original) return original.issue();
   Lead lead{fs::path(path).parent_path().filename().string(), std::move(original).value(), {}};
-  const std::string minimal = path.substr(0, path.size() - 5) + std::string(kMinimal);
-  if (std::error_code error; !fs::exists(minimal, error)) return lead;
-  Result<Case> smaller = read_case(minimal);
-  if (!smaller) return smaller.issue();
-  lead.minimal = std::move(smaller).value();
+  const std::string stem = path.substr(0, path.size() - 5);
+  for (const auto& [ending, into] : {std::pair(kMinimal, &lead.minimal), std::pair(kWorst, &lead.worst)}) {
+    const std::string other = stem + std::string(ending);
+    if (std::error_code error; !fs::exists(other, error)) continue;
+    Result<Case> stored = read_case(other);
+    if (!stored) return stored.issue();
+    *into = std::move(stored).value();
+  }
   return lead;
 }
 
@@ -57,16 +60,18 @@ Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
   if (const Result<Done> made = make_folder(folder_of(corpus, lead.run)); !made) return made.issue();
   const std::string stem = stem_of(corpus, lead);
   if (const Result<Done> kept = write_file(stem + ".json", print_case(lead.original)); !kept) return kept.issue();
-  if (lead.minimal)
-    if (const Result<Done> kept = write_file(stem + std::string(kMinimal), print_case(*lead.minimal)); !kept)
-      return kept.issue();
+  // The minimal case last: where it is, all is.
+  for (const auto& [ending, from] : {std::pair(kWorst, &lead.worst), std::pair(kMinimal, &lead.minimal)})
+    if (*from)
+      if (const Result<Done> kept = write_file(stem + std::string(ending), print_case(**from)); !kept)
+        return kept.issue();
   return stem + ".json";
 }
 
 std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
   std::vector<Lead> all;
   for (const std::string& path : case_files(corpus)) {
-    if (path.ends_with(kMinimal)) continue;
+    if (path.ends_with(kMinimal) || path.ends_with(kWorst)) continue;
     Result<Lead> lead = read_lead(path);
     if (lead)
       all.push_back(std::move(lead).value());
@@ -78,7 +83,7 @@ std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
 
 Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
   if (!lead.minimal) return Issue{"lead.not_shrunk", "", stem_of(corpus, lead) + ".json is not shrunk yet"};
-  Result<Corpus::Added> added = corpus.add({*lead.minimal, lead.original, lead.run});
+  Result<Corpus::Added> added = corpus.add({*lead.minimal, lead.original, lead.run, lead.worst});
   if (added) drop_lead(corpus, lead);
   return added;
 }
@@ -86,7 +91,7 @@ Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
 void drop_lead(const Corpus& corpus, const Lead& lead) {
   std::error_code ignored;
   const std::string stem = stem_of(corpus, lead);
-  fs::remove(stem + std::string(kMinimal), ignored);
+  for (const std::string_view ending : {kMinimal, kWorst}) fs::remove(stem + std::string(ending), ignored);
   fs::remove(stem + ".json", ignored);
 }
 

@@ -2,6 +2,7 @@
 //
 //   DIR/leads/<run>/<family12>-<index>.json       as it was drawn; written as soon as it is wanted
 //                   <family12>-<index>-min.json   what it was shrunk to
+//                   <family12>-<index>-worst.json the deepest that shows the same
 //
 // So a kill loses nothing, and a shard can hand over what it found.
 #pragma once
@@ -19,6 +20,7 @@ struct Lead {
   std::string run;
   Case original;                // provenance.index: which case of the run
   std::optional<Case> minimal;  // once it was shrunk
+  std::optional<Case> worst{};
   bool operator==(const Lead&) const = default;
 };
 

@@ -30,9 +30,7 @@ bool as_expected(const Expectation& stored, const Expectation& now) {
          stored.worst_frame == now.worst_frame && stored.last_frame == now.last_frame && stored.depth == now.depth;
 }
 
-}  // namespace
-
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level) {
+Replay replay_here(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level) {
   Replay result;
   const Result<Stage> stage = build_stage_at(stored.spec, library, level);
   if (!stage) {
@@ -45,7 +43,8 @@ Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, 
                          : evaluation.findings.empty() ? nullptr
                                                        : &evaluation.findings.front();
   result.now = expectation_of(*stage, evaluator.motion(), evaluation, shown != nullptr ? *shown : Finding{});
-  result.character_changed = result.now.character_hash != stored.expect.character_hash;
+  result.character_changed =
+      !stored.expect.character_hash.empty() && result.now.character_hash != stored.expect.character_hash;
   result.first_difference = first_traced_difference(stored.expect.trace, result.now.trace);
   if (shown == nullptr)
     result.verdict = Verdict::passes;
@@ -54,6 +53,28 @@ Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, 
   else
     result.verdict = as_expected(stored.expect, result.now) ? Verdict::same : Verdict::same_family;
   return result;
+}
+
+}  // namespace
+
+Replay replay_ending(const Case& stored, const std::function<Replay()>& work, const Isolation& isolation) {
+  const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation);
+  Replay result;
+  if (!ending) {
+    result.issue = ending.issue();
+    return result;
+  }
+  if (ending->kind == Ending::Kind::finished) return work();
+  result.now = ending_case(stored.spec, *ending).expect;
+  const bool same = result.now.check == stored.expect.check && result.now.subject == stored.expect.subject;
+  result.verdict = same ? Verdict::same : Verdict::different;
+  return result;
+}
+
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level,
+              const Isolation& isolation) {
+  const auto work = [&] { return replay_here(stored, library, evaluator, level); };
+  return is_ending(stored.expect) ? replay_ending(stored, work, isolation) : work();
 }
 
 }  // namespace contort

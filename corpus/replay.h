@@ -1,9 +1,11 @@
 // Does a stored case still do what it says?
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "corpus/case.h"
+#include "corpus/isolate.h"
 #include "generator/character/library.h"
 #include "generator/level.h"
 
@@ -26,7 +28,13 @@ struct Replay {
   Issue issue;                     // for `refused`
 };
 
-// At a level below the whole the motion is another by nature: `same_family` is the best that it can be.
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level = {});
+// At a level below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
+// its process (is_ending) is run in a child process first: the caller has one thread then.
+Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level = {},
+              const Isolation& isolation = {});
+
+// What the stored ending comes to when `work`, which may end its process, is done in a child: `same` where it ends as
+// stored, `different` where it ends otherwise. Where it finishes, what it returns here once more.
+Replay replay_ending(const Case& stored, const std::function<Replay()>& work, const Isolation& isolation);
 
 }  // namespace contort

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "corpus/replay.h"
 #include "fuzz/case_fields.h"
 #include "fuzz/compose.h"
 #include "fuzz/labels.h"
@@ -83,33 +84,65 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   return report;
 }
 
+namespace {
+
+// "crash|human|SIGSEGV" back to how the process ended; nothing for a family of a check.
+std::optional<Ending> ending_of(const std::string& family) {
+  const std::string check = family.substr(0, family.find('|'));
+  if (check == "crash") return Ending{Ending::Kind::crash, family.substr(family.rfind('|') + 1), {}};
+  if (check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
+  if (check == "memory") return Ending{Ending::Kind::memory, {}, {}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+// The failure as the second time shows it, or nothing.
+std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec) {
+  if (const std::optional<Ending> ending = ending_of(task.family)) {
+    const Case ended = ending_case(spec, *ending);
+    const Replay again = replay(ended, library_, evaluator_, {}, isolation());
+    return again.verdict == Verdict::same ? std::optional<Case>(ended) : std::nullopt;
+  }
+  const Result<Stage> stage = build_stage(spec, library_);
+  if (!stage) return std::nullopt;
+  const Evaluation evaluation = evaluator_.run(*stage);
+  const Finding* finding = deepest_of(spec.character.name, evaluation.findings, task.family);
+  if (finding == nullptr) return std::nullopt;
+  return Case{spec, expectation_of(*stage, evaluator_.motion(), evaluation, *finding), {}};
+}
+
 // Kept first, then shrunk, so that a kill at any point loses nothing.
 CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   CaseReport report;
   const Spec spec = spec_of(task);
   slot.note(print_spec(spec));
-  const Result<Stage> stage = build_stage(spec, library_);
-  if (!stage) return report;
-  report.built = true;
-  const Evaluation evaluation = evaluator_.run(*stage);
-  const Finding* finding = deepest_of(spec.character.name, evaluation.findings, task.family);
-  if (finding == nullptr) return report;
-  Lead lead{run_name(config_), {spec, expectation_of(*stage, evaluator_.motion(), evaluation, *finding), {}}, {}};
-  lead.original.provenance = {config_.tool, config_.seed, task.lineage.back(), "", 0, ""};
-  report.confirmed = lead.original.expect.motion_hash == task.motion_hash;
+  const std::optional<Case> again = shown_again(task, spec);
+  if (!again) return report;
+  Lead lead{run_name(config_), *again, {}};
+  lead.original.provenance.tool = config_.tool;
+  lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
+  report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
   Result<std::string> kept = keep_lead(corpus_, lead);
   if (kept && report.confirmed) {
-    lead.minimal = shrunk(task, lead.original, slot);
+    const Shrunk shrunk = shrink_one(task, lead.original, slot);
+    lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
     kept = keep_lead(corpus_, lead);
   }
   if (!kept) report.issue = kept.issue().text;
   return report;
 }
 
-Case CaseWork::shrunk(const CaseTask& task, const Case& original, WorkerSlot& slot) const {
+Isolation CaseWork::isolation() const {
+  return {std::max(1, static_cast<int>(config_.limits.seconds)), config_.limits.bytes, true};
+}
+
+Shrunk CaseWork::shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const {
   ShrinkConfig config = config_.shrink;
   config.checks = config_.checks;
-  if (!task.ending.empty()) config.max_evaluations = 0;  // a candidate ended the process that tried it
+  config.isolation = isolation();
+  // A candidate ended the process that tried it: then the failure is kept as it was drawn.
+  if (!task.ending.empty() && !is_ending(original.expect)) config.max_evaluations = 0;
   config.out_of_time = [&] {
     slot.beat();
     return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,9 @@ class CaseWork {
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   Spec spec_of(const CaseTask& task) const;
-  Case shrunk(const CaseTask& task, const Case& original, WorkerSlot& slot) const;
+  std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
+  Isolation isolation() const;
+  Shrunk shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const;
 
   const RunConfig& config_;
   const Library& library_;

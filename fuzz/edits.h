@@ -1,13 +1,16 @@
-// What shrinking may do to a spec: remove units of one kind, set fields to their defaults, move numbers.
+// What shrinking may take out of a spec: units of one kind, in all lists together.
 #pragma once
 
-#include <functional>
 #include <span>
-#include <vector>
 
 #include "generator/spec.h"
 
 namespace contort {
+
+// The sequences of the queue, then those of the interrupts: s counts through both.
+std::size_t sequence_count(const Spec& spec);
+SequenceDesc& sequence_at(Spec& spec, std::size_t s);
+const SequenceDesc& sequence_at(const Spec& spec, std::size_t s);
 
 // Units of one kind that a spec consists of, numbered through.
 struct UnitKind {
@@ -16,19 +19,7 @@ struct UnitKind {
   void (*remove)(Spec&, int first, int count);
 };
 
-// Coarse to fine: sequences, clips, actions, attachments, swapped parts, parameters.
+// Coarse to fine: sequences, interrupts, clips, actions; what is around them; swapped parts, parameters.
 std::span<const UnitKind> unit_kinds();
-
-// One change to one field towards its default.
-using Edit = std::function<void(Spec&)>;
-std::vector<Edit> default_edits(const Spec& spec);
-
-// A number of a spec that may be moved towards its default.
-struct NumberRef {
-  std::function<double&(Spec&)> at;
-  double preset = 0.0;
-  double steps_per_unit = 1.0;  // stay on multiples of 1 / this
-};
-std::vector<NumberRef> numbers_of(const Spec& spec);
 
 }  // namespace contort

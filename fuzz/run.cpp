@@ -125,7 +125,7 @@ class Run {
       if (!settling_.empty()) {
         running.settled = settling_.front();
         settling_.pop_front();
-        pool.give(*idle, print_task(*running.settled));
+        pool.give(*idle, print_task(*running.settled), kSettlingPatience);
       } else {
         running.place = given_++;
         pool.give(*idle, print_task(round_[static_cast<std::size_t>(running.place)].task));
@@ -276,6 +276,7 @@ class Run {
   }
 
   static constexpr double kKeepEvery_s = 1.0;
+  static constexpr double kSettlingPatience = 4.0;  // what hangs is run to its limit in a process of its own
 
   RunConfig config_;
   const Library& library_;

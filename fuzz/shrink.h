@@ -1,28 +1,43 @@
 // Shrinking: a smaller spec that fails in the same way. Works on the spec itself, never on the draw, so a case from
-// anywhere can be shrunk. Deterministic: the same input gives the same output.
+// anywhere can be shrunk. Deterministic: the same input gives the same output, and shrinking that again changes nothing
+// (docs/shrinking.md).
 #pragma once
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "checks/evaluate.h"
 #include "corpus/case.h"
+#include "corpus/isolate.h"
+#include "fuzz/trial.h"
 #include "generator/character/library.h"
 
 namespace contort {
 
 struct ShrinkConfig {
-  int max_evaluations = 300;
+  int max_evaluations = 500;  // of all stages together
   // A candidate must stay at least this deep, as a share of the original depth: without a floor, shrinking ends at
   // violations by a hair, which look like noise.
   double depth_floor = 0.5;
-  CheckSettings checks;  // those that found the failure
-  std::function<bool()> out_of_time;  // asked before every evaluation; may be empty
+  CheckSettings checks;               // those that found the failure
+  Isolation isolation;                // for cases that end their process
+  std::function<bool()> out_of_time;  // asked before every evaluation; may be empty. Makes results differ.
 };
 
-// Keeps check, subject and character of `original`; its spec and expectation become those of the smaller one. Order:
-// cut what comes after the failure, remove sequences, clips, actions, attachments, swaps and parameters (delta
-// debugging: Zeller and Hildebrandt 2002), set fields to their defaults, move numbers towards theirs.
-Case shrink(const Case& original, const Library& library, const ShrinkConfig& config);
+struct Shrunk {
+  Case minimal;
+  Case worst;              // what minimal needs, with numbers that make it as deep as was found
+  std::vector<Case> also;  // other families, which the original does not show: the cheapest spec seen of each
+  std::string stopped;     // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
+  int evaluations = 0;     // motions generated
+};
+
+// Keeps check, subject and character of `original`. A case that ends its process (isolate.h) is run in others: then the
+// caller has one thread only.
+Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& config);
+
+// The same by any way of running specs.
+Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config);
 
 }  // namespace contort

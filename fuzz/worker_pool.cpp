@@ -168,11 +168,12 @@ int WorkerPool::busy() const {
   return static_cast<int>(std::ranges::count_if(workers_, [](const Worker& worker) { return worker.busy; }));
 }
 
-void WorkerPool::give(int index, const std::string& task) {
+void WorkerPool::give(int index, const std::string& task, double patience) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
   CONTORT_ASSERT(!worker.busy);
   worker.slot->note({});
   worker.busy = true;
+  worker.patience = patience;
   worker.beats = worker.slot->beats();
   worker.since_s = now_s();
   send_message(worker.socket, task);  // where that fails the worker is dead, and wait() will see it
@@ -212,7 +213,7 @@ std::optional<WorkerEvent> WorkerPool::over_limit(int index) {
     worker.beats = beats;
     worker.since_s = now_s();
   }
-  if (now_s() - worker.since_s > limits_.seconds) return bury(index, WorkerEnd::timed_out);
+  if (now_s() - worker.since_s > worker.patience * limits_.seconds) return bury(index, WorkerEnd::timed_out);
   if (resident_bytes(worker.pid) > limits_.bytes) return bury(index, WorkerEnd::out_of_memory);
   return std::nullopt;
 }

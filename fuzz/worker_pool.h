@@ -2,8 +2,6 @@
 // and what it was doing, and starts another. The caller must have no other threads.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -59,20 +57,22 @@ class WorkerPool {
 
   std::optional<int> idle_worker() const;
   int busy() const;
-  void give(int worker, const std::string& task);
+  // `patience` times the limit of seconds is allowed.
+  void give(int worker, const std::string& task, double patience = 1.0);
 
   // The next worker that replied or ended, or nothing within the time.
   std::optional<WorkerEvent> wait(int milliseconds);
 
  private:
   struct Worker {
-    pid_t pid = -1;
+    int pid = -1;
     int socket = -1;
     WorkerSlot* slot = nullptr;
     bool busy = false;
     std::string received;
     std::uint64_t beats = 0;
     double since_s = 0.0;  // of the last beat
+    double patience = 1.0;
   };
 
   void start(Worker& worker);

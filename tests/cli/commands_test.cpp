@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "corpus/isolate.h"
 #include "tests/checks/small_character.h"
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_cases.h"
@@ -259,6 +260,27 @@ TEST_F(Commands, ShrinkWritesASmallerCaseThatReplaysAsTheSame) {
   const Ran none = contort_program({"shrink", file("passes.json", print_case(passes)), "-o", smaller});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("shrink.no_failure"), std::string::npos) << none.err;
+}
+
+TEST_F(Commands, ShrinkingAgainWritesTheSameFile) {
+  const std::string first = folder_ / "first.json", second = folder_ / "second.json", worst = folder_ / "worst.json";
+  ASSERT_EQ(contort_program({"shrink", file("case.json", print_case(elbow_case(270, 77))), "-o", first}).code, 0);
+  const Ran again = contort_program({"shrink", first, "-o", second, "--worst", worst});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(slurp(first), slurp(second));
+  EXPECT_NE(again.out.find("worst: "), std::string::npos) << again.out;
+  EXPECT_NE(contort_program({"replay", worst}).out.find("same "), std::string::npos);
+}
+
+TEST_F(Commands, ACaseThatCrashedAndDoesNotAnyMorePasses) {
+  const Case crashed = ending_case(bent_elbow(100), {Ending::Kind::crash, "SIGSEGV", ""});
+  const std::string path = file("crashed.json", print_case(crashed));
+  const Ran replayed = contort_program({"replay", path});
+  EXPECT_EQ(replayed.code, 0) << replayed.err;
+  EXPECT_EQ(last_line(replayed.out), "RESULT cases=1 same=0 same_family=0 different=0 passes=1 refused=0");
+  const Ran shrunk = contort_program({"shrink", path});
+  EXPECT_EQ(shrunk.code, 2);
+  EXPECT_NE(shrunk.err.find("shrink.no_failure"), std::string::npos) << shrunk.err;
 }
 
 TEST_F(Commands, AnInterruptKeepsWhatWasFoundAndExitsWith75) {

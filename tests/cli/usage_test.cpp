@@ -61,6 +61,7 @@ TEST_F(Usage, NoCommandAnUnknownOneAndUnknownOptionsAreRefused) {
   expect_refused({"fuzz", "--cases", "-1"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "2"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "nan"}, 2, "nan");
+  expect_refused({"shrink", good_spec(), "--time", "soon"}, 2, "usage.bad_time");
 }
 
 TEST_F(Usage, ABadTimeIsRefused) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "corpus/isolate.h"
 #include "fuzz/draw.h"
 #include "generator/core/hash.h"
 #include "tests/corpus/sample_cases.h"
@@ -48,7 +49,9 @@ Case draw_case() {
                   *rc::gen::inRange<std::int64_t>(-1, 99),
                   draw_text("0123456789abcdef", 0, 32),
                   *rc::gen::inRange(0, 36001),
-                  draw_text("fixpoint", 0, 10)};
+                  draw_text("fixpoint", 0, 10),
+                  std::ldexp(static_cast<double>(*rc::gen::inRange(0, 1000)), -4)};
+  for (int i = *rc::gen::inRange(0, 4); i > 0; --i) c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
   return c;
 }
 
@@ -109,6 +112,24 @@ TEST(CaseFile, AnExpectationTracesEveryFrameWithFourDigits) {
   EXPECT_NEAR(c.expect.worst_margin, -40 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(c.expect.depth, 400 * kRadPerDeg, 1e-11);
   EXPECT_EQ(family_of(c), "joint_range|human|arm_left/elbow max");
+}
+
+// A crash has no motion; anything else that has no hash was cut off or made up.
+TEST(CaseFile, OnlyACaseThatEndedItsProcessMayHaveNoHashes) {
+  for (const Ending::Kind kind : {Ending::Kind::crash, Ending::Kind::timeout, Ending::Kind::memory}) {
+    const Case c = ending_case(bent_elbow(100), {kind, "exit 1", ""});
+    const Result<Case> read = parse_case(print_case(c));
+    ASSERT_TRUE(read) << to_line(read.issue());
+    EXPECT_EQ(*read, c);
+  }
+  for (std::string Expectation::*hash : {&Expectation::motion_hash, &Expectation::character_hash}) {
+    Case c = elbow_case();
+    (c.expect.*hash).clear();
+    const Result<Case> read = parse_case(print_case(c));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.issue().code, "case.bad_text");
+    EXPECT_TRUE(read.issue().pointer.starts_with("/expect/")) << read.issue().pointer;
+  }
 }
 
 struct Refusal {

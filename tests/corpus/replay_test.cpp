@@ -2,9 +2,11 @@
 #include "corpus/replay.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/corpus/sample_cases.h"
 
@@ -150,6 +152,39 @@ TEST(Replay, AFailureThatIsNoNumberIsStoredReadAndReplayedAsTheSame) {
   ASSERT_TRUE(read) << to_line(read.issue());
   EXPECT_EQ(replayed(*read, nowhere).verdict, Verdict::same);
   EXPECT_EQ(replayed(*read).verdict, Verdict::passes);
+}
+
+Case ended_case(Ending::Kind kind, const std::string& signal = "") {
+  return ending_case(bent_elbow(100), {kind, signal, ""});
+}
+
+Verdict verdict_of_ending(const Case& stored, const std::function<Replay()>& work) {
+  Isolation isolation;
+  isolation.seconds = 1;
+  isolation.silent = true;
+  return replay_ending(stored, work, isolation).verdict;
+}
+
+TEST(ReplayOfAnEnding, TheSameEndIsTheSameAndAnotherOneIsDifferent) {
+  const auto abort = []() -> Replay { std::abort(); };
+  const auto hang = []() -> Replay {
+    for (;;) ::pause();
+  };
+  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::crash, "SIGABRT"), abort), Verdict::same);
+  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::crash, "SIGSEGV"), abort), Verdict::different);
+  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::timeout), abort), Verdict::different);
+  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::timeout), hang), Verdict::same);
+}
+
+TEST(ReplayOfAnEnding, WhatFinishesNowIsReplayedAsUsual) {
+  Case crashed = ended_case(Ending::Kind::crash, "SIGSEGV");
+  EXPECT_EQ(replayed(crashed).verdict, Verdict::passes);
+  EXPECT_FALSE(replayed(crashed).character_changed) << "nobody knows what it was";
+  crashed.spec = bent_elbow(190);
+  EXPECT_EQ(replayed(crashed).verdict, Verdict::different);
+  EXPECT_EQ(replayed(crashed).now.subject, kElbow);
+  crashed.spec.character.name = "nobody";
+  EXPECT_EQ(replayed(crashed).verdict, Verdict::refused);
 }
 
 TEST(Replay, VerdictsHaveDifferentNames) {

@@ -2,6 +2,8 @@
 #include "fuzz/run.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -227,6 +229,41 @@ TEST_F(Runs, OfTheSameNameDoNotRunTwiceAtATime) {
     EXPECT_EQ(run(config, corpus).issue.code, "run.busy");
   }
   EXPECT_EQ(run(config, corpus).issue.code, "");
+}
+
+std::vector<pid_t> children() {
+  std::vector<pid_t> all;
+  const std::string me = std::to_string(::getpid());
+  std::istringstream list(slurp("/proc/" + me + "/task/" + me + "/children"));
+  for (pid_t pid = 0; list >> pid;) all.push_back(pid);
+  return all;
+}
+
+// From outside, so that it does not happen again: a lead that cannot be confirmed, and a run that goes on.
+TEST_F(Runs, GoOnWhenAWorkerIsKilled) {
+  const Corpus corpus = create(folder_ / "corpus");
+  int asked = 0;
+  const RunResult result = run_fuzz(
+      config_of(3000, 2), library(), corpus, [](const RunProgress&) {},
+      [&] {
+        if (++asked % 500 == 0 && !children().empty()) ::kill(children().front(), SIGSEGV);
+        return false;
+      });
+  EXPECT_GT(asked, 500);
+  EXPECT_EQ(result.issue.code, "");
+  EXPECT_EQ(result.record.cases, 3000);
+  EXPECT_FALSE(result.unconfirmed.empty());
+  expect_all_replay_as_the_same(corpus);
+}
+
+TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
+  RunConfig config = config_of(64, 2);
+  config.draw.characters = {"human"};
+  config.limits.seconds = 0.0005;
+  const RunResult result = run(config, create(folder_ / "corpus"));
+  EXPECT_EQ(result.record.cases, 64);
+  EXPECT_TRUE(result.record.families.contains("timeout|human|evaluation"));
+  EXPECT_FALSE(result.unconfirmed.empty());  // in a second it was done
 }
 
 TEST_F(Runs, OfAnyNumberOfShardsMergeToOneRun) {

@@ -1,0 +1,216 @@
+#include "fuzz/shrink_stages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "fuzz/ddmin.h"
+#include "fuzz/edits.h"
+#include "fuzz/places.h"
+#include "fuzz/shrink_state.h"
+#include "generator/core/math.h"
+
+namespace contort {
+
+namespace {
+
+using UseAt = std::array<int, 3>;  // sequence, clip, action
+
+Spec with_only(const Spec& spec, const std::set<UseAt>& kept) {
+  Spec smaller = spec;
+  for (std::size_t s = 0; s < sequence_count(smaller); ++s) {
+    std::vector<ClipDesc>& clips = sequence_at(smaller, s).clips;
+    for (std::size_t c = 0; c < clips.size(); ++c)
+      for (std::size_t a = clips[c].actions.size(); a-- > 0;)
+        if (!kept.contains({static_cast<int>(s), static_cast<int>(c), static_cast<int>(a)}))
+          clips[c].actions.erase(clips[c].actions.begin() + static_cast<std::ptrdiff_t>(a));
+  }
+  return smaller;
+}
+
+template <class Keep>
+std::set<UseAt> uses_where(const Shown& shown, Keep keep) {
+  std::set<UseAt> uses;
+  for (const ActionSpan& span : shown.spans)
+    if (keep(span)) uses.insert({span.sequence, span.clip, span.action});
+  return uses;
+}
+
+}  // namespace
+
+void cut_time(ShrinkState& state) {
+  const Shown& shown = state.shown();
+  if (shown.character == nullptr) return;
+  const int worst = shown.expect.worst_frame;
+  const auto begun = [&](const ActionSpan& s) { return s.first_frame <= worst; };
+  const auto moving = [&](const ActionSpan& s) { return begun(s) && s.last_frame >= worst; };
+  const auto named = [&](const ActionSpan& s) {
+    const std::string& slot = shown.character->parts()[static_cast<std::size_t>(s.part)].slot;
+    return moving(s) && shown.expect.subject.find(slot) != std::string::npos;
+  };
+  for (const std::set<UseAt>& kept : {uses_where(shown, named), uses_where(shown, moving), uses_where(shown, begun)}) {
+    Spec candidate = with_only(state.spec(), kept);
+    candidate.hold_frames = 0;
+    if (state.accept(std::move(candidate))) return;
+  }
+}
+
+void try_stock(ShrinkState& state) {
+  static const Spec plain;
+  Spec candidate = state.spec();
+  candidate.character.parts.clear();
+  candidate.character.attachments.clear();
+  candidate.environment = plain.environment;
+  candidate.start = plain.start;
+  candidate.dynamics = plain.dynamics;
+  candidate.hold_frames = plain.hold_frames;
+  state.accept(std::move(candidate));
+}
+
+void remove_structure(ShrinkState& state) {
+  for (const UnitKind& kind : unit_kinds())
+    ddmin([&] { return kind.count(state.spec()); },
+          [&](int first, int n) {
+            Spec candidate = state.spec();
+            kind.remove(candidate, first, n);
+            return state.accept(std::move(candidate));
+          });
+}
+
+void reset_fields(ShrinkState& state) {
+  std::vector<SpecPlace> left = places_of(state.spec(), state.shown().character.get());
+  ddmin([&] { return static_cast<int>(left.size()); },
+        [&](int first, int n) {
+          const auto from = left.begin() + first;
+          Spec candidate = state.spec();
+          reset_places(candidate, std::span(&*from, static_cast<std::size_t>(n)));
+          if (!state.accept(std::move(candidate))) return false;
+          left.erase(from, from + n);
+          return true;
+        });
+}
+
+namespace {
+
+// One number, counted in steps of its lattice from its default.
+class Lowering {
+ public:
+  Lowering(ShrinkState& state, const SpecPlace& place) : state_(state), place_(place) {
+    now_ = static_cast<std::int64_t>(std::ceil(std::abs(place.value - place.preset) * place.steps_per_unit));
+  }
+
+  // First over values of two digits; one of three stays only if none of two will do.
+  void run() {
+    if (now_ > kMostSteps) return;
+    std::int64_t grain = 1;
+    while (100 * grain <= now_) grain *= 10;
+    lower(grain);
+    if (now_ % grain != 0) lower(1);
+  }
+
+ private:
+  static constexpr std::int64_t kMostSteps = std::int64_t{1} << 40;
+
+  bool set_to(std::int64_t steps) {
+    const double way = static_cast<double>(steps) / place_.steps_per_unit;
+    Spec candidate = state_.spec();
+    const double value = place_.preset + (place_.value < place_.preset ? -way : way);
+    set_place(candidate, place_, on_lattice(value, place_.steps_per_unit));
+    return state_.accept(std::move(candidate));
+  }
+
+  // What does not hold one step nearer is taken not to hold nearer still: the default itself was tried before.
+  void lower(std::int64_t grain) {
+    const std::int64_t below = (now_ - 1) / grain * grain;
+    if (below <= 0 || !set_to(below)) return;
+    now_ = below;
+    for (std::int64_t refused = 0; now_ - refused > grain;) {
+      const std::int64_t middle = (refused + now_) / 2 / grain * grain;
+      (set_to(middle) ? now_ : refused) = middle;
+    }
+  }
+
+  ShrinkState& state_;
+  const SpecPlace& place_;
+  std::int64_t now_ = 0;
+};
+
+}  // namespace
+
+void lower_numbers(ShrinkState& state) {
+  for (const SpecPlace& place : places_of(state.spec(), state.shown().character.get()))
+    if (place.is_number && !state.halted()) Lowering(state, place).run();
+}
+
+namespace {
+
+constexpr std::size_t kMostForAllPairs = 8;  // 28 pairs; of more, only neighbours
+
+bool reset_two_fields(ShrinkState& state) {
+  const std::vector<SpecPlace> places = places_of(state.spec(), state.shown().character.get());
+  const std::size_t apart = places.size() <= kMostForAllPairs ? places.size() : 2;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = i + 1; j < std::min(i + apart, places.size()); ++j) {
+      Spec candidate = state.spec();
+      reset_places(candidate, std::array{places[i], places[j]});
+      if (state.accept(std::move(candidate))) return true;
+    }
+  return false;
+}
+
+bool remove_two_units(ShrinkState& state) {
+  for (const UnitKind& kind : unit_kinds()) {
+    const int count = kind.count(state.spec());
+    const int apart = static_cast<std::size_t>(count) <= kMostForAllPairs ? count : 2;
+    for (int i = 0; i < count; ++i)
+      for (int j = i + 1; j < std::min(i + apart, count); ++j) {
+        Spec candidate = state.spec();
+        kind.remove(candidate, j, 1);
+        kind.remove(candidate, i, 1);
+        if (state.accept(std::move(candidate))) return true;
+      }
+  }
+  return false;
+}
+
+// Clips that run at the same speed, without being stretched, as one: what starts later starts later in it.
+bool merge_clips(ShrinkState& state) {
+  for (std::size_t s = 0; s < sequence_count(state.spec()); ++s)
+    for (std::size_t c = 1; c < sequence_at(state.spec(), s).clips.size(); ++c) {
+      Spec candidate = state.spec();
+      std::vector<ClipDesc>& clips = sequence_at(candidate, s).clips;
+      ClipDesc &into = clips[c - 1], &from = clips[c];
+      if (into.speed != from.speed || into.duration_frames != 0 || from.duration_frames != 0) continue;
+      const double later = (from.start_frame - into.start_frame) * from.speed;
+      for (ActionUse& use : from.actions) {
+        use.start_frame = std::max(0, use.start_frame + static_cast<int>(std::lround(later)));
+        into.actions.push_back(use);
+      }
+      clips.erase(clips.begin() + static_cast<std::ptrdiff_t>(c));
+      if (state.accept(std::move(candidate))) return true;
+    }
+  return false;
+}
+
+// Sequences as one that plays both at once.
+bool merge_sequences(ShrinkState& state) {
+  for (std::size_t s = 1; s < state.spec().sequences.size(); ++s) {
+    Spec candidate = state.spec();
+    SequenceDesc &into = candidate.sequences[s - 1], &from = candidate.sequences[s];
+    if (into.duration_frames != 0 || from.duration_frames != 0) continue;
+    into.clips.insert(into.clips.end(), from.clips.begin(), from.clips.end());
+    candidate.sequences.erase(candidate.sequences.begin() + static_cast<std::ptrdiff_t>(s));
+    if (state.accept(std::move(candidate))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void try_pairs(ShrinkState& state) {
+  if (merge_sequences(state) || merge_clips(state) || remove_two_units(state)) return;
+  reset_two_fields(state);
+}
+
+}  // namespace contort

@@ -1,0 +1,111 @@
+#include "fuzz/shrink_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "corpus/corpus.h"
+
+namespace contort {
+
+namespace {
+
+bool is_needless(const ClipDesc& clip) { return clip.actions.empty() && clip.name.empty(); }
+
+void prune(Spec& spec) {
+  for (SequenceDesc& sequence : spec.sequences) std::erase_if(sequence.clips, is_needless);
+  for (InterruptDesc& interrupt : spec.interrupts) std::erase_if(interrupt.sequence.clips, is_needless);
+  std::erase_if(spec.sequences, [](const SequenceDesc& s) { return s.clips.empty() && s.name.empty(); });
+}
+
+// A share of what it was before any shrinking, so that shrinking again does not go on from half to a quarter. Nothing
+// finite is as deep as NaN.
+double least_depth_of(const Case& stored, double depth, double floor) {
+  if (std::isinf(depth)) return depth;
+  const Provenance& from = stored.provenance;
+  const double whole = from.shrunk_from.empty() || from.original_depth <= 0.0 ? depth : from.original_depth;
+  return std::min(floor * whole, depth);
+}
+
+}  // namespace
+
+ShrinkState::ShrinkState(Trial& trial, const Case& original, const ShrinkConfig& config)
+    : trial_(trial), config_(config), best_(original) {}
+
+bool ShrinkState::spent() {
+  if (evaluations_ >= config_.max_evaluations)
+    stopped_ = "evaluations";
+  else if (config_.out_of_time && config_.out_of_time())
+    stopped_ = "time";
+  return halted();
+}
+
+std::optional<Shown> ShrinkState::run(const Spec& candidate) {
+  if (spent()) return std::nullopt;
+  Shown shown = trial_.run(candidate, most_frames_);
+  if (shown.built) ++evaluations_;
+  return shown;
+}
+
+bool ShrinkState::confirm() {
+  const std::optional<Shown> first = run(best_.spec);
+  const std::optional<Shown> second = run(best_.spec);
+  if (!first || !second) return false;
+  if (first->fails != second->fails || first->expect.motion_hash != second->expect.motion_hash)
+    stopped_ = "flaky";
+  else if (!first->fails)
+    stopped_ = "gone";
+  if (halted()) return false;
+  best_.expect = second->expect;
+  best_.free_fields.clear();
+  shown_ = *second;
+  least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
+  most_frames_ = shown_.most_frames;
+  for (const Case& other : trial_.others(best_.spec)) families_.insert(family_of(other));
+  return true;
+}
+
+bool ShrinkState::accept(Spec candidate) {
+  prune(candidate);
+  if (candidate == best_.spec) return false;
+  const std::string text = print_spec(candidate);
+  if (tried_.contains(text)) return false;
+  std::optional<Shown> shown = run(candidate);
+  if (!shown || !shown->built) return false;
+  tried_[text] = shown->fails ? shown->depth : -1.0;
+  for (const Case& other : shown->met) meet(other);
+  if (!shown->fails || shown->depth < least_depth_) return false;
+  best_.spec = std::move(candidate);
+  best_.expect = shown->expect;
+  shown_ = std::move(*shown);
+  return true;
+}
+
+bool ShrinkState::fails(const Spec& candidate) {
+  const std::string text = print_spec(candidate);
+  if (const auto known = tried_.find(text); known != tried_.end()) return known->second >= 0.0;
+  const std::optional<Shown> shown = run(candidate);
+  if (!shown || !shown->built) return false;
+  tried_[text] = shown->fails ? shown->depth : -1.0;
+  return shown->fails;
+}
+
+void ShrinkState::look_around() {
+  if (!run(best_.spec)) return;
+  for (const Case& other : trial_.others(best_.spec)) meet(other);
+}
+
+void ShrinkState::meet(const Case& other) {
+  const std::string family = family_of(other);
+  if (families_.contains(family)) return;
+  const auto [known, is_new] = also_.try_emplace(family, other);
+  if (!is_new && cheaper(other.spec, known->second.spec)) known->second = other;
+}
+
+std::vector<Case> ShrinkState::also() const {
+  std::vector<Case> cases;
+  for (const auto& [family, other] : also_) cases.push_back(other);
+  return cases;
+}
+
+}  // namespace contort

@@ -1,0 +1,84 @@
+#include "fuzz/trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace contort {
+
+CheckTrial::CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings)
+    : check_(family.check), subject_(family.subject), library_(library), evaluator_(settings) {}
+
+// Most candidates keep the character: it need not be assembled again for them.
+Result<Stage> CheckTrial::build(const Spec& spec) const {
+  if (stage_.ok() && spec.character == choice_) return build_stage(spec, stage_->character, library_);
+  return build_stage(spec, library_);
+}
+
+Shown CheckTrial::run(const Spec& spec, int most_frames) {
+  Shown shown;
+  Result<Stage> stage = build(spec);
+  if (!stage || stage->most_frames > most_frames) return shown;
+  stage_ = std::move(stage);
+  choice_ = spec.character;
+  shown.built = true;
+  shown.most_frames = stage_->most_frames;
+  shown.character = stage_->character;
+  const Evaluation evaluation = evaluator_.run(*stage_, check_);
+  shown.spans = evaluator_.motion().spans;
+  shown.met = others_among(spec, evaluation);
+  const Finding* finding = deepest(evaluation.findings, check_, subject_);
+  if (finding == nullptr) return shown;
+  shown.fails = true;
+  shown.depth = finding->depth;
+  shown.expect = expectation_of(*stage_, evaluator_.motion(), evaluation, *finding);
+  return shown;
+}
+
+std::vector<Case> CheckTrial::others(const Spec& spec) {
+  const Motion& motion = evaluator_.motion();
+  Evaluation evaluation;
+  evaluation.motion_hash = motion_hash(motion);
+  evaluation.findings = evaluator_.judge(*stage_->character, motion, {}, stage_->environment, &stage_->timeline);
+  return others_among(spec, evaluation);
+}
+
+std::vector<Case> CheckTrial::others_among(const Spec& spec, const Evaluation& evaluation) const {
+  std::map<std::string, const Finding*> deepest_of;
+  for (const Finding& finding : evaluation.findings) {
+    const Finding*& deepest = deepest_of[family_of(spec.character.name, finding)];
+    if (deepest == nullptr || finding.depth > deepest->depth) deepest = &finding;
+  }
+  std::vector<Case> cases;
+  for (const auto& [family, finding] : deepest_of)
+    if (finding->check != check_ || finding->subject != subject_)
+      cases.push_back({spec, expectation_of(*stage_, evaluator_.motion(), evaluation, *finding), {}});
+  return cases;
+}
+
+EndingTrial::EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation)
+    : check_(family.check), subject_(family.subject), work_(std::move(work)), isolation_(isolation) {
+  isolation_.silent = true;  // hundreds of times the same last words
+}
+
+Shown EndingTrial::run(const Spec& spec, int) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result<Ending> ending = isolate([&] { return work_(spec), std::string(); }, isolation_);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  Shown shown;
+  if (!ending) return shown;
+  if (!timed_ && ending->kind != Ending::Kind::timeout)
+    isolation_.seconds = std::max(5, static_cast<int>(std::ceil(10.0 * took.count())));
+  timed_ = true;
+  shown.built = true;
+  if (ending->kind == Ending::Kind::finished) return shown;
+  const Case ended = ending_case(spec, *ending);
+  shown.fails = ended.expect.check == check_ && ended.expect.subject == subject_;
+  if (!shown.fails) shown.met.push_back(ended);
+  shown.depth = ended.expect.depth;
+  shown.expect = ended.expect;
+  return shown;
+}
+
+}  // namespace contort

@@ -1,0 +1,68 @@
+// What running a spec shows of the family that is being shrunk.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "checks/evaluate.h"
+#include "corpus/case.h"
+#include "corpus/isolate.h"
+#include "generator/character/library.h"
+
+namespace contort {
+
+struct Shown {
+  bool built = false;  // a spec that is refused costs nothing
+  bool fails = false;
+  int most_frames = 0;  // that the motion can have
+  double depth = 0.0;   // infinite where the margin is no number
+  Expectation expect;
+  std::shared_ptr<const Character> character;  // null where the generator runs in another process
+  std::vector<ActionSpan> spans;               // what moved, and when
+  std::vector<Case> met;                       // failures of other families that were seen at no further cost
+};
+
+class Trial {
+ public:
+  virtual ~Trial() = default;
+  // A motion of more than `most_frames` is refused before it is generated.
+  virtual Shown run(const Spec& spec, int most_frames) = 0;
+  // Failures of all other families in the motion of the spec that was run last, the deepest of each.
+  virtual std::vector<Case> others(const Spec& spec) = 0;
+};
+
+// For a failure that a check found: that check alone is measured.
+class CheckTrial final : public Trial {
+ public:
+  CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings);
+  Shown run(const Spec& spec, int most_frames) override;
+  std::vector<Case> others(const Spec& spec) override;
+
+ private:
+  Result<Stage> build(const Spec& spec) const;
+  std::vector<Case> others_among(const Spec& spec, const Evaluation& evaluation) const;
+
+  std::string check_, subject_;
+  const Library& library_;
+  Evaluator evaluator_;
+  Result<Stage> stage_ = Issue{};  // that was run last
+  CharacterChoice choice_;         // what its character was built from
+};
+
+// For a crash, a timeout or memory: each candidate runs in a process of its own, up to ten times as long as the first
+// did and five seconds at least. `work` is all that is done with a spec.
+class EndingTrial final : public Trial {
+ public:
+  EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation);
+  Shown run(const Spec& spec, int most_frames) override;
+  std::vector<Case> others(const Spec&) override { return {}; }
+
+ private:
+  std::string check_, subject_;
+  std::function<void(const Spec&)> work_;
+  Isolation isolation_;
+  bool timed_ = false;
+};
+
+}  // namespace contort

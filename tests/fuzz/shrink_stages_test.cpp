@@ -1,0 +1,251 @@
+// Stages of shrinking on planted failures: any rule about a spec, without a motion.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <functional>
+
+#include "fuzz/shrink.h"
+#include "tests/corpus/sample_cases.h"
+
+namespace contort {
+
+namespace {
+
+// Fails as deeply as the rule says; 0: not at all.
+class PlantedTrial final : public Trial {
+ public:
+  explicit PlantedTrial(std::function<double(const Spec&)> depth) : depth_(std::move(depth)) {}
+  Shown run(const Spec& spec, int) override {
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    Shown shown;
+    if (!stage) return shown;
+    shown.built = true;
+    shown.character = stage->character;
+    shown.most_frames = stage->most_frames;
+    shown.depth = depth_(spec);
+    shown.fails = shown.depth > 0.0;
+    shown.expect = {"planted", "rule", "", 0, 0, 0, -shown.depth, shown.depth, "0", "0", ""};
+    return shown;
+  }
+  std::vector<Case> others(const Spec&) override { return {}; }
+
+ private:
+  std::function<double(const Spec&)> depth_;
+};
+
+Shrunk shrunk(const Spec& spec, std::function<double(const Spec&)> depth, double floor = 0.0) {
+  PlantedTrial trial(std::move(depth));
+  Case original;
+  original.spec = spec;
+  original.expect = {"planted", "rule", "", 0, 0, 0, -1.0, 1.0, "0", "0", ""};
+  ShrinkConfig config;
+  config.depth_floor = floor;
+  return shrink_with(trial, original, stock_library(), config);
+}
+
+int actions_of(const Spec& spec) {
+  int count = 0;
+  for (const SequenceDesc& sequence : spec.sequences)
+    for (const ClipDesc& clip : sequence.clips) count += static_cast<int>(clip.actions.size());
+  return count;
+}
+
+double number(const Spec& spec, std::size_t action, const char* name) {
+  const auto& params = spec.sequences[0].clips[0].actions[action].params;
+  return params.contains(name) ? std::get<double>(params.at(name)) : 0.0;
+}
+
+TEST(ShrinkStages, TwoFieldsThatOnlyGoTogetherGo) {
+  Spec spec = spec_of({pose_use("arm_left", {{"elbow_deg", 20.0}}), pose_use("arm_right", {{"elbow_deg", 20.0}})});
+  const auto differ = [](const Spec& x) {
+    return actions_of(x) == 2 && number(x, 0, "elbow_deg") != number(x, 1, "elbow_deg");
+  };
+  const Shrunk result = shrunk(spec, [&](const Spec& x) { return actions_of(x) == 2 && !differ(x) ? 1.0 : 0.0; });
+  for (const ActionUse& use : result.minimal.spec.sequences[0].clips[0].actions) EXPECT_TRUE(use.params.empty());
+}
+
+TEST(ShrinkStages, TwoActionsThatOnlyGoTogetherGo) {
+  std::vector<ActionUse> uses;
+  for (const char* slot : {"arm_left", "arm_right", "leg_left", "leg_right", "head"})
+    uses.push_back(pose_use(slot, {}));
+  const Shrunk result = shrunk(spec_of(uses), [](const Spec& x) { return actions_of(x) % 2 == 1 ? 1.0 : 0.0; });
+  EXPECT_EQ(actions_of(result.minimal.spec), 1);
+}
+
+TEST(ShrinkStages, ClipsAndSequencesBecomeOne) {
+  Spec spec = spec_of({pose_use("arm_left", {})});
+  spec.sequences[0].clips.push_back({"", 12, 0, 1.0, {pose_use("arm_right", {})}});
+  spec.sequences.push_back(spec.sequences[0]);
+  const Shrunk result = shrunk(spec, [](const Spec& x) { return actions_of(x) == 4 ? 1.0 : 0.0; });
+  ASSERT_EQ(result.minimal.spec.sequences.size(), 1U);
+  EXPECT_EQ(result.minimal.spec.sequences[0].clips.size(), 1U);
+  EXPECT_EQ(actions_of(result.minimal.spec), 4);
+}
+
+TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
+  Spec spec = bent_elbow(50);
+  spec.environment.ground = SlopeGround{12, 30};
+  spec.environment.obstacles = {{"ball", Sphere{}}, {"other", Sphere{}}};
+  spec.character.attachments = {{"backpack", "torso", "back"}};
+  spec.dynamics.mode = Mode::dynamic;
+  spec.dynamics.impacts = {{3, "head", "", {}, {0, 20, 0}}, {9, "torso", "", {}, {3, 0, 0}}};
+  spec.start.heading_deg = 90;
+  spec.hold_frames = 5;
+  const Shrunk all = shrunk(spec, [](const Spec& x) { return actions_of(x) == 1 ? 1.0 : 0.0; });
+  EXPECT_EQ(print_spec(all.minimal.spec), print_spec(spec_of({pose_use("arm_left", {})})));
+  const auto needs = [](const Spec& x) {
+    const bool struck = x.dynamics.impacts.size() == 1 && x.dynamics.impacts[0].impulse_N_s.y >= 7.0;
+    return struck && x.dynamics.mode != Mode::kinematic && x.environment.obstacles.size() == 1 ? 1.0 : 0.0;
+  };
+  Spec one_blow = spec;
+  one_blow.dynamics.impacts.pop_back();
+  one_blow.environment.obstacles.pop_back();
+  const Spec least = shrunk(one_blow, needs).minimal.spec;
+  EXPECT_TRUE(least.sequences.empty());
+  EXPECT_EQ(least.dynamics.mode, Mode::tracking);
+  EXPECT_EQ(least.dynamics.impacts[0].impulse_N_s.y, 7.0);
+  EXPECT_EQ(least.dynamics.impacts[0].frame, 0);
+  EXPECT_TRUE(least.character.attachments.empty());
+}
+
+TEST(ShrinkStages, NumbersEndAtTheSmallestOfTwoDigits) {
+  const auto least = [](double from, double needed) {
+    const auto rule = [=](const Spec& x) {
+      return actions_of(x) == 1 && number(x, 0, "elbow_deg") * (needed < 0 ? -1 : 1) >= std::abs(needed) ? 1.0 : 0.0;
+    };
+    return number(shrunk(bent_elbow(from), rule).minimal.spec, 0, "elbow_deg");
+  };
+  EXPECT_EQ(least(270, 37), 37);
+  EXPECT_EQ(least(90, 37), 37);
+  EXPECT_EQ(least(-90, -37), -37);
+  EXPECT_EQ(least(179, 178.5), 179);
+  EXPECT_EQ(least(270, 178.5), 180);
+  EXPECT_EQ(least(33.25, 30.5), 31);
+}
+
+TEST(ShrinkStages, AFieldThatMayHaveAnyValueIsFree) {
+  Spec spec = spec_of({pose_use("leg_left", {{"knee_deg", 90.0}, {"hip_flex_deg", 30.0}}, 60)});
+  const auto rule = [](const Spec& x) {
+    return actions_of(x) == 1 && number(x, 0, "knee_deg") >= 60.0 && number(x, 0, "hip_flex_deg") != 0.0 ? 1.0 : 0.0;
+  };
+  const Shrunk result = shrunk(spec, rule);
+  const std::vector<std::string> expected = {"/sequences/0/clips/0/actions/0/params/hip_flex_deg"};
+  EXPECT_EQ(result.minimal.free_fields, expected) << pretty_spec(result.minimal.spec);
+}
+
+TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
+  const auto rule = [](const Spec& x) {
+    return actions_of(x) == 1 ? std::max(0.0, 100.0 - std::abs(number(x, 0, "elbow_deg") - 300.0)) : 0.0;
+  };
+  const Shrunk result = shrunk(bent_elbow(240), rule, 0.5);
+  EXPECT_EQ(number(result.minimal.spec, 0, "elbow_deg"), 220);
+  EXPECT_GT(result.worst.expect.depth, 90.0);
+  EXPECT_NEAR(number(result.worst.spec, 0, "elbow_deg"), 300, 10);
+  EXPECT_EQ(actions_of(result.worst.spec), 1);
+}
+
+TEST(ShrinkStages, WhatDoesNotFailTheSameWayTwiceIsFlakyAndStays) {
+  class Flaky final : public Trial {
+   public:
+    Shown run(const Spec&, int) override {
+      Shown shown;
+      shown.built = shown.fails = true;
+      shown.expect.motion_hash = std::to_string(++runs_);
+      return shown;
+    }
+    std::vector<Case> others(const Spec&) override { return {}; }
+
+   private:
+    int runs_ = 0;
+  } trial;
+  const Case original = elbow_case();
+  const Shrunk result = shrink_with(trial, original, stock_library(), {});
+  EXPECT_EQ(result.stopped, "flaky");
+  EXPECT_EQ(result.minimal.spec, original.spec);
+  EXPECT_EQ(result.evaluations, 2);
+}
+
+TEST(ShrinkStages, WhatDoesNotFailAnyMoreIsGone) {
+  const Case original = elbow_case();
+  Case healthy = original;
+  healthy.spec = bent_elbow(100);
+  const Shrunk result = shrink(healthy, stock_library(), {});
+  EXPECT_EQ(result.stopped, "gone");
+  EXPECT_EQ(result.minimal.spec, healthy.spec);
+}
+
+// A trial in which the family is "planted|human|rule", and others are seen beside it.
+class CrowdedTrial final : public Trial {
+ public:
+  Shown run(const Spec& spec, int) override {
+    Shown shown;
+    shown.built = shown.fails = true;
+    shown.depth = 1.0;
+    shown.met = {of_check("at_once", spec)};
+    return shown;
+  }
+  std::vector<Case> others(const Spec& spec) override {
+    return spec.hold_frames > 0 ? std::vector{of_check("old", spec)}
+                                : std::vector{of_check("old", spec), of_check("later", spec)};
+  }
+
+ private:
+  static Case of_check(const std::string& check, const Spec& spec) {
+    Case other;
+    other.spec = spec;
+    other.expect.check = check;
+    other.expect.subject = "it";
+    return other;
+  }
+};
+
+TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
+  CrowdedTrial trial;
+  Case original;
+  original.spec = spec_of({pose_use("arm_left", {}), pose_use("head", {})});
+  original.spec.hold_frames = 5;
+  const Shrunk result = shrink_with(trial, original, stock_library(), {});
+  ASSERT_EQ(result.also.size(), 2U) << "what the original shows is no news";
+  EXPECT_EQ(family_of(result.also[0]), "at_once|human|it");
+  EXPECT_EQ(family_of(result.also[1]), "later|human|it");
+  for (const Case& other : result.also) EXPECT_EQ(other.spec, result.minimal.spec);
+}
+
+Shrunk shrunk_ending(const Spec& spec, const Ending& ending, const std::function<void(const Spec&)>& work) {
+  const Case original = ending_case(spec, ending);
+  EndingTrial trial(original.expect, work, {});
+  return shrink_with(trial, original, stock_library(), {});
+}
+
+TEST(ShrinkEndings, ACrashIsShrunkToWhatCrashes) {
+  Spec spec = spec_of({pose_use("arm_left", {{"elbow_deg", 120.0}, {"shoulder_deg", Vec3(1, 2, 3)}}, 77),
+                       pose_use("head", {{"neck_flex_deg", 10.0}})});
+  spec.hold_frames = 7;
+  const auto work = [](const Spec& x) {
+    if (actions_of(x) > 0 && number(x, 0, "elbow_deg") > 50.0) ::raise(SIGSEGV);
+  };
+  const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
+  EXPECT_EQ(result.stopped, "fixpoint");
+  EXPECT_EQ(print_spec(result.minimal.spec), print_spec(spec_of({pose_use("arm_left", {{"elbow_deg", 51.0}})})));
+  EXPECT_EQ(family_of(result.minimal), "crash|human|SIGSEGV");
+}
+
+TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
+  Spec spec = spec_of({pose_use("arm_left", {}), pose_use("head", {})});
+  const auto work = [](const Spec& x) { ::raise(actions_of(x) == 2 ? SIGSEGV : SIGFPE); };
+  const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
+  EXPECT_EQ(actions_of(result.minimal.spec), 2);
+  ASSERT_EQ(result.also.size(), 1U);
+  EXPECT_EQ(family_of(result.also[0]), "crash|human|SIGFPE");
+}
+
+TEST(ShrinkEndings, ARealSpecThatFinishesIsGone) {
+  const Case crashed = ending_case(bent_elbow(100), {Ending::Kind::crash, "SIGSEGV", ""});
+  EXPECT_EQ(shrink(crashed, stock_library(), {}).stopped, "gone");
+}
+
+}  // namespace
+
+}  // namespace contort
