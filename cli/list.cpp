@@ -8,6 +8,7 @@
 #include "checks/joint_map.h"
 #include "cli/commands.h"
 #include "cli/variants.h"
+#include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
@@ -160,7 +161,7 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
   static const std::map<std::string, std::function<std::string()>> all = {
       {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
       {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
-      {"map", joint_map_schema}, {"settings", settings_schema}};
+      {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema}};
   return all;
 }
 
@@ -198,7 +199,7 @@ void add_list(CLI::App& app, Context& context) {
 void add_schema(CLI::App& app, Context&) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a file format");
-  command->add_option("FORMAT", *what, "spec, case, part, object, character or action")
+  command->add_option("FORMAT", *what, "Name of the format")
       ->required()
       ->check(CLI::IsMember(schemas()));
   command->footer("Example: contort schema spec > spec.schema.json");

@@ -30,7 +30,7 @@ Spec with_only(const Spec& spec, const std::set<UseAt>& kept) {
 }
 
 template <class Keep>
-std::set<UseAt> uses_where(const Shown& shown, Keep keep) {
+std::set<UseAt> uses_where(const TrialResult& shown, Keep keep) {
   std::set<UseAt> uses;
   for (const ActionSpan& span : shown.spans)
     if (keep(span)) uses.insert({span.sequence, span.clip, span.action});
@@ -40,7 +40,7 @@ std::set<UseAt> uses_where(const Shown& shown, Keep keep) {
 }  // namespace
 
 void cut_time(ShrinkState& state) {
-  const Shown& shown = state.shown();
+  const TrialResult& shown = state.shown();
   if (shown.character == nullptr) return;
   const int worst = shown.expect.worst_frame;
   const auto begun = [&](const ActionSpan& s) { return s.first_frame <= worst; };

@@ -40,16 +40,16 @@ bool ShrinkState::spent() {
   return halted();
 }
 
-std::optional<Shown> ShrinkState::run(const Spec& candidate) {
+std::optional<TrialResult> ShrinkState::run(const Spec& candidate) {
   if (spent()) return std::nullopt;
-  Shown shown = trial_.run(candidate, most_frames_);
+  TrialResult shown = trial_.run(candidate, most_frames_);
   if (shown.built) ++evaluations_;
   return shown;
 }
 
 bool ShrinkState::confirm() {
-  const std::optional<Shown> first = run(best_.spec);
-  const std::optional<Shown> second = run(best_.spec);
+  const std::optional<TrialResult> first = run(best_.spec);
+  const std::optional<TrialResult> second = run(best_.spec);
   if (!first || !second) return false;
   if (first->fails != second->fails || first->expect.motion_hash != second->expect.motion_hash)
     stopped_ = "flaky";
@@ -70,7 +70,7 @@ bool ShrinkState::accept(Spec candidate) {
   if (candidate == best_.spec) return false;
   const std::string text = print_spec(candidate);
   if (tried_.contains(text)) return false;
-  std::optional<Shown> shown = run(candidate);
+  std::optional<TrialResult> shown = run(candidate);
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;
   for (const Case& other : shown->met) meet(other);
@@ -84,7 +84,7 @@ bool ShrinkState::accept(Spec candidate) {
 bool ShrinkState::fails(const Spec& candidate) {
   const std::string text = print_spec(candidate);
   if (const auto known = tried_.find(text); known != tried_.end()) return known->second >= 0.0;
-  const std::optional<Shown> shown = run(candidate);
+  const std::optional<TrialResult> shown = run(candidate);
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;
   return shown->fails;

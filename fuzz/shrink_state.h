@@ -26,7 +26,7 @@ class ShrinkState {
   bool fails(const Spec& candidate);
 
   // Runs it, known or not; nothing once the budget is spent.
-  std::optional<Shown> run(const Spec& candidate);
+  std::optional<TrialResult> run(const Spec& candidate);
 
   // Notes what other checks find in the smallest spec. Candidates are judged by the one check alone: by all of them,
   // shrinking takes half as long again.
@@ -38,7 +38,7 @@ class ShrinkState {
   bool halted() const { return stopped_ != "fixpoint"; }
   const Spec& spec() const { return best_.spec; }
   const Case& best() const { return best_; }
-  const Shown& shown() const { return shown_; }  // of best()
+  const TrialResult& shown() const { return shown_; }  // of best()
   double depth() const { return shown_.depth; }
   const std::string& stopped() const { return stopped_; }
   int evaluations() const { return evaluations_; }
@@ -51,7 +51,7 @@ class ShrinkState {
   Trial& trial_;
   const ShrinkConfig& config_;
   Case best_;
-  Shown shown_;
+  TrialResult shown_;
   double least_depth_ = 0.0;
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family

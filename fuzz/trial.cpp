@@ -16,8 +16,8 @@ Result<Stage> CheckTrial::build(const Spec& spec) const {
   return build_stage(spec, library_);
 }
 
-Shown CheckTrial::run(const Spec& spec, int most_frames) {
-  Shown shown;
+TrialResult CheckTrial::run(const Spec& spec, int most_frames) {
+  TrialResult shown;
   Result<Stage> stage = build(spec);
   if (!stage || stage->most_frames > most_frames) return shown;
   stage_ = std::move(stage);
@@ -62,11 +62,11 @@ EndingTrial::EndingTrial(const Expectation& family, std::function<void(const Spe
   isolation_.silent = true;  // hundreds of times the same last words
 }
 
-Shown EndingTrial::run(const Spec& spec, int) {
+TrialResult EndingTrial::run(const Spec& spec, int) {
   const auto start = std::chrono::steady_clock::now();
   const Result<Ending> ending = isolate([&] { return work_(spec), std::string(); }, isolation_);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  Shown shown;
+  TrialResult shown;
   if (!ending) return shown;
   if (!timed_ && ending->kind != Ending::Kind::timeout)
     isolation_.seconds = std::max(5, static_cast<int>(std::ceil(10.0 * took.count())));

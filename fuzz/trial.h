@@ -12,7 +12,7 @@
 
 namespace contort {
 
-struct Shown {
+struct TrialResult {
   bool built = false;  // a spec that is refused costs nothing
   bool fails = false;
   int most_frames = 0;  // that the motion can have
@@ -27,7 +27,7 @@ class Trial {
  public:
   virtual ~Trial() = default;
   // A motion of more than `most_frames` is refused before it is generated.
-  virtual Shown run(const Spec& spec, int most_frames) = 0;
+  virtual TrialResult run(const Spec& spec, int most_frames) = 0;
   // Failures of all other families in the motion of the spec that was run last, the deepest of each.
   virtual std::vector<Case> others(const Spec& spec) = 0;
 };
@@ -36,7 +36,7 @@ class Trial {
 class CheckTrial final : public Trial {
  public:
   CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings);
-  Shown run(const Spec& spec, int most_frames) override;
+  TrialResult run(const Spec& spec, int most_frames) override;
   std::vector<Case> others(const Spec& spec) override;
 
  private:
@@ -55,7 +55,7 @@ class CheckTrial final : public Trial {
 class EndingTrial final : public Trial {
  public:
   EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation);
-  Shown run(const Spec& spec, int most_frames) override;
+  TrialResult run(const Spec& spec, int most_frames) override;
   std::vector<Case> others(const Spec&) override { return {}; }
 
  private:

@@ -40,7 +40,7 @@ class Climb {
     set_place(candidate, place, on_lattice(value, place.steps_per_unit));
     if (state_.evaluations() - first_evaluation_ >= kMostEvaluations) return false;
     if (!tried_.insert(print_spec(candidate)).second) return false;
-    const std::optional<Shown> shown = state_.run(candidate);
+    const std::optional<TrialResult> shown = state_.run(candidate);
     if (!shown || !shown->fails || shown->depth <= depth_) return false;
     worst_.spec = candidate;
     worst_.expect = shown->expect;

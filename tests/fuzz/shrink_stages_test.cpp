@@ -17,9 +17,9 @@ namespace {
 class PlantedTrial final : public Trial {
  public:
   explicit PlantedTrial(std::function<double(const Spec&)> depth) : depth_(std::move(depth)) {}
-  Shown run(const Spec& spec, int) override {
+  TrialResult run(const Spec& spec, int) override {
     const Result<Stage> stage = build_stage(spec, stock_library());
-    Shown shown;
+    TrialResult shown;
     if (!stage) return shown;
     shown.built = true;
     shown.character = stage->character;
@@ -149,8 +149,8 @@ TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
 TEST(ShrinkStages, WhatDoesNotFailTheSameWayTwiceIsFlakyAndStays) {
   class Flaky final : public Trial {
    public:
-    Shown run(const Spec&, int) override {
-      Shown shown;
+    TrialResult run(const Spec&, int) override {
+      TrialResult shown;
       shown.built = shown.fails = true;
       shown.expect.motion_hash = std::to_string(++runs_);
       return shown;
@@ -179,8 +179,8 @@ TEST(ShrinkStages, WhatDoesNotFailAnyMoreIsGone) {
 // A trial in which the family is "planted|human|rule", and others are seen beside it.
 class CrowdedTrial final : public Trial {
  public:
-  Shown run(const Spec& spec, int) override {
-    Shown shown;
+  TrialResult run(const Spec& spec, int) override {
+    TrialResult shown;
     shown.built = shown.fails = true;
     shown.depth = 1.0;
     shown.met = {of_check("at_once", spec)};
