@@ -12,6 +12,7 @@
 #include "corpus/corpus.h"
 #include "corpus/replay.h"
 #include "generator/core/files.h"
+#include "generator/core/json_fields.h"
 
 namespace contort::cli {
 
@@ -22,6 +23,7 @@ struct Options {
   std::string output;
   std::string worst;
   std::string time;
+  bool json = false;
   ShrinkConfig config;
 };
 
@@ -68,6 +70,20 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
   std::printf("%s\n", replay_command(output, context.library_folders).c_str());
 }
 
+void print_json(const Shrunk& shrunk, const std::string& output) {
+  json_fields::Json also = json_fields::Json::array();
+  for (const Case& other : shrunk.also) also.push_back(family_of(other));
+  const json_fields::Json out = {{"case", output},
+                                 {"family", family_of(shrunk.minimal)},
+                                 {"stopped", shrunk.stopped},
+                                 {"evaluations", shrunk.evaluations},
+                                 {"depth", shrunk.minimal.expect.depth},
+                                 {"worst_depth", shrunk.worst.expect.depth},
+                                 {"free_fields", shrunk.minimal.free_fields},
+                                 {"also", also}};
+  std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
+}
+
 void run(const Options& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
@@ -90,6 +106,7 @@ void run(const Options& options, Context& context) {
   if (!options.worst.empty())
     if (const Result<Done> written = write_file(options.worst, print_case(shrunk.worst)); !written)
       return context.fail(written.issue(), kInternal);
+  if (options.json) return print_json(shrunk, output);
   print_shrunk(shrunk, *original, output, context);
 }
 
@@ -102,6 +119,7 @@ void add_shrink(CLI::App& app, Context& context) {
   command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
   command->add_option("--time", options->time, "Stop after this time: 45s, 10m; results then depend on the machine");
+  command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();

@@ -15,6 +15,15 @@ namespace contort {
 
 namespace {
 
+bool is_needless(const ClipDesc& clip) { return clip.actions.empty() && clip.name.empty(); }
+
+// Without clips and sequences that have nothing in them, and no name that something may wait for.
+Spec pruned(Spec spec) {
+  for (std::size_t s = 0; s < sequence_count(spec); ++s) std::erase_if(sequence_at(spec, s).clips, is_needless);
+  std::erase_if(spec.sequences, [](const SequenceDesc& s) { return s.clips.empty() && s.name.empty(); });
+  return spec;
+}
+
 using UseAt = std::array<int, 3>;  // sequence, clip, action
 
 Spec with_only(const Spec& spec, const std::set<UseAt>& kept) {
@@ -52,7 +61,7 @@ void cut_time(ShrinkState& state) {
   for (const std::set<UseAt>& kept : {uses_where(shown, named), uses_where(shown, moving), uses_where(shown, begun)}) {
     Spec candidate = with_only(state.spec(), kept);
     candidate.hold_frames = 0;
-    if (state.accept(std::move(candidate))) return;
+    if (state.accept(pruned(std::move(candidate)))) return;
   }
 }
 
@@ -74,7 +83,7 @@ void remove_structure(ShrinkState& state) {
           [&](int first, int n) {
             Spec candidate = state.spec();
             kind.remove(candidate, first, n);
-            return state.accept(std::move(candidate));
+            return state.accept(pruned(std::move(candidate)));
           });
 }
 
@@ -97,12 +106,12 @@ namespace {
 class Lowering {
  public:
   Lowering(ShrinkState& state, const SpecPlace& place) : state_(state), place_(place) {
-    now_ = static_cast<std::int64_t>(std::ceil(std::abs(place.value - place.preset) * place.steps_per_unit));
+    const double steps = std::ceil(std::abs(place.value - place.preset) * place.steps_per_unit);
+    if (steps < kMostSteps) now_ = static_cast<std::int64_t>(steps);
   }
 
   // First over values of two digits; one of three stays only if none of two will do.
   void run() {
-    if (now_ > kMostSteps) return;
     std::int64_t grain = 1;
     while (100 * grain <= now_) grain *= 10;
     lower(grain);
@@ -110,7 +119,7 @@ class Lowering {
   }
 
  private:
-  static constexpr std::int64_t kMostSteps = std::int64_t{1} << 40;
+  static constexpr double kMostSteps = 1e12;  // beyond, a step is lost in the number's last digits
 
   bool set_to(std::int64_t steps) {
     const double way = static_cast<double>(steps) / place_.steps_per_unit;
@@ -168,7 +177,7 @@ bool remove_two_units(ShrinkState& state) {
         Spec candidate = state.spec();
         kind.remove(candidate, j, 1);
         kind.remove(candidate, i, 1);
-        if (state.accept(std::move(candidate))) return true;
+        if (state.accept(pruned(std::move(candidate)))) return true;
       }
   }
   return false;

@@ -10,14 +10,6 @@ namespace contort {
 
 namespace {
 
-bool is_needless(const ClipDesc& clip) { return clip.actions.empty() && clip.name.empty(); }
-
-void prune(Spec& spec) {
-  for (SequenceDesc& sequence : spec.sequences) std::erase_if(sequence.clips, is_needless);
-  for (InterruptDesc& interrupt : spec.interrupts) std::erase_if(interrupt.sequence.clips, is_needless);
-  std::erase_if(spec.sequences, [](const SequenceDesc& s) { return s.clips.empty() && s.name.empty(); });
-}
-
 // A share of what it was before any shrinking, so that shrinking again does not go on from half to a quarter. Nothing
 // finite is as deep as NaN.
 double least_depth_of(const Case& stored, double depth, double floor) {
@@ -66,7 +58,6 @@ bool ShrinkState::confirm() {
 }
 
 bool ShrinkState::accept(Spec candidate) {
-  prune(candidate);
   if (candidate == best_.spec) return false;
   const std::string text = print_spec(candidate);
   if (tried_.contains(text)) return false;

@@ -18,8 +18,7 @@ class ShrinkState {
   // Runs the original twice. Only where it fails both times, in the same way, is there something to shrink.
   bool confirm();
 
-  // Makes the candidate the smallest one if it builds, fails in the family, and deeply enough. Clips and sequences
-  // without anything in them, and without a name that something may wait for, are left out of it first.
+  // Makes the candidate the smallest one if it builds, fails in the family, and deeply enough.
   bool accept(Spec candidate);
 
   // Whether it fails in the family, however deep. False once the budget is spent.

@@ -272,6 +272,17 @@ TEST_F(Commands, ShrinkingAgainWritesTheSameFile) {
   EXPECT_NE(contort_program({"replay", worst}).out.find("same "), std::string::npos);
 }
 
+TEST_F(Commands, ShrinkTellsAScriptWhatItDid) {
+  const std::string smaller = folder_ / "small.json";
+  const Ran ran = contort_program({"shrink", file("case.json", print_case(elbow_case(270))), "-o", smaller, "--json"});
+  const nlohmann::json told = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(told["case"], smaller);
+  EXPECT_EQ(told["family"], "joint_range|human|arm_left/elbow max");
+  EXPECT_EQ(told["stopped"], "fixpoint");
+  EXPECT_GT(told["evaluations"], 2);
+  EXPECT_GT(told["worst_depth"], told["depth"]);
+}
+
 TEST_F(Commands, ACaseThatCrashedAndDoesNotAnyMorePasses) {
   const Case crashed = ending_case(bent_elbow(100), {Ending::Kind::crash, "SIGSEGV", ""});
   const std::string path = file("crashed.json", print_case(crashed));

@@ -1,7 +1,6 @@
 // Stages of shrinking on planted failures: any rule about a spec, without a motion.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <functional>
