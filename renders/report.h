@@ -30,11 +30,14 @@ struct ReportRow {
   int worst_frame = 0;
   int last_frame = 0;
   double rate_hz = 60.0;
-  std::string features;  // what survived shrinking: "walk + aim_at, interrupt"
+  std::string features;   // what survived shrinking: "walk + aim_at, interrupt"
+  std::string case_file;  // of the minimal case: a relative path, as code hosts want it
+  std::string note;       // what people know about it: "ana, ticket 12"
 };
 
 struct ReportModel {
   std::string title;
+  std::string tool;  // "0.1.0"
   std::int64_t cases = 0;
   std::int64_t frames = 0;
   std::int64_t findings = 0;

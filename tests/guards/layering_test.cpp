@@ -54,6 +54,7 @@ const std::vector<Door> kDoors = {
     {"OpenImageIO/", "renders/raster/*.cpp"},
     {"xxhash.h", "generator/core/hash.cpp"},
     {"CLI/", "cli/*.cpp"},
+    {"tinyxml2.h", "renders/junit.cpp"},
 };
 
 // Headers of the system, which a .cpp may use.
