@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "checks/check.h"
+#include "cli/print.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -179,13 +180,6 @@ void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadab
   for (const auto& [file, issue] : unreadable)
     refused.push_back({{"file", file}, {"code", issue.code}, {"pointer", issue.pointer}, {"text", issue.text}});
   print_tree({{"clips", list}, {"unreadable", refused}, {"waivers", Json::parse(waivers)}});
-}
-
-std::string printable(const std::string& text) {
-  std::string out = text;
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return out;
 }
 
 }  // namespace contort::cli

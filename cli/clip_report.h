@@ -41,7 +41,4 @@ void print_json(const std::string& file, const std::vector<ClipReport>& clips, c
 void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable,
                 const std::string& waivers);
 
-// Names from files may hold line ends and escape sequences: shown as "?".
-std::string printable(const std::string& text);
-
 }  // namespace contort::cli

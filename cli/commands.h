@@ -30,13 +30,16 @@ struct Context {
   std::vector<std::string> library_folders;  // --library
   const Library* library = nullptr;          // stock and folders, made on first use
   std::string settings_file;                 // --settings
-  std::string today;                         // --today, for waivers
+  std::string today;                         // --today, for waivers and quarantines
 
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();
 
   // What checks are to do; the defaults without --settings.
   Result<CheckSettings> load_settings() const;
+
+  // --today, else the day of the clock, UTC.
+  std::string day() const;
 
   // Prints the one line that a user sees, and sets the exit code.
   void fail(const Issue& issue, Exit code = kBadInput);
@@ -51,6 +54,7 @@ void add_render(CLI::App& app, Context& context);
 void add_import(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_merge(CLI::App& app, Context& context);
+void add_corpus(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_tables(CLI::App& app, Context& context);

@@ -8,6 +8,7 @@
 #include "checks/joint_map.h"
 #include "cli/commands.h"
 #include "cli/variants.h"
+#include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
@@ -160,7 +161,7 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
   static const std::map<std::string, std::function<std::string()>> all = {
       {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
       {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
-      {"map", joint_map_schema}, {"settings", settings_schema}};
+      {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema}};
   return all;
 }
 

@@ -47,9 +47,11 @@ Result<CheckSettings> Context::load_settings() const {
     if (!parsed) return Issue{parsed.issue().code, parsed.issue().pointer, settings_file + ": " + parsed.issue().text};
     settings = std::move(parsed).value();
   }
-  settings.today = today.empty() ? day_of_clock() : today;
+  settings.today = day();
   return settings;
 }
+
+std::string Context::day() const { return today.empty() ? day_of_clock() : today; }
 
 void Context::fail(const Issue& issue, Exit code) {
   std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
@@ -66,7 +68,7 @@ int run(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("--settings", context.settings_file, "Limits to move and findings to waive (contort.settings/1)")
       ->type_name("FILE");
-  app.add_option("--today", context.today, "Judge waivers as on this day (default: today, UTC)")
+  app.add_option("--today", context.today, "Judge waivers and quarantines as on this day (default: today, UTC)")
       ->type_name("YYYY-MM-DD")
       ->check(refuse_no_day);
   app.require_subcommand(1);
@@ -74,8 +76,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 nothing gating, 1 gating findings, 2 bad usage or input, 3 internal error,\n"
       "4 inconclusive, 75 interrupted. 'contort COMMAND --help' explains one command.");
-  for (const auto add : {add_fuzz, add_replay, add_generate, add_check, add_shrink, add_render, add_report, add_import,
-                         add_merge, add_list, add_schema, add_tables, add_version})
+  for (const auto add : {add_fuzz, add_replay, add_generate, add_check, add_shrink, add_render, add_report, add_corpus,
+                         add_merge, add_import, add_list, add_schema, add_tables, add_version})
     add(app, context);
   try {
     app.parse(argc, argv);
@@ -94,6 +96,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, like a full disk
   try {
     return contort::cli::run(argc, argv);
   } catch (const std::exception& error) {

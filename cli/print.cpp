@@ -3,11 +3,30 @@
 #include <cmath>
 #include <cstdio>
 
+#include "corpus/lifecycle.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
 
 using json_fields::Json;
+
+std::string printable(const std::string& text) {
+  std::string out = text;
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return out;
+}
+
+std::string known_text(const Bucket& bucket, const std::string& today) {
+  std::string text;
+  const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
+  if (!bucket.owner.empty()) add(bucket.owner);
+  if (!bucket.ticket.empty()) add(bucket.ticket);
+  if (bucket.state == BucketState::quarantined)
+    add((is_expired(bucket, today) ? "EXPIRED " : "until ") + bucket.expires + ": " + bucket.reason);
+  if (is_stale(bucket)) add("STALE, it passes");
+  return text;
+}
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";

@@ -1,4 +1,4 @@
-// Findings as text and as JSON.
+// Findings and buckets as text and as JSON.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "checks/circumstances.h"
 #include "checks/fold.h"
 #include "checks/waive.h"
+#include "corpus/bucket.h"
 
 namespace contort::cli {
 
@@ -21,6 +22,12 @@ std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
 // What waivers did: one line for each that has expired or hides nothing any more, and one for each that hid something.
 std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 std::string waivers_json(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
+
+// Names from files may hold line ends and escape sequences: shown as "?".
+std::string printable(const std::string& text);
+
+// What people know about a bucket: "ana, ticket 12, until 2027-03-01: soft stop"; what there is of it.
+std::string known_text(const Bucket& bucket, const std::string& today);
 
 // A finite number in short; "nan" where it is not one.
 std::string short_number(double value);

@@ -1,14 +1,19 @@
-// contort replay: does a stored case still do what it says?
+// contort replay: does a stored case still do what it says? Of a corpus: what becomes of each bucket?
 #include "corpus/replay.h"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/outputs.h"
 #include "cli/print.h"
 #include "corpus/corpus.h"
+#include "corpus/verify.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -16,11 +21,16 @@ namespace contort::cli {
 namespace {
 
 using json_fields::Json;
+using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::vector<std::string> paths;
   bool json = false;
   std::string level;
+  bool update = false;
+  std::string time;
+  std::string build;
+  std::string baseline;
 };
 
 std::string explain(const Case& stored, const Replay& result) {
@@ -36,9 +46,9 @@ std::string explain(const Case& stored, const Replay& result) {
   return text;
 }
 
-Json as_json(const std::string& path, const Case& stored, const Replay& result) {
+Json as_json(const std::string& path, const std::string& family, const Replay& result) {
   Json out = {{"case", path},
-              {"family", family_of(stored)},
+              {"family", family},
               {"verdict", verdict_name(result.verdict)},
               {"character_changed", result.character_changed},
               {"motion_hash", result.now.motion_hash}};
@@ -59,47 +69,194 @@ int exit_code_of(Verdict verdict) {
   return kInternal;
 }
 
-void run(const Options& options, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
-  Level level;
-  if (!options.level.empty()) {
-    const Result<Level> parsed = parse_level(options.level);
-    if (!parsed) return context.fail(parsed.issue());
-    level = *parsed;
+// A replay fails a build when what it runs still fails, in one way or another, and that is not known.
+bool gates(const BucketReplay& ran, const Bucket& next, const std::string& today, const Baseline& known) {
+  const bool fails = ran.shown == Shown::fails || (ran.shown == Shown::gone && ran.verdict == Verdict::different);
+  return fails && is_gating(next, today, known);
+}
+
+struct Totals {
+  std::map<Verdict, int> verdicts;  // of cases
+  int cases = 0;
+  int buckets = 0;
+  std::map<BucketState, int> states;  // of buckets, afterwards
+  int gating = 0;
+  int skipped = 0;  // buckets that the time did not reach
+  int stale = 0;    // quarantines that always pass
+};
+
+// One call of the command.
+class Session {
+ public:
+  Session(const Options& options, const Library& library, CheckSettings settings, Context& context)
+      : options_(options), library_(library), evaluator_(std::move(settings)), context_(context) {}
+
+  Result<Done> prepare() {
+    if (!options_.level.empty()) {
+      const Result<Level> parsed = parse_level(options_.level);
+      if (!parsed) return parsed.issue();
+      level_ = *parsed;
+    }
+    const Result<Baseline> known = load_baseline(options_.baseline);
+    if (!known) return known.issue();
+    known_ = *known;
+    if (options_.time.empty()) return Done{};
+    const Result<double> time_s = parse_time_s(options_.time);
+    if (!time_s) return time_s.issue();
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*time_s));
+    return Done{};
   }
-  const Result<std::vector<std::string>> paths = expand_cases(options.paths);
-  if (!paths) return context.fail(paths.issue());
-  std::map<Verdict, int> counts;
-  Json list = Json::array();
-  Result<CheckSettings> settings = context.load_settings();
-  if (!settings) return context.fail(settings.issue());
-  CheckSettings without_waivers = std::move(settings).value();
-  without_waivers.waivers.clear();  // what is waived is still there
-  Evaluator evaluator(without_waivers);
-  for (const std::string& path : *paths) {
+
+  void run_case(const std::string& path) {
+    ++totals_.cases;
     const Result<Case> stored = read_case(path);
     if (!stored) {
-      context.fail(stored.issue());
-      ++counts[Verdict::refused];
-      continue;
+      context_.fail(stored.issue());
+      ++totals_.verdicts[Verdict::refused];
+      return;
     }
-    const Replay result = replay(*stored, *library, evaluator, level);
-    ++counts[result.verdict];
-    if (context.exit_code != kBadInput) context.exit_code = std::max(context.exit_code, exit_code_of(result.verdict));
-    if (options.json)
-      list.push_back(as_json(path, *stored, result));
+    const Replay result = replay(*stored, library_, evaluator_, level_);
+    ++totals_.verdicts[result.verdict];
+    raise(exit_code_of(result.verdict));
+    if (options_.json)
+      list_.push_back(as_json(path, family_of(*stored), result));
     else
       std::printf("%-11s  %s  %s\n", std::string(verdict_name(result.verdict)).c_str(), path.c_str(),
                   explain(*stored, result).c_str());
   }
-  if (options.json) {
-    std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-    return;
+
+  void run_corpus(const std::string& folder) {
+    const Result<Corpus> corpus = Corpus::open(folder);
+    if (!corpus) return context_.fail(corpus.issue());
+    has_corpus_ = true;
+    std::vector<Issue> damaged;
+    const std::vector<Bucket> buckets = corpus->buckets(damaged);
+    for (const Issue& issue : damaged) context_.fail(issue);
+    for (const Bucket& bucket : replay_order(buckets, end_ ? context_.day() : "")) {
+      if (end_ && Clock::now() >= *end_ && may_skip(bucket))
+        ++totals_.skipped;
+      else
+        run_bucket(*corpus, bucket);
+    }
   }
-  std::printf("RESULT cases=%zu same=%d same_family=%d different=%d passes=%d refused=%d\n", paths->size(),
-              counts[Verdict::same], counts[Verdict::same_family], counts[Verdict::different], counts[Verdict::passes],
-              counts[Verdict::refused]);
+
+  void finish() {
+    if (options_.json) {
+      std::printf("%s\n", list_.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+      return;
+    }
+    const auto verdicts = [&](Verdict verdict) { return totals_.verdicts[verdict]; };
+    std::printf("RESULT cases=%d same=%d same_family=%d different=%d passes=%d refused=%d", totals_.cases,
+                verdicts(Verdict::same), verdicts(Verdict::same_family), verdicts(Verdict::different),
+                verdicts(Verdict::passes), verdicts(Verdict::refused));
+    if (has_corpus_)
+      std::printf(" buckets=%d gating=%d regressed=%d fixed=%d flaky=%d stale=%d skipped=%d", totals_.buckets,
+                  totals_.gating, totals_.states[BucketState::regressed], totals_.states[BucketState::fixed],
+                  totals_.states[BucketState::flaky], totals_.stale, totals_.skipped);
+    std::printf("\n");
+  }
+
+ private:
+  // Bad input says more than findings, and findings say more than a replay that was not steady.
+  void raise(int code) {
+    const auto weight = [](int c) { return c == kInternal ? 4 : c == kBadInput ? 3 : c == kFindings ? 2 : c != 0; };
+    if (weight(code) > weight(context_.exit_code)) context_.exit_code = code;
+  }
+
+  void run_bucket(const Corpus& corpus, const Bucket& bucket) {
+    const BucketReplay ran = replay_bucket(corpus, bucket, library_, evaluator_);
+    const Observation seen{ran.shown,
+                           "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
+    const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };
+    const Result<Bucket> next = options_.update ? corpus.change(bucket, change) : change(bucket);
+    if (!next) return context_.fail(next.issue(), next.issue().code == "file.unwritable" ? kInternal : kBadInput);
+    count(ran, *next);
+    if (options_.json)
+      list_.push_back(bucket_json(ran, *next));
+    else
+      print_bucket_line(ran, *next);
+  }
+
+  void count(const BucketReplay& ran, const Bucket& next) {
+    ++totals_.buckets;
+    totals_.cases += static_cast<int>(ran.cases.size());
+    for (const CaseReplay& one : ran.cases) ++totals_.verdicts[one.result.verdict];
+    ++totals_.states[next.state];
+    totals_.stale += is_stale(next) ? 1 : 0;
+    const bool gating = gates(ran, next, context_.day(), known_);
+    totals_.gating += gating ? 1 : 0;
+    if (gating) raise(kFindings);
+    const bool changed = next.state != ran.bucket.state;
+    if (changed && next.state == BucketState::invalid) raise(kBadInput);
+    if (changed && next.state == BucketState::flaky) raise(kInconclusive);
+  }
+
+  // The case that says most: the first of the bucket's verdict.
+  static const CaseReplay* shown_case(const BucketReplay& ran) {
+    for (const CaseReplay& one : ran.cases)
+      if (one.result.verdict == ran.verdict) return &one;
+    return nullptr;
+  }
+
+  void print_bucket_line(const BucketReplay& ran, const Bucket& next) {
+    std::string text(state_name(ran.bucket.state));
+    if (next.state != ran.bucket.state) text += " -> " + std::string(state_name(next.state));
+    if (gates(ran, next, context_.day(), known_)) text += ", GATES";
+    if (is_expired(ran.bucket, context_.day())) text += ", the quarantine is over";
+    if (is_stale(next)) text += ", STALE: it passes";
+    text += "  " + ran.bucket.family;
+    if (const CaseReplay* one = shown_case(ran)) {
+      if (one->result.verdict == Verdict::refused) text += "  " + to_line(one->result.issue);
+      text += "  " + replay_command(one->path, context_.library_folders);
+    }
+    const std::string verdict(ran.shown == Shown::unsteady ? "unsteady" : verdict_name(ran.verdict));
+    std::printf("%-11s  %s  %s\n", verdict.c_str(), folder_name(ran.bucket).c_str(), printable(text).c_str());
+  }
+
+  Json bucket_json(const BucketReplay& ran, const Bucket& next) {
+    Json cases = Json::array();
+    for (const CaseReplay& one : ran.cases) cases.push_back(as_json(one.path, one.family, one.result));
+    return {{"bucket", folder_name(ran.bucket)},
+            {"family", ran.bucket.family},
+            {"verdict", ran.shown == Shown::unsteady ? "unsteady" : verdict_name(ran.verdict)},
+            {"state", state_name(ran.bucket.state)},
+            {"next_state", state_name(next.state)},
+            {"gating", gates(ran, next, context_.day(), known_)},
+            {"cases", cases}};
+  }
+
+  const Options& options_;
+  const Library& library_;
+  Evaluator evaluator_;
+  Context& context_;
+  Level level_;
+  Baseline known_;
+  std::optional<Clock::time_point> end_;
+  bool has_corpus_ = false;
+  Totals totals_;
+  Json list_ = Json::array();
+};
+
+void run(const Options& options, Context& context) {
+  const Library* library = context.load_library();
+  if (library == nullptr) return;
+  Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
+  CheckSettings without_waivers = std::move(settings).value();
+  without_waivers.waivers.clear();  // what is waived is still there
+  Session session(options, *library, without_waivers, context);
+  if (const Result<Done> ready = session.prepare(); !ready) return context.fail(ready.issue());
+  for (const std::string& path : options.paths) {
+    std::error_code error;
+    const bool is_folder = std::filesystem::is_directory(path, error);
+    if (is_folder && !options.level.empty())
+      return context.fail({"usage", "", "--level is for case files, and " + path + " is a folder"});
+    if (is_folder)
+      session.run_corpus(path);
+    else
+      session.run_case(path);
+  }
+  session.finish();
 }
 
 }  // namespace
@@ -110,10 +267,15 @@ void add_replay(CLI::App& app, Context& context) {
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
   command->add_option("--level", options->level,
                       "Only a sequence, a clip or a part of each case: sequence:2, clip:2/1, part:arm_right");
+  command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
+  command->add_option("--time", options->time, "Of a corpus: stop after this time: 45s, 10m, 2h");
+  command->add_option("--build", options->build, "What --update writes behind the version: a commit of your library");
+  add_baseline_option(*command, options->baseline);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
       "Verdicts: same (equal motion, equal finding), same family, different, passes, refused.\n"
-      "Exit code 1 while a case still fails, 0 when all pass.\n"
+      "Exit code of case files: 1 while one still fails, 0 when all pass. Of a corpus: 1 while a bucket fails that is\n"
+      "new, has regressed or whose quarantine is over (docs/corpus.md).\n"
       "Example: contort replay contort-out/corpus\n"
       "         contort replay CASE --level part:arm_right");
   command->callback([options, &context] { run(*options, context); });

@@ -1,4 +1,4 @@
-// contort report: corpus to HTML.
+// contort report: corpus to HTML, and to what CI reads.
 #include "cli/report.h"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,7 @@
 #include "cli/print.h"
 #include "cli/render.h"
 #include "cli/variants.h"
+#include "corpus/baseline.h"
 #include "corpus/corpus.h"
 #include "corpus/runs.h"
 #include "fuzz/parallel.h"
@@ -28,14 +29,25 @@ struct Picture {
   std::string png;
 };
 
-ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Context& context) {
+// As code hosts want it: below the folder where we are, which in CI is the project's, or else below the corpus.
+std::string location_of(const Bucket& bucket, const std::string& path) {
+  std::error_code error;
+  const std::string here = std::filesystem::proximate(path, error).generic_string();
+  const bool is_below = !error && !here.starts_with("..") && !here.starts_with("/");
+  return is_below ? here : "buckets/" + folder_name(bucket) + "/" + bucket.min;
+}
+
+ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
+                 const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
   row.family = bucket.family, row.check = bucket.check,
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
-  row.bucket = bucket.id, row.state = bucket.state;
-  row.gating = bucket.state == "new" || bucket.state == "regressed";
+  row.bucket = bucket.id, row.state = state_name(bucket.state);
+  row.gating = is_gating(bucket, context.day(), known);
+  row.note = known.contains(bucket.id) ? "in the baseline" : known_text(bucket, context.day());
+  row.case_file = location_of(bucket, path);
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, context.library_folders);
   row.strip = "strips/" + bucket.check + "-" + bucket.id + ".png";
@@ -47,8 +59,8 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
 }
 
 // Rows by how deep the failure is; ties by name, so that equal corpora give equal pages.
-void fill_rows(const Corpus& corpus, ReportModel& model, std::vector<Picture>& pictures, const std::string& out,
-               Context& context) {
+void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, std::vector<Picture>& pictures,
+               const std::string& out, Context& context) {
   std::vector<Issue> damaged;
   std::vector<std::pair<double, ReportRow>> rows;
   for (const Bucket& bucket : corpus.buckets(damaged)) {
@@ -58,7 +70,7 @@ void fill_rows(const Corpus& corpus, ReportModel& model, std::vector<Picture>& p
       damaged.push_back(stored.issue());
       continue;
     }
-    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, context));
+    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, known, context));
     pictures.push_back({folder + "/" + bucket.min, out + "/" + rows.back().second.strip});
   }
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
@@ -146,17 +158,12 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
   return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
 }
 
-void make_report(const ReportRequest& request, const Library& library, Context& context) {
-  const Result<Corpus> corpus = Corpus::open(request.corpus);
-  if (!corpus) return context.fail(corpus.issue());
+namespace {
+
+void write_page(const ReportRequest& request, const ReportModel& model, const std::vector<Picture>& pictures,
+                Context& context) {
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
     return context.fail(made.issue(), kInternal);
-  ReportModel model;
-  model.title = "Contort report";
-  std::vector<Picture> pictures;
-  fill_rows(*corpus, model, pictures, request.folder, context);
-  count_totals(add_runs(*corpus, model, context), model);
-  model.pairs_possible = pairs_possible(library, model);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);
   if (const int code = draw(pictures, context); code != 0) {
@@ -168,13 +175,40 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
               static_cast<long long>(model.families));
 }
 
+}  // namespace
+
+void make_report(const ReportRequest& request, const Library& library, Context& context) {
+  const Result<Corpus> corpus = Corpus::open(request.corpus);
+  if (!corpus) return context.fail(corpus.issue());
+  const Result<Baseline> known = load_baseline(request.outputs.baseline);
+  if (!known) return context.fail(known.issue());
+  ReportModel model;
+  model.title = "Contort report";
+  model.tool = CONTORT_VERSION;
+  std::vector<Picture> pictures;
+  fill_rows(*corpus, *known, model, pictures, request.folder, context);
+  count_totals(add_runs(*corpus, model, context), model);
+  model.pairs_possible = pairs_possible(library, model);
+  if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)
+    return context.fail(written.issue(), kInternal);
+  if (!request.folder.empty()) write_page(request, model, pictures, context);
+  const bool gates = std::ranges::any_of(model.rows, [](const ReportRow& row) { return row.gating; });
+  if (request.gate && gates && context.exit_code == kClean) context.exit_code = kFindings;
+}
+
 void add_report(CLI::App& app, Context& context) {
   auto request = std::make_shared<ReportRequest>();
-  CLI::App* command = app.add_subcommand("report", "Write an HTML report of a corpus, with film strips");
+  CLI::App* command = app.add_subcommand("report", "Report a corpus: HTML with film strips, or what CI reads");
   command->add_option("CORPUS", request->corpus, "Corpus folder")->required();
-  command->add_option("-o,--output", request->folder, "Folder of the report")->required();
-  command->footer("Example: contort report contort-out/corpus -o contort-out/report");
+  command->add_option("-o,--output", request->folder, "Folder of the page");
+  add_output_options(*command, request->outputs);
+  command->add_flag("--gate", request->gate, "Exit with 1 where something gates");
+  command->footer(
+      "Example: contort report contort-out/corpus -o contort-out/report\n"
+      "         contort report contort-out/corpus --junit contort.xml --github --baseline main/corpus --gate");
   command->callback([request, &context] {
+    if (request->folder.empty() && !request->outputs.wanted() && !request->gate)
+      return context.fail({"usage", "", "nothing to write: give -o, --junit, --sarif, --markdown, --github or --gate"});
     if (const Library* library = context.load_library()) make_report(*request, *library, context);
   });
 }

@@ -1,19 +1,22 @@
-// The HTML report of a corpus.
+// The report of a corpus, as a page and for CI.
 #pragma once
 
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 
 namespace contort::cli {
 
 struct ReportRequest {
   std::string corpus;
-  std::string folder;
-  bool announce = true;  // print where it is
+  std::string folder;       // of the page; "" for none
+  bool announce = true;     // print where it is
+  OutputRequest outputs{};  // for CI
+  bool gate = false;        // exit with 1 where something gates
 };
 
-// Writes the page first and the pictures after it, so that no picture can cost a finding.
+// Writes what CI reads first, then the page, and the pictures after it, so that no picture can cost a finding.
 void make_report(const ReportRequest& request, const Library& library, Context& context);
 
 // "NEW self_collision|mech|… -0.03 m  contort replay …/min-….json", for a bucket's folder.

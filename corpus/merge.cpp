@@ -11,17 +11,11 @@ namespace {
 
 using RunsByName = std::map<std::string, std::vector<RunRecord>>;
 
-// A bucket with its cases, from one corpus to another.
+// A bucket with its state and cases, from one corpus to another.
 Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus& into, Merged& merged) {
-  const auto read = [&](const std::string& name) { return read_case(from.folder_of(bucket) + "/" + name); };
-  Result<Case> minimal = read(bucket.min), original = read(bucket.orig), worst = read(bucket.worst);
-  for (const Result<Case>* stored : {&minimal, &original, &worst})
-    if (!*stored) return merged.damaged.push_back(stored->issue()), Done{};
-  Found found{std::move(minimal).value(), std::move(original).value(), "", std::move(worst).value()};
-  for (const std::string& run : bucket.runs) {
-    found.run = run;
-    if (const auto added = into.add(found); !added) return added.issue();
-  }
+  const Result<Done> taken = into.take(from, bucket);
+  if (!taken && taken.issue().code == "file.unwritable") return taken;
+  if (!taken) merged.damaged.push_back(taken.issue());
   return Done{};
 }
 

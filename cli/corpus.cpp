@@ -1,0 +1,226 @@
+// contort corpus: look at what is stored, say what is known about it, and keep the files in order.
+#include "corpus/corpus.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/corpus_upkeep.h"
+#include "cli/input.h"
+#include "cli/print.h"
+#include "corpus/bucket_files.h"
+#include "corpus/lifecycle.h"
+#include "generator/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+using json_fields::Json;
+
+struct Options {
+  std::string corpus;
+  std::vector<std::string> buckets;
+  std::vector<std::string> states;
+  std::string check, character;
+  std::string owner, ticket, reason, expires;
+  bool json = false;
+};
+
+std::string character_of(const Bucket& bucket) {
+  const std::size_t first = std::min(bucket.family.find('|'), bucket.family.size() - 1) + 1;
+  return bucket.family.substr(first, bucket.family.find('|', first) - first);
+}
+
+bool is_wanted(const Bucket& bucket, const Options& options) {
+  const std::string state(state_name(bucket.state));
+  return (options.states.empty() || std::ranges::count(options.states, state) > 0) &&
+         (options.check.empty() || bucket.check == options.check) &&
+         (options.character.empty() || character_of(bucket) == options.character);
+}
+
+Json bucket_json(const Corpus& corpus, const Bucket& bucket, const std::string& today) {
+  Json out = Json::parse(print_bucket(bucket));
+  out.erase("format");
+  out["folder"] = corpus.folder_of(bucket);
+  out["gating"] = is_gating(bucket, today);
+  return out;
+}
+
+void print_json(const Json& json) {
+  std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+Result<Corpus> open_corpus(const Options& options, Context& context) {
+  Result<Corpus> corpus = Corpus::open(options.corpus);
+  if (!corpus) context.fail(corpus.issue());
+  return corpus;
+}
+
+// Damaged buckets are told, and the others are still there.
+std::vector<Bucket> read_buckets(const Corpus& corpus, Context& context) {
+  std::vector<Issue> damaged;
+  std::vector<Bucket> buckets = corpus.buckets(damaged);
+  for (const Issue& issue : damaged) context.fail(issue);
+  return buckets;
+}
+
+void list(const Options& options, Context& context) {
+  const Result<Corpus> corpus = open_corpus(options, context);
+  if (!corpus) return;
+  Json out = Json::array();
+  int shown = 0, gating = 0;
+  for (const Bucket& bucket : read_buckets(*corpus, context)) {
+    if (!is_wanted(bucket, options)) continue;
+    ++shown;
+    const bool gates = is_gating(bucket, context.day());
+    gating += gates ? 1 : 0;
+    if (options.json)
+      out.push_back(bucket_json(*corpus, bucket, context.day()));
+    else
+      std::printf("%-11s  %s  %s%s  %s\n", std::string(state_name(bucket.state)).c_str(), bucket.id.c_str(),
+                  printable(bucket.family).c_str(), gates ? "  GATES" : "",
+                  printable(known_text(bucket, context.day())).c_str());
+  }
+  if (options.json) return print_json(out);
+  std::printf("%d buckets, %d gating\n", shown, gating);
+}
+
+// The one whose id, or folder's name, begins like this.
+Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string& prefix) {
+  std::vector<Bucket> found;
+  for (const Bucket& bucket : buckets)
+    if (!prefix.empty() && (bucket.id.starts_with(prefix) || folder_name(bucket).starts_with(prefix)))
+      found.push_back(bucket);
+  if (found.empty())
+    return Issue{"corpus.no_bucket", "", "no bucket begins with \"" + prefix + "\"; contort corpus list shows them"};
+  if (found.size() == 1) return found.front();
+  std::string names;
+  for (const Bucket& bucket : found) names += (names.empty() ? "" : ", ") + folder_name(bucket);
+  return Issue{"corpus.many_buckets", "", "\"" + prefix + "\" is the beginning of " + names};
+}
+
+void show(const Options& options, Context& context) {
+  const Result<Corpus> corpus = open_corpus(options, context);
+  if (!corpus) return;
+  const Result<Bucket> bucket = find_bucket(read_buckets(*corpus, context), options.buckets.front());
+  if (!bucket) return context.fail(bucket.issue());
+  if (options.json) return print_json(bucket_json(*corpus, *bucket, context.day()));
+  const auto line = [](const char* name, const std::string& value) {
+    if (!value.empty()) std::printf("%-10s %s\n", name, printable(value).c_str());
+  };
+  line("bucket", folder_name(*bucket));
+  line("state", std::string(state_name(bucket->state)) + (is_gating(*bucket, context.day()) ? ", gates" : ""));
+  line("known", known_text(*bucket, context.day()));
+  line("family", bucket->family);
+  line("features", bucket->features);
+  for (const std::string& build : bucket->passed_in) line("passed in", build);
+  for (const std::string& run : bucket->runs) line("run", run);
+  for (const std::string& file : files_of(*bucket))
+    line(file.substr(0, file.find('-')).c_str(),
+         replay_command(corpus->folder_of(*bucket) + "/" + file, context.library_folders));
+}
+
+// All are found and may change before the first one does.
+void change_all(const Options& options, Context& context, const Corpus::Change& change) {
+  const Result<Corpus> corpus = open_corpus(options, context);
+  if (!corpus) return;
+  const std::vector<Bucket> all = read_buckets(*corpus, context);
+  std::vector<Bucket> chosen;
+  for (const std::string& prefix : options.buckets) {
+    const Result<Bucket> bucket = find_bucket(all, prefix);
+    if (!bucket) return context.fail(bucket.issue());
+    if (const Result<Bucket> next = change(*bucket); !next) return context.fail(next.issue());
+    chosen.push_back(*bucket);
+  }
+  for (const Bucket& bucket : chosen) {
+    const Result<Bucket> next = corpus->change(bucket, change);
+    if (!next) return context.fail(next.issue(), next.issue().code == "file.unwritable" ? kInternal : kBadInput);
+    std::printf("%s is %s: %s\n", folder_name(*next).c_str(), std::string(state_name(next->state)).c_str(),
+                printable(known_text(*next, context.day())).c_str());
+  }
+}
+
+void ack(const Options& options, Context& context) {
+  change_all(options, context,
+             [&](const Bucket& bucket) { return acknowledge(bucket, options.owner, options.ticket); });
+}
+
+void put_in_quarantine(const Options& options, Context& context) {
+  change_all(options, context, [&](const Bucket& bucket) {
+    return quarantine(bucket, options.owner, options.reason, options.expires, context.day());
+  });
+}
+
+CLI::App* add(CLI::App& corpus, const std::string& name, const char* help, const std::shared_ptr<Options>& options,
+              Context& context, void (*run)(const Options&, Context&)) {
+  CLI::App* command = corpus.add_subcommand(name, help);
+  command->add_option("CORPUS", options->corpus, "Corpus folder")->required();
+  command->callback([options, &context, run] { run(*options, context); });
+  return command;
+}
+
+void add_listing(CLI::App& corpus, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = add(corpus, "list", "List buckets, with their states", options, context, list);
+  std::vector<std::string> states;
+  for (int s = 0; s <= static_cast<int>(BucketState::invalid); ++s)
+    states.emplace_back(state_name(static_cast<BucketState>(s)));
+  command->add_option("--state", options->states, "Only in this state; may be repeated")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(states));
+  command->add_option("--check", options->check, "Only of this check");
+  command->add_option("--character", options->character, "Only of this character");
+  command->add_flag("--json", options->json, "Print as JSON: a list that --baseline reads");
+  command->footer("Example: contort corpus list contort-out/corpus --state new --state regressed");
+}
+
+void add_showing(CLI::App& corpus, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = add(corpus, "show", "Show all that is known about a bucket", options, context, show);
+  command->add_option("BUCKET", options->buckets, "Beginning of its id or folder's name")->required()->expected(1);
+  command->add_flag("--json", options->json, "Print as JSON");
+  command->footer("Example: contort corpus show contort-out/corpus 0123");
+}
+
+void add_ack(CLI::App& corpus, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      add(corpus, "ack", "Acknowledge failures: they are open, and gate no more", options, context, ack);
+  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  command->add_option("--owner", options->owner, "Who looks after it")->required();
+  command->add_option("--ticket", options->ticket, "Where that is written down")->required();
+  command->footer("Example: contort corpus ack contort-out/corpus 0123 --owner ana --ticket 12");
+}
+
+void add_quarantine(CLI::App& corpus, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      add(corpus, "quarantine", "Let failures pass until a day; they still run", options, context, put_in_quarantine);
+  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  command->add_option("--owner", options->owner, "Who looks after it")->required();
+  command->add_option("--reason", options->reason, "Why it may fail")->required();
+  command->add_option("--expires", options->expires, "Last day, at most 30 days from today")
+      ->required()
+      ->type_name("YYYY-MM-DD");
+  command->footer(
+      "Example: contort corpus quarantine contort-out/corpus 0123 --owner ana --reason \"new gripper\" --expires "
+      "2027-03-01");
+}
+
+}  // namespace
+
+void add_corpus(CLI::App& app, Context& context) {
+  CLI::App* corpus = app.add_subcommand("corpus", "Look at stored failures, acknowledge them, keep the files in order");
+  corpus->require_subcommand(1);
+  corpus->fallthrough();
+  corpus->footer("Example: contort corpus list contort-out/corpus\n'contort corpus COMMAND --help' explains one.");
+  add_listing(*corpus, context);
+  add_showing(*corpus, context);
+  add_ack(*corpus, context);
+  add_quarantine(*corpus, context);
+  add_upkeep(*corpus, context);
+}
+
+}  // namespace contort::cli

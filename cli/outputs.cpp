@@ -1,0 +1,56 @@
+#include "cli/outputs.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "generator/core/files.h"
+#include "renders/ci_outputs.h"
+
+namespace contort::cli {
+
+void add_baseline_option(CLI::App& command, std::string& baseline) {
+  command
+      .add_option("--baseline", baseline,
+                  "Corpus, or list as `contort corpus list --json` prints it: what it has does not gate")
+      ->type_name("FILE|CORPUS");
+}
+
+void add_output_options(CLI::App& command, OutputRequest& request) {
+  command.add_option("--junit", request.junit, "Write JUnit XML: a test case for each bucket")->type_name("FILE");
+  command.add_option("--sarif", request.sarif, "Write SARIF 2.1.0 for code scanning")->type_name("FILE");
+  command.add_option("--markdown", request.markdown, "Append a summary, as to $GITHUB_STEP_SUMMARY")->type_name("FILE");
+  command.add_flag("--github", request.github, "Print annotations for GitHub, at most 10");
+  add_baseline_option(command, request.baseline);
+}
+
+Result<Baseline> load_baseline(const std::string& path) {
+  return path.empty() ? Result<Baseline>(Baseline{}) : read_baseline(path);
+}
+
+namespace {
+
+// The summary of a job's earlier steps stays.
+Result<Done> append(const std::string& path, const std::string& text) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return write_file(path, text);
+  const Result<std::string> present = read_regular_file(path, std::size_t{16} << 20);
+  if (!present) return Issue{"file.unwritable", "", "cannot append to " + path + ": " + present.issue().text};
+  return write_file(path, *present + text);
+}
+
+}  // namespace
+
+Result<Done> write_outputs(const OutputRequest& request, const ReportModel& model, std::FILE* annotations) {
+  if (!request.junit.empty())
+    if (const Result<Done> written = write_file(request.junit, junit_xml(model)); !written) return written;
+  if (!request.sarif.empty())
+    if (const Result<Done> written = write_file(request.sarif, sarif_json(model)); !written) return written;
+  if (!request.markdown.empty())
+    if (const Result<Done> written = append(request.markdown, markdown_summary(model)); !written) return written;
+  if (request.github)
+    for (const std::string& line : github_annotations(model)) std::fprintf(annotations, "%s\n", line.c_str());
+  return Done{};
+}
+
+}  // namespace contort::cli

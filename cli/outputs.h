@@ -1,0 +1,35 @@
+// What CI reads of a corpus, and the baseline that decides what gates there. `report` and `fuzz` share it.
+#pragma once
+
+#include <string>
+
+#include "cli/commands.h"
+#include "corpus/baseline.h"
+#include "renders/report.h"
+
+namespace CLI {
+class App;
+}
+
+namespace contort::cli {
+
+struct OutputRequest {
+  std::string junit;  // files, "" for none
+  std::string sarif;
+  std::string markdown;  // appended to, as $GITHUB_STEP_SUMMARY is
+  bool github = false;   // annotations on standard output
+  std::string baseline;  // file or corpus, "" for none
+  bool wanted() const { return github || !junit.empty() || !sarif.empty() || !markdown.empty(); }
+};
+
+// --junit, --sarif, --markdown, --github and --baseline.
+void add_output_options(CLI::App& command, OutputRequest& request);
+void add_baseline_option(CLI::App& command, std::string& baseline);
+
+// Nothing is known without a baseline.
+Result<Baseline> load_baseline(const std::string& path);
+
+// Writes what is wanted; code file.unwritable. Annotations are workflow commands, which GitHub reads from both streams.
+Result<Done> write_outputs(const OutputRequest& request, const ReportModel& model, std::FILE* annotations);
+
+}  // namespace contort::cli

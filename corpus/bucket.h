@@ -1,0 +1,67 @@
+// A bucket: what is one failure, told by its identity, and what people and replays know about it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corpus/case.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+// Rules by which family, features and id are made. A bucket says by which it was named; `contort corpus rekey` names it
+// anew.
+inline constexpr int kSignatureVersion = 1;
+
+// Coarse features of a minimal spec: what it needed in order to fail. "actions=pose,reach clips=1 sequences=1 swap".
+std::string features_of(const Spec& spec);
+
+// 12 hex digits over the family and the features.
+std::string bucket_id(const std::string& family, const std::string& features);
+
+// Order of cost between specs that show the same: fewer actions, then shorter text, then the text.
+bool cheaper(const Spec& a, const Spec& b);
+
+// docs/corpus.md has what leads from one to another. In files `fresh` is "new".
+enum class BucketState { fresh, open, fixed, regressed, flaky, quarantined, invalid };
+std::string_view state_name(BucketState state);
+
+struct Bucket {
+  std::string id;
+  std::string check;
+  std::string family;
+  std::string features;
+  int signature = kSignatureVersion;
+  BucketState state = BucketState::fresh;
+  BucketState was = BucketState::fresh;  // before it was flaky or invalid; meaningless in other states
+  std::string owner;                     // open, quarantined: who looks after it
+  std::string ticket;                    // where that is written down
+  std::string reason;                    // quarantined: why it may fail
+  std::string expires;                   // quarantined: the last day, YYYY-MM-DD
+  std::vector<std::string> passed_in;    // builds in which it was gone, one after the other, since it failed last
+  int streak = 0;                        // quarantined: replays in a row that passed; flaky: that were steady
+  int changes = 0;                // of all this since the bucket is there; of two copies the one with more counts
+  std::vector<std::string> runs;  // that put a case here, by name; how often each saw the family is in runs.h
+  std::string min;                // file names in the bucket's folder
+  std::string worst;
+  std::string orig;
+  bool operator==(const Bucket&) const = default;
+};
+
+// The bucket that a minimal case belongs to, by today's rules.
+Bucket bucket_of(const Case& minimal);
+
+// "joint_range-0123456789ab": the bucket's folder in buckets/.
+std::string folder_name(const Bucket& bucket);
+
+// "min-0123456789abcdef.json"
+std::string case_file_name(std::string_view role, const Spec& spec);
+
+// bucket.json; codes json.*, bucket.*.
+Result<Bucket> read_bucket(const std::string& folder);
+Result<Done> write_bucket(const std::string& folder, const Bucket& bucket);
+std::string print_bucket(const Bucket& bucket);
+std::string bucket_schema();
+
+}  // namespace contort

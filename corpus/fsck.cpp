@@ -1,0 +1,147 @@
+#include "corpus/fsck.h"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "corpus/fsck_files.h"
+#include "corpus/lock.h"
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
+
+namespace contort {
+
+namespace fs = std::filesystem;
+
+void FaultList::add(const std::string& path, const std::string& code, const std::string& text, const Mend& mend) {
+  CorpusFault fault{fs::path(path).lexically_relative(root_).string(), code, text, ""};
+  if (repair_ && ok()) {
+    const Result<std::string> done = mend();
+    if (done)
+      fault.mended = *done;
+    else
+      issue_ = done.issue();
+  }
+  faults_.push_back(std::move(fault));
+}
+
+void FaultList::mend(const Mend& mend) {
+  if (!repair_ || !ok()) return;
+  if (const Result<std::string> done = mend(); !done) issue_ = done.issue();
+}
+
+Result<std::string> FaultList::move_aside(const std::string& path) const {
+  const std::string below = fs::path(path).lexically_relative(root_).string();
+  std::string target = root_ + "/invalid/" + below;
+  std::error_code error;
+  for (int n = 2; fs::exists(fs::symlink_status(target, error)); ++n)
+    target = root_ + "/invalid/" + below + "." + std::to_string(n);
+  if (const Result<Done> made = make_folder(fs::path(target).parent_path().string()); !made) return made.issue();
+  fs::rename(path, target, error);
+  if (error) return Issue{"file.unwritable", "", "cannot move " + path + ": " + error.message()};
+  return "moved to " + fs::path(target).lexically_relative(root_).string();
+}
+
+Result<std::vector<CorpusFault>> FaultList::take() {
+  if (!ok()) return issue_;
+  std::ranges::stable_sort(faults_, {}, &CorpusFault::path);
+  return std::move(faults_);
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+namespace {
+
+// The process that writes "x.json.1234.part"; nothing for other names.
+std::optional<pid_t> writer_of(const std::string& name) {
+  if (!name.ends_with(".part")) return {};
+  const std::string stem = name.substr(0, name.size() - 5);
+  const std::string digits = stem.substr(stem.rfind('.') + 1);
+  if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return {};
+  return static_cast<pid_t>(std::atoi(digits.c_str()));
+}
+
+bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno == EPERM; }
+
+void check_temporaries(const std::string& root, FaultList& faults) {
+  std::vector<std::string> left;
+  for (const char* sub : {"buckets", "leads", "runs"}) {
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(root + "/" + sub, error)) {
+      const std::optional<pid_t> writer = writer_of(entry.path().filename().string());
+      if (writer && !is_running(*writer) && entry.is_regular_file()) left.push_back(entry.path().string());
+    }
+  }
+  std::ranges::sort(left);
+  for (const std::string& path : left)
+    faults.add(path, "temporary", "left by a process that was stopped while it wrote", [&]() -> Result<std::string> {
+      std::error_code error;
+      fs::remove(path, error);
+      if (error) return Issue{"file.unwritable", "", "cannot remove " + path + ": " + error.message()};
+      return std::string("removed");
+    });
+}
+
+Result<Done> read_json(const std::string& path) {
+  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  if (!text) return text.issue();
+  const Result<json_fields::Json> tree = json_fields::parse_document(*text);
+  if (!tree) return tree.issue();
+  return Done{};
+}
+
+Result<Done> read_lead(const std::string& path) {
+  const Result<Case> lead = read_case(path);
+  if (!lead) return lead.issue();
+  return Done{};
+}
+
+// Files below runs/ and leads/.
+void check_plain(const std::string& folder, Result<Done> (*read)(const std::string&), FaultList& faults) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+    if (!entry.is_directory() && !writer_of(entry.path().filename().string())) paths.push_back(entry.path().string());
+  std::ranges::sort(paths);
+  for (const std::string& path : paths) {
+    const auto aside = [&] { return faults.move_aside(path); };
+    if (path.ends_with(".state") || path.ends_with(".lock")) continue;  // of a run that goes on, or was stopped
+    if (!path.ends_with(".json"))
+      faults.add(path, "unknown_file", "is no file of a corpus", aside);
+    else if (const Result<Done> good = read(path); !good)
+      faults.add(path, "unreadable", to_line(good.issue()), aside);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<CorpusFault>> check_files(const Corpus& corpus, bool repair) {
+  std::optional<Result<CorpusLock>> lock;
+  if (repair) lock.emplace(CorpusLock::take(corpus.folder()));
+  if (lock && !*lock) return lock->issue();
+  FaultList faults(corpus.folder(), repair);
+  check_temporaries(corpus.folder(), faults);
+  const std::string buckets = corpus.folder() + "/buckets";
+  for (const std::string& name : names_in(buckets)) {
+    const std::string path = buckets + "/" + name;
+    if (std::error_code error; fs::is_directory(fs::symlink_status(path, error)))
+      check_bucket_folder(corpus, name, faults);
+    else if (!writer_of(name))
+      faults.add(path, "unknown_file", "is no folder of a bucket", [&] { return faults.move_aside(path); });
+  }
+  check_plain(corpus.folder() + "/runs", read_json, faults);
+  check_plain(corpus.folder() + "/leads", read_lead, faults);
+  return faults.take();
+}
+
+}  // namespace contort

@@ -1,0 +1,170 @@
+// What fsck looks at in one bucket's folder.
+#include <algorithm>
+#include <filesystem>
+
+#include "corpus/bucket_files.h"
+#include "corpus/fsck_files.h"
+#include "generator/core/files.h"
+
+namespace contort {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Role {
+  const char* name;
+  std::string Bucket::*file;
+};
+constexpr Role kRoles[] = {{"min", &Bucket::min}, {"worst", &Bucket::worst}, {"orig", &Bucket::orig}};
+
+class BucketFolder {
+ public:
+  BucketFolder(std::string folder, FaultList& faults) : folder_(std::move(folder)), faults_(faults) {}
+
+  void check() {
+    if (!load()) return;
+    const Bucket before = bucket_;
+    for (const Role& role : kRoles) check_case(role);
+    if (files_of(bucket_).empty())
+      return faults_.add(folder_, "missing_case", "holds no case that can be read", aside(folder_));
+    replace_missing();
+    if (bucket_ != before) write();
+    check_unknown();
+    check_name();
+  }
+
+ private:
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  FaultList::Mend aside(const std::string& path) const {
+    return [this, path] { return faults_.move_aside(path); };
+  }
+
+  // bucket.json, or what the cases say where it cannot be read.
+  bool load() {
+    const Result<Bucket> stored = read_bucket(folder_);
+    if (stored) return bucket_ = *stored, true;
+    std::error_code error;
+    const bool is_there = fs::exists(path("bucket.json"), error);
+    if (!rebuild()) return faults_.add(folder_, "unreadable", to_line(stored.issue()), aside(folder_)), false;
+    faults_.add(path("bucket.json"), "unreadable", to_line(stored.issue()), [&]() -> Result<std::string> {
+      if (is_there)
+        if (const Result<std::string> moved = faults_.move_aside(path("bucket.json")); !moved) return moved;
+      if (const Result<Done> written = write_bucket(folder_, bucket_); !written) return written.issue();
+      return std::string("made anew from the cases; its state is new");
+    });
+    return true;
+  }
+
+  bool rebuild() {
+    for (const Role& role : kRoles)
+      for (const std::string& name : names_in(folder_)) {
+        if (!name.starts_with(std::string(role.name) + "-") || !name.ends_with(".json")) continue;
+        const Result<Case> stored = read_case(path(name));
+        if (!stored || case_file_name(role.name, stored->spec) != name) continue;
+        if (bucket_.id.empty()) bucket_ = bucket_of(*stored);
+        bucket_.*role.file = name;
+        break;
+      }
+    return !bucket_.id.empty();
+  }
+
+  void check_case(const Role& role) {
+    std::string& file = bucket_.*role.file;
+    if (file.empty()) return;
+    const std::string full = path(file);
+    const Result<Case> stored = read_case(full);
+    std::error_code error;
+    if (!fs::exists(full, error))
+      faults_.add(full, "missing_case", "bucket.json names it, but it is not there",
+                  [] { return std::string("taken out of bucket.json"); });
+    else if (!stored)
+      faults_.add(full, "unreadable", to_line(stored.issue()), aside(full));
+    else if (family_of(*stored) != bucket_.family)
+      faults_.add(full, "wrong_name", "its family is " + family_of(*stored), aside(full));
+    else if (const std::string name = case_file_name(role.name, stored->spec); name != file)
+      return rename_case(full, name, file);
+    else
+      return;
+    listed_.push_back(full);
+    file.clear();
+  }
+
+  void rename_case(const std::string& full, const std::string& name, std::string& file) {
+    faults_.add(full, "wrong_name", "its spec belongs to the name " + name, [&]() -> Result<std::string> {
+      // A copy first: bucket.json still names the old one.
+      const Result<std::string> bytes = read_file(full);
+      if (!bytes) return bytes.issue();
+      if (const Result<Done> written = write_file(path(name), *bytes); !written) return written.issue();
+      renamed_.push_back(full);
+      return "renamed to " + name;
+    });
+    listed_.push_back(full);
+    file = name;
+  }
+
+  // A bucket shows its min and worst to people: another case stands in, unshrunk if need be.
+  void replace_missing() {
+    const std::string stand_in = files_of(bucket_).front();
+    for (const Role& role : {kRoles[0], kRoles[1]}) {
+      std::string& file = bucket_.*role.file;
+      if (!file.empty()) continue;
+      const Result<Case> stored = read_case(path(stand_in));
+      if (!stored) continue;  // not repaired
+      file = case_file_name(role.name, stored->spec);
+      copies_.emplace_back(path(stand_in), path(file));
+    }
+  }
+
+  void write() {
+    faults_.mend([&]() -> Result<std::string> {
+      for (const auto& [from, to] : copies_) {
+        const Result<std::string> bytes = read_file(from);
+        if (!bytes) return bytes.issue();
+        if (const Result<Done> written = write_file(to, *bytes); !written) return written.issue();
+      }
+      if (const Result<Done> written = write_bucket(folder_, bucket_); !written) return written.issue();
+      std::error_code ignored;
+      for (const std::string& old : renamed_) fs::remove(old, ignored);
+      return std::string();
+    });
+  }
+
+  void check_unknown() {
+    const std::vector<std::string> named = files_of(bucket_);
+    for (const std::string& name : names_in(folder_)) {
+      const bool known = name == "bucket.json" || name.ends_with(".part") || std::ranges::count(named, name) > 0;
+      const bool handled = std::ranges::count(listed_, path(name)) > 0;
+      if (!known && !handled)
+        faults_.add(path(name), "unknown_file", "bucket.json does not name it", aside(path(name)));
+    }
+  }
+
+  void check_name() {
+    const std::string right = folder_name(bucket_);
+    if (fs::path(folder_).filename() == right) return;
+    faults_.add(folder_, "wrong_folder", "it belongs to " + right, [&]() -> Result<std::string> {
+      const std::string target = (fs::path(folder_).parent_path() / right).string();
+      std::error_code error;
+      if (fs::exists(target, error)) return faults_.move_aside(folder_);
+      fs::rename(folder_, target, error);
+      if (error) return Issue{"file.unwritable", "", "cannot rename " + folder_ + ": " + error.message()};
+      return "renamed to buckets/" + right;
+    });
+  }
+
+  std::string folder_;
+  FaultList& faults_;
+  Bucket bucket_;
+  std::vector<std::string> listed_;                          // cases that have their fault already
+  std::vector<std::string> renamed_;                         // old names, gone once bucket.json is written
+  std::vector<std::pair<std::string, std::string>> copies_;  // from, to
+};
+
+}  // namespace
+
+void check_bucket_folder(const Corpus& corpus, const std::string& name, FaultList& faults) {
+  BucketFolder(corpus.folder() + "/buckets/" + name, faults).check();
+}
+
+}  // namespace contort

@@ -1,0 +1,101 @@
+#include "corpus/upkeep.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "corpus/bucket_files.h"
+#include "corpus/lock.h"
+#include "generator/core/files.h"
+
+namespace contort {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Does something to each bucket while nobody else writes. A damaged bucket ends it before anything is changed.
+template <class Each>
+Result<Changes> each_bucket(const Corpus& corpus, const Each& each) {
+  const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
+  if (!lock) return lock.issue();
+  std::vector<Issue> damaged;
+  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  if (!damaged.empty()) return damaged.front();
+  Changes changes;
+  for (const Bucket& bucket : buckets)
+    if (const Result<Done> done = each(bucket, changes); !done) return done.issue();
+  return changes;
+}
+
+Result<Done> move_bucket(const std::string& from, const Bucket& named, const std::string& to) {
+  std::error_code error;
+  if (!fs::exists(to + "/bucket.json", error)) {
+    fs::rename(from, to, error);
+    if (error) return Issue{"file.unwritable", "", "cannot rename " + from + ": " + error.message()};
+    return write_bucket(to, named);
+  }
+  if (const Result<Done> merged = merge_bucket(from, named, to); !merged) return merged;
+  fs::remove_all(from, error);
+  if (error) return Issue{"file.unwritable", "", "cannot remove " + from + ": " + error.message()};
+  return Done{};
+}
+
+Result<Done> rekey_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
+  const Result<Case> minimal = read_case(corpus.folder_of(bucket) + "/" + bucket.min);
+  if (!minimal) return minimal.issue();
+  const Bucket right = bucket_of(*minimal);
+  Bucket named = bucket;
+  named.id = right.id, named.check = right.check, named.family = right.family, named.features = right.features;
+  named.signature = right.signature;
+  if (named == bucket) return Done{};
+  changes.push_back(folder_name(bucket) + " is now " + folder_name(named));
+  if (folder_name(named) == folder_name(bucket)) return write_bucket(corpus.folder_of(bucket), named);
+  return move_bucket(corpus.folder_of(bucket), named, corpus.folder_of(named));
+}
+
+Result<Done> prune_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
+  if (bucket.state != BucketState::fixed || bucket.orig.empty()) return Done{};
+  const std::string original = corpus.folder_of(bucket) + "/" + bucket.orig;
+  Bucket pruned = bucket;
+  pruned.orig.clear();
+  if (const Result<Done> written = write_bucket(corpus.folder_of(bucket), pruned); !written) return written;
+  changes.push_back(folder_name(bucket) + "/" + bucket.orig + " dropped");
+  std::error_code ignored;  // what stays is found by fsck
+  fs::remove(original, ignored);
+  return Done{};
+}
+
+Result<Done> rewrite(const std::string& path, const std::string& text, const std::string& name, Changes& changes) {
+  const Result<std::string> present = read_file(path);
+  if (!present) return present.issue();
+  if (*present == text) return Done{};
+  changes.push_back(name + " rewritten");
+  return write_file(path, text);
+}
+
+Result<Done> migrate_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
+  const std::string folder = corpus.folder_of(bucket) + "/";
+  for (const std::string& file : files_of(bucket)) {
+    const Result<Case> stored = read_case(folder + file);
+    if (!stored) return stored.issue();
+    const std::string name = folder_name(bucket) + "/" + file;
+    if (const auto done = rewrite(folder + file, print_case(*stored), name, changes); !done) return done;
+  }
+  return rewrite(folder + "bucket.json", print_bucket(bucket), folder_name(bucket) + "/bucket.json", changes);
+}
+
+}  // namespace
+
+Result<Changes> rekey(const Corpus& corpus) {
+  return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return rekey_one(corpus, b, changes); });
+}
+
+Result<Changes> prune(const Corpus& corpus) {
+  return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return prune_one(corpus, b, changes); });
+}
+
+Result<Changes> migrate(const Corpus& corpus) {
+  return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return migrate_one(corpus, b, changes); });
+}
+
+}  // namespace contort

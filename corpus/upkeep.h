@@ -1,0 +1,22 @@
+// What is done to a whole corpus now and then. Each takes the corpus' lock and gives what it changed, one line each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/corpus.h"
+
+namespace contort {
+
+using Changes = std::vector<std::string>;
+
+// Names buckets anew, by today's rules, from their minimal cases, and moves them. Two that become one are merged.
+Result<Changes> rekey(const Corpus& corpus);
+
+// Drops the originals of fixed buckets: min and worst are enough to notice that one regresses.
+Result<Changes> prune(const Corpus& corpus);
+
+// Reads every file and writes it in today's format.
+Result<Changes> migrate(const Corpus& corpus);
+
+}  // namespace contort

@@ -1,0 +1,81 @@
+#include "corpus/verify.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "corpus/bucket_files.h"
+#include "generator/core/hash.h"
+
+namespace contort {
+
+namespace {
+
+bool equal(const Replay& a, const Replay& b) { return a.verdict == b.verdict && a.now == b.now && a.issue == b.issue; }
+
+bool fails(const Replay& replay) { return replay.verdict == Verdict::same || replay.verdict == Verdict::same_family; }
+
+// Adds the case; whether all of its runs were equal.
+bool replay_case(const Bucket& bucket, const std::string& path, const Library& library, Evaluator& evaluator,
+                 std::vector<CaseReplay>& out) {
+  CaseReplay one{path, "", {}};
+  const Result<Case> stored = read_case(path);
+  bool steady = true;
+  if (!stored) {
+    one.result.issue = stored.issue();
+  } else {
+    one.family = family_of(*stored);
+    one.result = replay(*stored, library, evaluator);
+    const int again = bucket.state == BucketState::flaky ? 2 : one.result.verdict == Verdict::same ? 0 : 1;
+    for (int i = 0; i < again; ++i) steady = equal(one.result, replay(*stored, library, evaluator)) && steady;
+  }
+  out.push_back(std::move(one));
+  return steady;
+}
+
+Shown shown_by(const std::vector<CaseReplay>& cases) {
+  if (std::ranges::any_of(cases, [](const CaseReplay& c) { return fails(c.result); })) return Shown::fails;
+  const auto refused = [](const CaseReplay& c) { return c.result.verdict == Verdict::refused; };
+  return std::ranges::any_of(cases, refused) ? Shown::refused : Shown::gone;
+}
+
+// While some still fail: how those do. Else whether one at least fails in another way.
+Verdict verdict_of(const std::vector<CaseReplay>& cases, Shown shown) {
+  if (shown == Shown::refused || cases.empty()) return Verdict::refused;
+  Verdict verdict = shown == Shown::fails ? Verdict::same : Verdict::passes;
+  for (const CaseReplay& one : cases)
+    if (fails(one.result) == (shown == Shown::fails))
+      verdict = shown == Shown::fails ? std::max(verdict, one.result.verdict) : std::min(verdict, one.result.verdict);
+  return verdict;
+}
+
+constexpr std::array kOrder = {BucketState::regressed, BucketState::fresh, BucketState::quarantined,
+                               BucketState::open,      BucketState::flaky, BucketState::invalid,
+                               BucketState::fixed};
+
+}  // namespace
+
+BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const Library& library, Evaluator& evaluator) {
+  BucketReplay result{bucket, Shown::refused, {}, Verdict::refused};
+  bool steady = true;
+  for (const std::string& file : files_of(bucket))
+    steady = replay_case(bucket, corpus.folder_of(bucket) + "/" + file, library, evaluator, result.cases) && steady;
+  result.shown = result.cases.empty() ? Shown::refused : shown_by(result.cases);
+  result.verdict = verdict_of(result.cases, result.shown);
+  if (!steady) result.shown = Shown::unsteady;
+  return result;
+}
+
+std::vector<Bucket> replay_order(std::vector<Bucket> buckets, const std::string& shuffle) {
+  const auto place = [&](const Bucket& bucket) {
+    const auto rank = std::ranges::find(kOrder, bucket.state) - kOrder.begin();
+    return std::make_tuple(rank, shuffle.empty() ? std::string() : content_id(shuffle + bucket.id),
+                           folder_name(bucket));
+  };
+  std::ranges::sort(buckets, [&](const Bucket& a, const Bucket& b) { return place(a) < place(b); });
+  return buckets;
+}
+
+bool may_skip(const Bucket& bucket) { return bucket.state != BucketState::quarantined; }
+
+}  // namespace contort
