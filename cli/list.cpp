@@ -199,7 +199,7 @@ void add_list(CLI::App& app, Context& context) {
 void add_schema(CLI::App& app, Context&) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a file format");
-  command->add_option("FORMAT", *what, "spec, case, part, object, character or action")
+  command->add_option("FORMAT", *what, "Name of the format")
       ->required()
       ->check(CLI::IsMember(schemas()));
   command->footer("Example: contort schema spec > spec.schema.json");

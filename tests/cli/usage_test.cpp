@@ -12,7 +12,7 @@ namespace contort {
 namespace {
 
 const char* const kCommands[] = {"fuzz",   "replay", "generate", "check",  "shrink",
-                                 "render", "report", "list",     "schema", "version"};
+                                 "render", "report", "corpus",   "list",   "schema", "version"};
 
 // One line for people, and no motion found to be clean.
 void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& needle = "") {

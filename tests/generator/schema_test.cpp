@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checks/joint_map.h"
+#include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "generator/character/library.h"
 #include "generator/core/files.h"
@@ -30,6 +31,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("character"), character_schema());
   EXPECT_EQ(published("action"), action_schema());
   EXPECT_EQ(published("map"), joint_map_schema());
+  EXPECT_EQ(published("bucket"), bucket_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.

@@ -1,0 +1,115 @@
+// docs/ci: files that people copy must parse, and each command in them must exist with all of its options.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace contort {
+
+namespace {
+
+const std::string kFolder = std::string(CONTORT_SOURCE_DIR) + "/docs/ci";
+
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>&1").c_str(), "r"), pclose);
+  std::string output;
+  char block[4096];
+  for (std::size_t n = 0; pipe != nullptr && (n = fread(block, 1, sizeof block, pipe.get())) > 0;)
+    output.append(block, n);
+  return output;
+}
+
+// The words of each call of contort in a text, up to the end of the command. In a folded text of YAML and after a
+// backslash a line goes on in the next one.
+std::vector<std::vector<std::string>> calls_in(const std::string& text) {
+  static const std::set<std::string> kEnds = {"||", "&&", "|", ";", "\\", "-", "#", ">", "[", "git"};
+  std::vector<std::vector<std::string>> calls;
+  std::istringstream words(text);
+  bool inside = false;
+  for (std::string word; words >> word;) {
+    if (word == "contort") {
+      calls.emplace_back();
+      inside = true;
+    } else if (kEnds.contains(word)) {
+      inside = word == "\\" && inside;
+    } else if (inside) {
+      calls.back().push_back(word);
+    }
+  }
+  return calls;
+}
+
+std::string without_comments(const std::string& text) {
+  std::string out;
+  for (const std::string& line : lines_of(text))
+    if (line.find_first_not_of(' ') != line.find('#')) out += line + "\n";
+  return out;
+}
+
+// The command's own words: "corpus prune", "replay".
+std::vector<std::string> command_of(const std::vector<std::string>& call) {
+  if (call.empty()) return {};
+  return call.front() == "corpus" && call.size() > 1 ? std::vector<std::string>{call[0], call[1]}
+                                                     : std::vector<std::string>{call[0]};
+}
+
+TEST(CiFiles, CommandsExistWithTheirOptions) {
+  int calls = 0, options = 0;
+  for (const auto& [name, text] : tree_of(kFolder))
+    for (const std::vector<std::string>& call : calls_in(without_comments(text))) {
+      std::vector<std::string> arguments = command_of(call);
+      arguments.push_back("--help");
+      const Ran help = contort_program(arguments);
+      ASSERT_EQ(help.code, 0) << name << ": contort " << call.front();
+      ++calls;
+      for (const std::string& word : call) {
+        if (!word.starts_with("-")) continue;
+        ++options;
+        EXPECT_NE(help.out.find(word), std::string::npos) << name << ": contort " << call.front() << " " << word;
+      }
+    }
+  EXPECT_GE(calls, 18);
+  EXPECT_GE(options, 40);
+}
+
+TEST(CiFiles, CallsAreFoundInYamlAndInScripts) {
+  const std::string text =
+      "      - run: >-\n          contort report x --gate\n          --github\n      - uses: y\nfound contort replay "
+      "\"$c\" "
+      "--update || [ $? -eq 1 ]\n";
+  const std::vector<std::vector<std::string>> expected = {{"report", "x", "--gate", "--github"},
+                                                          {"replay", "\"$c\"", "--update"}};
+  EXPECT_EQ(calls_in(text), expected);
+}
+
+TEST(CiFiles, YamlParses) {
+  if (output_of("python3 -c 'import yaml' && echo there") != "there\n") GTEST_SKIP() << "no python3 with yaml";
+  int files = 0;
+  for (const auto& [name, text] : tree_of(kFolder)) {
+    if (!name.ends_with(".yml")) continue;
+    ++files;
+    const std::string keys = output_of("python3 -c 'import sys, yaml; print(*yaml.safe_load(open(sys.argv[1])))' '" +
+                                       kFolder + "/" + name + "'");
+    EXPECT_NE(keys.find(name == "github.yml" ? "jobs" : "contort:night"), std::string::npos) << keys;
+  }
+  EXPECT_EQ(files, 2);
+}
+
+TEST(CiFiles, TheCrontabHasTimesAndOneLineForTheNight) {
+  int jobs = 0;
+  for (const std::string& line : lines_of(slurp(kFolder + "/crontab"))) {
+    if (line.starts_with("#") || line.find("* * *") == std::string::npos) continue;
+    ++jobs;
+    EXPECT_NE(line.find("night.sh"), std::string::npos) << line;
+    EXPECT_EQ(line.find('%'), std::string::npos) << "cron ends a command at a percent sign: " << line;
+  }
+  EXPECT_EQ(jobs, 1);
+}
+
+}  // namespace
+
+}  // namespace contort

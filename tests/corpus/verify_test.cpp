@@ -1,0 +1,123 @@
+// Replaying buckets: what their cases show together, and in which order they run.
+#include "corpus/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "corpus/bucket_files.h"
+#include "tests/corpus/sample_corpus.h"
+
+namespace contort {
+
+namespace {
+
+class ReplayedBucket : public testing::Test {
+ protected:
+  ReplayedBucket() : corpus_(create(folder_)) {
+    const Case min = elbow_case(190, 40), orig = elbow_case(200, 60);
+    EXPECT_TRUE(corpus_.add({min, orig, "seed_1"}));
+  }
+  // Puts a case in place of another, under the name that it has.
+  void replace(const std::string& file, const Case& by) {
+    spill(corpus_.folder_of(only_bucket(corpus_)) + "/" + file, print_case(by));
+  }
+  BucketReplay replayed() { return replay_bucket(corpus_, only_bucket(corpus_), stock_library(), evaluator_); }
+
+  TempFolder folder_;
+  Corpus corpus_;
+  Evaluator evaluator_;
+};
+
+Case passing(Case c) {
+  c.spec = bent_elbow(100);
+  return c;
+}
+
+TEST_F(ReplayedBucket, AllCasesAreRun) {
+  const BucketReplay ran = replayed();
+  EXPECT_EQ(ran.shown, Shown::fails);
+  EXPECT_EQ(ran.verdict, Verdict::same);
+  EXPECT_EQ(ran.cases.size(), 3U);
+}
+
+TEST_F(ReplayedBucket, FailsWhileOneOfItsCasesDoes) {
+  const Bucket bucket = only_bucket(corpus_);
+  replace(bucket.min, passing(elbow_case()));
+  replace(bucket.orig, passing(elbow_case()));
+  EXPECT_EQ(replayed().shown, Shown::fails);
+  EXPECT_EQ(replayed().verdict, Verdict::same) << "how it fails, not that some pass";
+  replace(bucket.worst, passing(elbow_case()));
+  EXPECT_EQ(replayed().shown, Shown::gone);
+  EXPECT_EQ(replayed().verdict, Verdict::passes);
+}
+
+TEST_F(ReplayedBucket, IsGoneButDifferentWhereACaseFailsInAnotherWay) {
+  const Bucket bucket = only_bucket(corpus_);
+  for (const std::string& file : files_of(bucket)) replace(file, passing(elbow_case()));
+  Case other = elbow_case();
+  other.expect.check = "pop";
+  replace(bucket.worst, other);
+  EXPECT_EQ(replayed().shown, Shown::gone);
+  EXPECT_EQ(replayed().verdict, Verdict::different);
+}
+
+TEST_F(ReplayedBucket, IsRefusedWhereACaseCannotBeReadAndNoneFails) {
+  const Bucket bucket = only_bucket(corpus_);
+  for (const std::string& file : files_of(bucket)) replace(file, passing(elbow_case()));
+  spill(corpus_.folder_of(bucket) + "/" + bucket.orig, "{");
+  EXPECT_EQ(replayed().shown, Shown::refused);
+  std::filesystem::remove(corpus_.folder_of(bucket) + "/" + bucket.min);
+  EXPECT_EQ(replayed().cases.front().result.issue.code, "file.unreadable");
+}
+
+TEST_F(ReplayedBucket, AFailureThatHasChangedButStaysIsNotFlaky) {
+  Case changed = elbow_case();
+  changed.expect.motion_hash = "0123456789abcdef";
+  replace(only_bucket(corpus_).min, changed);
+  EXPECT_EQ(replayed().shown, Shown::fails);
+  EXPECT_EQ(replayed().verdict, Verdict::same_family);
+}
+
+// ---- order
+
+std::vector<Bucket> one_of_each_state() {
+  std::vector<Bucket> all;
+  for (int s = static_cast<int>(BucketState::invalid); s >= 0; --s)
+    for (const char* id : {"b", "a"}) {
+      Bucket bucket;
+      bucket.id = id + std::to_string(s);
+      bucket.check = "pop";
+      bucket.state = static_cast<BucketState>(s);
+      all.push_back(bucket);
+    }
+  return all;
+}
+
+TEST(ReplayOrder, RegressedFirstThenNewThenOpenAndFixedLast) {
+  const std::vector<Bucket> ordered = replay_order(one_of_each_state(), "");
+  std::vector<BucketState> states;
+  for (const Bucket& bucket : ordered)
+    if (states.empty() || states.back() != bucket.state) states.push_back(bucket.state);
+  using enum BucketState;
+  EXPECT_EQ(states, (std::vector{regressed, fresh, quarantined, open, flaky, invalid, fixed}));
+  for (std::size_t i = 0; i < ordered.size(); i += 2) EXPECT_LT(ordered[i].id, ordered[i + 1].id);
+}
+
+TEST(ReplayOrder, AnotherDayIsAnotherOrderAndLosesNone) {
+  std::vector<Bucket> many(40);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i].id = std::to_string(100 + i);
+  const std::vector<Bucket> monday = replay_order(many, "2027-02-08"), tuesday = replay_order(many, "2027-02-09");
+  EXPECT_NE(monday, tuesday);
+  EXPECT_EQ(monday, replay_order(many, "2027-02-08"));
+  EXPECT_TRUE(std::ranges::is_permutation(monday, many));
+}
+
+TEST(ReplayOrder, OnlyQuarantinedOnesAreNeverSkipped) {
+  for (const Bucket& bucket : one_of_each_state())
+    EXPECT_EQ(may_skip(bucket), bucket.state != BucketState::quarantined) << state_name(bucket.state);
+}
+
+}  // namespace
+
+}  // namespace contort
