@@ -79,7 +79,7 @@ void add_upkeep(CLI::App& corpus, Context& context) {
   add_fsck(corpus, context);
   add_one(corpus, context, "rekey", "Name buckets anew, by the rules of this version", rekey);
   add_one(corpus, context, "prune", "Drop the originals of what is fixed", prune);
-  add_one(corpus, context, "migrate", "Rewrite all files in today's format", migrate);
+  add_one(corpus, context, "migrate", "Rewrite buckets and their cases in today's format", migrate);
 }
 
 }  // namespace contort::cli

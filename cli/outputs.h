@@ -1,6 +1,7 @@
 // What CI reads of a corpus, and the baseline that decides what gates there. `report` and `fuzz` share it.
 #pragma once
 
+#include <cstdio>
 #include <string>
 
 #include "cli/commands.h"

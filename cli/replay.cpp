@@ -164,7 +164,8 @@ class Session {
   }
 
   void run_bucket(const Corpus& corpus, const Bucket& bucket) {
-    const BucketReplay ran = replay_bucket(corpus, bucket, library_, evaluator_);
+    const BucketReplay ran =
+        replay_bucket(corpus, bucket, [&](const Case& c) { return replay(c, library_, evaluator_); });
     const Observation seen{ran.shown,
                            "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
     const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };

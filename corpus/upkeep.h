@@ -16,7 +16,7 @@ Result<Changes> rekey(const Corpus& corpus);
 // Drops the originals of fixed buckets: min and worst are enough to notice that one regresses.
 Result<Changes> prune(const Corpus& corpus);
 
-// Reads every file and writes it in today's format.
+// Reads every bucket and case and writes it in today's format.
 Result<Changes> migrate(const Corpus& corpus);
 
 }  // namespace contort

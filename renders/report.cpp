@@ -33,7 +33,8 @@ Json row_json(const ReportRow& row) {
           {"worst_frame", row.worst_frame},
           {"last_frame", row.last_frame},
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
-          {"features", row.features}};
+          {"features", row.features},
+          {"note", row.note}};
 }
 
 }  // namespace

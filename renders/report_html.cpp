@@ -137,7 +137,7 @@ std::string bucket_html(const ReportRow& row, const std::string& id) {
   out += picture_html(row, row.strip, "Film strip");
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
          fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
-         fact("bucket", row.bucket) + "</dl>\n";
+         fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += command_html(row.replay_command);
   if (!row.spec_json.empty())
     out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
@@ -234,7 +234,8 @@ std::string pairs_html(const ReportModel& model) {
   std::int64_t seen = 0;
   for (const auto& [name, count] : model.tested) seen += name.rfind("pair ", 0) == 0 && count > 0;
   char share[32];
-  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * static_cast<double>(seen) / static_cast<double>(model.pairs_possible));
+  std::snprintf(share, sizeof share, "%.0f %%",
+                100.0 * static_cast<double>(seen) / static_cast<double>(model.pairs_possible));
   return "<p>Pairs of actions at the same time on one part: " + html_text(count_text(seen)) + " of " +
          html_text(count_text(model.pairs_possible)) + " occurred (" + share + ").</p>\n";
 }
@@ -243,8 +244,9 @@ std::string tested_html(const ReportModel& model) {
   if (model.tested.empty()) return "";
   std::int64_t largest = 0;
   for (const auto& [name, count] : model.tested) largest = std::max(largest, count);
-  std::string out = "<section id='tested'>\n<h2>What was tested</h2>\n" + pairs_html(model) + "<table>\n<thead><tr><th scope='col'>part of a case</th>"
-      "<th scope='col'>times</th><th></th></tr></thead>\n<tbody>\n";
+  std::string out = "<section id='tested'>\n<h2>What was tested</h2>\n" + pairs_html(model) +
+                    "<table>\n<thead><tr><th scope='col'>part of a case</th>"
+                    "<th scope='col'>times</th><th></th></tr></thead>\n<tbody>\n";
   for (const auto& [name, count] : model.tested)
     out += (count == 0 ? "<tr class='never'><th scope='row'>" : "<tr><th scope='row'>") + html_text(name) +
            "</th><td>" + html_text(count_text(count)) + "</td><td>" + bar_html(count, largest) + "</td></tr>\n";

@@ -186,7 +186,8 @@ TEST_F(StoredCorpus, WhatPassesInTwoBuildsIsFixedAndRegressesWhenItFails) {
   EXPECT_EQ(replay("a", true).code, 0);
   EXPECT_EQ(left().state, BucketState::fresh) << "one build is not enough";
   EXPECT_TRUE(says(replay("b", true).out, "new -> fixed"));
-  EXPECT_EQ(left().passed_in, (std::vector<std::string>{"contort 0.1.0 a", "contort 0.1.0 b"}));
+  const std::string version = last_line(contort_program({"version"}).out);
+  EXPECT_EQ(left().passed_in, (std::vector<std::string>{version + " a", version + " b"}));
   EXPECT_TRUE(says(last_line(run({"replay", corpus_.folder(), "--settings", fixed_settings()}).out), "fixed=2"));
   const Ran failing = replay("c", false);
   EXPECT_EQ(failing.code, 1);

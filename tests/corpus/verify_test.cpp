@@ -22,11 +22,18 @@ class ReplayedBucket : public testing::Test {
   void replace(const std::string& file, const Case& by) {
     spill(corpus_.folder_of(only_bucket(corpus_)) + "/" + file, print_case(by));
   }
-  BucketReplay replayed() { return replay_bucket(corpus_, only_bucket(corpus_), stock_library(), evaluator_); }
+  BucketReplay replayed() {
+    return replay_bucket(corpus_, only_bucket(corpus_), [&](const Case& c) { return run(c); });
+  }
+  Replay run(const Case& c) {
+    ++runs_;
+    return replay(c, stock_library(), evaluator_);
+  }
 
   TempFolder folder_;
   Corpus corpus_;
   Evaluator evaluator_;
+  int runs_ = 0;
 };
 
 Case passing(Case c) {
@@ -39,6 +46,7 @@ TEST_F(ReplayedBucket, AllCasesAreRun) {
   EXPECT_EQ(ran.shown, Shown::fails);
   EXPECT_EQ(ran.verdict, Verdict::same);
   EXPECT_EQ(ran.cases.size(), 3U);
+  EXPECT_EQ(runs_, 3) << "what is the same bit by bit needs no second run";
 }
 
 TEST_F(ReplayedBucket, FailsWhileOneOfItsCasesDoes) {
@@ -77,6 +85,38 @@ TEST_F(ReplayedBucket, AFailureThatHasChangedButStaysIsNotFlaky) {
   replace(only_bucket(corpus_).min, changed);
   EXPECT_EQ(replayed().shown, Shown::fails);
   EXPECT_EQ(replayed().verdict, Verdict::same_family);
+}
+
+TEST_F(ReplayedBucket, IsUnsteadyWhereASecondRunDiffersInAnyBit) {
+  Case changed = elbow_case();
+  changed.expect.motion_hash = "0123456789abcdef";
+  replace(only_bucket(corpus_).min, changed);
+  const BucketReplay ran = replay_bucket(corpus_, only_bucket(corpus_), [&](const Case& c) {
+    Replay result = run(c);
+    if (runs_ == 2) result.now.motion_hash = "fedcba9876543210";
+    return result;
+  });
+  EXPECT_EQ(ran.shown, Shown::unsteady);
+}
+
+TEST_F(ReplayedBucket, AMarginThatIsNoNumberIsSteady) {
+  Case changed = elbow_case();
+  changed.expect.motion_hash = "0123456789abcdef";
+  replace(only_bucket(corpus_).min, changed);
+  const BucketReplay ran = replay_bucket(corpus_, only_bucket(corpus_), [&](const Case& c) {
+    Replay result = run(c);
+    result.now.worst_margin = std::numeric_limits<double>::quiet_NaN();
+    return result;
+  });
+  EXPECT_EQ(ran.shown, Shown::fails);
+}
+
+TEST_F(ReplayedBucket, OnceItIsFlakyEachCaseRunsThreeTimes) {
+  Bucket flaky = only_bucket(corpus_);
+  flaky.state = BucketState::flaky;
+  ASSERT_TRUE(write_bucket(corpus_.folder_of(flaky), flaky));
+  EXPECT_EQ(replayed().shown, Shown::fails);
+  EXPECT_EQ(runs_, 9);
 }
 
 // ---- order
