@@ -2,6 +2,7 @@
 #include "corpus/upkeep.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -133,6 +134,49 @@ TEST_F(Upkeep, BeingFoundAgainIsARegressionOfWhatWasFixed) {
   const Tree before = tree_of(corpus_.folder());
   ASSERT_TRUE(corpus_.add(found(160, 40, 1)));
   EXPECT_EQ(first_difference(before, tree_of(corpus_.folder())), "");
+}
+
+// ---- one corpus from several
+
+// A corpus of one bucket as one machine may have it: its own cases, and what was done there.
+Corpus draw_copy(const TempFolder& folder) {
+  const Corpus corpus = create(folder);
+  const int count = *rc::gen::inRange(1, 3);
+  for (int i = 0; i < count; ++i)
+    RC_ASSERT(bool(corpus.add(found(151 + *rc::gen::inRange(0, 3), 30, *rc::gen::inRange(0, 3)))));
+  Bucket bucket = only_bucket(corpus);
+  const int steps = *rc::gen::inRange(0, 4);
+  for (int i = 0; i < steps; ++i)
+    bucket = next_state(bucket,
+                        {*rc::gen::element(Shown::fails, Shown::gone), *rc::gen::element<std::string>("a", "b")}, "");
+  if (const auto known = acknowledge(bucket, "ana", "12"); known && *rc::gen::inRange(0, 3) == 0) bucket = *known;
+  RC_ASSERT(bool(write_bucket(corpus.folder_of(bucket), bucket)));
+  if (*rc::gen::inRange(0, 2) == 0) RC_ASSERT(bool(prune(corpus)));
+  return corpus;
+}
+
+Tree merged(const std::vector<const Corpus*>& sources) {
+  const TempFolder folder;
+  const Corpus into = create(folder);
+  for (const Corpus* source : sources) RC_ASSERT(bool(into.take(*source, only_bucket(*source))));
+  return tree_of(into.folder());
+}
+
+RC_GTEST_PROP(CorpusTake, AnyOrderAndAnyRepetitionLeaveTheSameBytes, ()) {
+  const TempFolder folders[3];
+  const Corpus a = draw_copy(folders[0]), b = draw_copy(folders[1]), c = draw_copy(folders[2]);
+  const std::string difference = first_difference(merged({&a, &b, &c}), merged({&c, &a, &a, &b, &c}));
+  if (!difference.empty()) RC_FAIL(difference);
+}
+
+TEST_F(Upkeep, ABucketThatIsTakenBringsItsStateAndDoesNotRegressByThat) {
+  bucket_.state = BucketState::fixed, bucket_.changes = 2;
+  write(bucket_);
+  done(prune(corpus_));
+  const TempFolder other;
+  const Corpus into = create(other);
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(into.take(corpus_, only_bucket(corpus_)));
+  EXPECT_EQ(first_difference(tree_of(corpus_.folder()), tree_of(into.folder())), "");
 }
 
 // ---- several writers
