@@ -9,8 +9,10 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/report.h"
+#include "corpus/lifecycle.h"
 #include "fuzz/run.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
@@ -37,6 +39,7 @@ struct Options {
   int shrink_evaluations = 300;
   std::string corpus = "contort-out/corpus";
   std::string report;
+  OutputRequest outputs;
   bool json = false;
 };
 
@@ -45,7 +48,8 @@ class ProgressLine {
  public:
   explicit ProgressLine(const RunConfig& config) : config_(config), shown_(::isatty(STDERR_FILENO) == 1) {}
   void show(const RunProgress& p) {
-    if (!shown_) return;
+    if (!shown_ || p.elapsed_s < next_s_) return;
+    next_s_ = p.elapsed_s + 0.1;
     const double share = config_.cases > 0      ? static_cast<double>(p.cases) / static_cast<double>(config_.cases)
                          : config_.time_s > 0.0 ? p.elapsed_s / config_.time_s
                                                 : 0.0;
@@ -63,6 +67,7 @@ class ProgressLine {
  private:
   const RunConfig& config_;
   bool shown_;
+  double next_s_ = 0.0;
 };
 
 // The characters of the command line, else of the profile, else all.
@@ -164,6 +169,7 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
               static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
+  if (result.interrupted) std::printf("interrupted: the same command with --resume goes on from here\n");
   if (t.shards > 1)
     std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
                 options.corpus.c_str());
@@ -178,12 +184,25 @@ void print_result(const RunResult& result) {
               static_cast<long long>(t.frames));
 }
 
-int exit_code_of(const RunResult& result) {
+// Whether anything that was found fails a build: what people know of, or the baseline has, does not.
+Result<bool> any_gates(const RunResult& result, const Options& options, const std::string& today) {
+  const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
+  if (!baseline) return baseline.issue();
+  for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
+    for (const std::string& folder : *folders) {
+      const Result<Bucket> bucket = read_bucket(folder);
+      if (!bucket) return bucket.issue();
+      if (is_gating(*bucket, today, *baseline)) return true;
+    }
+  return false;
+}
+
+int exit_code_of(const RunResult& result, bool gates) {
   if (result.issue.code == "run.busy" || result.issue.code == "state.other_plan") return kBadInput;
   if (!result.issue.code.empty()) return kInternal;
   if (result.interrupted) return kInterrupted;
   if (!result.unconfirmed.empty() || result.record.discarded > 0) return kInconclusive;
-  return result.new_buckets.empty() && result.known_buckets.empty() ? kClean : kFindings;
+  return gates ? kFindings : kClean;
 }
 
 void run(const Options& options, Context& context) {
@@ -204,13 +223,17 @@ void run(const Options& options, Context& context) {
   const RunResult result = run_fuzz(
       config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
   line.clear();
-  context.exit_code = exit_code_of(result);
+  const Result<bool> gates = any_gates(result, options, context.day());
+  if (!gates) context.fail(gates.issue());
+  const int code = exit_code_of(result, !gates || *gates);
+  context.exit_code = code;
   print_totals(result, options, *settings, context.library_folders);
-  if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(exit_code_of(result)));
+  if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (result.record.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.record.discarded));
-  if (!options.report.empty()) make_report({options.corpus, options.report, !options.json}, *library, context);
+  if (!options.report.empty() || options.outputs.wanted())
+    make_report({options.corpus, options.report, !options.json, options.outputs}, *library, context);
   if (!options.json) print_result(result);
 }
 
@@ -250,6 +273,7 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
+  add_output_options(*command, options->outputs);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort fuzz --character mech --time 10m --seed 7 --report contort-out/report");
   command->callback([options, &context] { run(*options, context); });

@@ -10,6 +10,7 @@
 #include "cli/variants.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
+#include "fuzz/profile.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
 #include "generator/core/json_fields.h"
@@ -161,7 +162,8 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
   static const std::map<std::string, std::function<std::string()>> all = {
       {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
       {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
-      {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema}};
+      {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema},
+      {"profile", profile_schema}};
   return all;
 }
 

@@ -1,7 +1,6 @@
 #include "corpus/lifecycle.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 
 #include "checks/settings.h"
@@ -53,11 +52,13 @@ auto state_of(const Bucket& b) {
   return std::tie(b.changes, b.state, b.was, b.streak, b.passed_in, b.owner, b.ticket, b.reason, b.expires);
 }
 
-std::chrono::sys_days day_of(const std::string& text) {
+// Days since some day, of "2027-03-01". Years begin in March, so that a leap day is the last of its year and months have
+// 31, 30, 31, 30, 31 days again and again (as in Fliegel and van Flandern, CACM 1968).
+int day_number(const std::string& text) {
   const auto number = [&](std::size_t at, std::size_t length) { return std::atoi(text.substr(at, length).c_str()); };
-  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
-                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                     std::chrono::day(static_cast<unsigned>(number(8, 2))));
+  const int month = (number(5, 2) + 9) % 12;  // March is 0
+  const int year = number(0, 4) - month / 10;
+  return 365 * year + year / 4 - year / 100 + year / 400 + (153 * month + 2) / 5 + number(8, 2);
 }
 
 Issue refuse(const Bucket& bucket, const char* code, const std::string& why) {
@@ -66,7 +67,7 @@ Issue refuse(const Bucket& bucket, const char* code, const std::string& why) {
 
 Result<Done> check_day(const Bucket& bucket, const std::string& expires, const std::string& today) {
   if (!is_day(expires)) return refuse(bucket, "no_day", "\"" + expires + "\" is no day; write YYYY-MM-DD");
-  const auto days = (day_of(expires) - day_of(today)).count();
+  const int days = day_number(expires) - day_number(today);
   if (days < 0 || days > kLongestQuarantineDays)
     return refuse(bucket, "too_long",
                   "a quarantine until " + expires + " is refused, allowed are days from " + today + " to " +

@@ -103,7 +103,7 @@ std::string how_it_ended(int status) {
 
 void WorkerSlot::note(std::string_view text) {
   length_ = 0;
-  if (text.size() <= kMostNote) std::memcpy(text_, text.data(), text.size());
+  if (!text.empty() && text.size() <= kMostNote) std::memcpy(text_, text.data(), text.size());
   std::atomic_signal_fence(std::memory_order_seq_cst);
   if (text.size() <= kMostNote) length_ = text.size();
 }

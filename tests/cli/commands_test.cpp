@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "corpus/isolate.h"
-#include "tests/checks/small_character.h"
 #include "tests/cli/program.h"
+#include "tests/cli/small_library.h"
 #include "tests/corpus/sample_cases.h"
 
 namespace contort {
@@ -34,11 +34,7 @@ class Commands : public testing::Test {
   // A folder with the small character, which is a hundred times as fast to fuzz as the stock ones.
   std::string small_library() {
     const std::string path = folder_ / "library";
-    std::filesystem::create_directories(path);
-    const Library own = small::library();
-    for (const auto& [name, part] : own.parts) spill(path + "/" + name + ".json", print_part(part));
-    for (const auto& [name, object] : own.objects) spill(path + "/" + name + ".json", print_object(object));
-    for (const auto& [name, desc] : own.characters) spill(path + "/" + name + ".json", print_character(desc));
+    small::write_library(path);
     return path;
   }
   Ran with_library(std::vector<std::string> arguments) {
@@ -46,7 +42,8 @@ class Commands : public testing::Test {
     return contort_program(arguments);
   }
   Ran fuzz(const std::string& corpus, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"fuzz", "--corpus", corpus, "--character", "small", "--cases", "40"};
+    std::vector<std::string> arguments = {"fuzz", "--corpus", corpus, "--character", "small", "--cases", "40",
+                                          "--shrink-evaluations", "20"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return with_library(arguments);
   }

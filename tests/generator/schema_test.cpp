@@ -8,6 +8,7 @@
 #include "checks/joint_map.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
+#include "fuzz/profile.h"
 #include "generator/character/library.h"
 #include "generator/core/files.h"
 #include "generator/spec.h"
@@ -32,6 +33,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("action"), action_schema());
   EXPECT_EQ(published("map"), joint_map_schema());
   EXPECT_EQ(published("bucket"), bucket_schema());
+  EXPECT_EQ(published("profile"), profile_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.
