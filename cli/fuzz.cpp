@@ -169,7 +169,8 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
               static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
-  if (result.interrupted) std::printf("interrupted: the same command with --resume goes on from here\n");
+  if (result.interrupted || result.waiting > 0)
+    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.waiting);
   if (t.shards > 1)
     std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
                 options.corpus.c_str());

@@ -82,9 +82,10 @@ class Run {
       round_.clear(), open_ = 0, given_ = 0;
       keep_state_sometimes();
     }
-    while (ok() && !result_.interrupted && (!settling_.empty() || pool.busy() > 0)) {
+    // What is not settled when time is up waits in the state for --resume.
+    while (ok() && !result_.interrupted && (pool.busy() > 0 || (!settling_.empty() && !out_of_time()))) {
       if (stop_()) result_.interrupted = true;
-      step(pool, true);
+      step(pool, !out_of_time());
     }
   }
 
@@ -255,6 +256,7 @@ class Run {
     report();
     result_.record = state_.record;
     result_.elapsed_s = steady_s() - start_s_;
+    result_.waiting = static_cast<int>(state_.wanted.size());
     result_.waivers = state_.waivers;
     for (const std::string& name : state_.new_buckets) result_.new_buckets.push_back(bucket_folder(name));
     for (const std::string& name : state_.known_buckets) result_.known_buckets.push_back(bucket_folder(name));

@@ -54,6 +54,7 @@ struct RunResult {
   std::vector<std::string> new_buckets;    // folders
   std::vector<std::string> known_buckets;  // folders that were there before this run
   std::vector<std::string> unconfirmed;    // leads whose second run differed: nondeterminism, ours to explain
+  int waiting = 0;                         // failures that are not settled: `resume` goes on with them
   bool interrupted = false;                // stopped by `stop`
   Issue issue;                             // the corpus could not be written; code "" where all went well
 };
