@@ -6,6 +6,7 @@
 #include "generator/core/detmath.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/kinematics.h"
+#include "generator/motion/root_blend.h"
 
 namespace contort {
 
@@ -53,8 +54,10 @@ class Generation {
     s_.bodies.assign(static_cast<std::size_t>(timeline_.use_count), {});
     s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
     s_.base.root = stage_.start * character_.rest_root();
+    s_.stands_at = stage_.start;
     stand_up();
     s_.plain = s_.from_overwrite = s_.from_ik = s_.target = s_.shown = s_.base;
+    forward_kinematics(character_, s_.base.root, s_.base.coords, s_.world);  // where feet are before the first frame
   }
 
   // At rest on level ground; elsewhere hips and feet fit themselves to what is beneath.
@@ -65,7 +68,7 @@ class Generation {
       return;
     }
     Gait gait;
-    gait.begin(character_, stage_.legs, stage_.environment, stage_.start);
+    gait.begin(character_, stage_.legs, stage_.environment, stage_.start, {});
     const GaitFrame frame = gait.stand(0.0);
     s_.base.root = frame.root;
     forward_kinematics(character_, s_.base.root, s_.base.coords, s_.world);
@@ -126,7 +129,7 @@ class Generation {
     const Hold ik = winner(stack.ik, Layer::ik, p);
     // One that starts in this frame has moved nothing yet: what had the layer ends as if nobody came.
     const bool follows = stack.ik.action >= 0 && ik.action >= 0 && ik.since < frame_;
-    if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows && !(planned(stack.ik).blend_out > 0.0))
+    if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows && (places_legs(stack.ik) || !(planned(stack.ik).blend_out > 0.0)))
       settle(p, stack.overwrite);
     take_over(stack.overwrite, winner(stack.overwrite, Layer::overwrite, p), p, s_.base, s_.from_overwrite);
     if (stack.overwrite.action >= 0) move(p, stack.overwrite, s_.from_overwrite, s_.from_overwrite, s_.base);
@@ -134,6 +137,7 @@ class Generation {
     if (stack.ik.action >= 0) {
       move(p, stack.ik, s_.from_ik, s_.base, s_.plain);
       fade(p, stack.ik);
+      if (p == 0 && places_legs(stack.ik)) s_.stands_at = body_of(stack.ik).frame.stands_at;
     } else {
       copy_part(character_, p, s_.base, s_.plain);
     }
@@ -210,6 +214,7 @@ class Generation {
 
   void begin(Hold& hold, std::size_t p, const Posture& present, Posture& from) {
     copy_part(character_, p, present, from);
+    if (p == 0) s_.root_beneath = s_.base.root;
     const PlannedAction& action = planned(hold);
     hold.came = std::max(action.start, static_cast<double>(run_of(hold).first_content));
     hold.eased = action.def->timing == Timing::goal ? blended_in(action, hold.came, content(hold) - 1) : 0.0;
@@ -241,12 +246,12 @@ class Generation {
   }
 
   void apply(const PlannedAction& action, std::size_t p, const Posture& from, double came, int took_over,
-             int content_frame) {
+             double came_in, int content_frame) {
     const Part& part = character_.parts()[p];
     if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
     const ActionTime time = time_of(action, came, content_frame);
     action.def->rule({character_, part, action.params, s_.world, time, stage_.start, stage_.environment, stage_.legs,
-                      action.aim.get(), action.keys.get(), action.easy_grip_m, from, frame_, took_over, s_.bodies[static_cast<std::size_t>(action.use)],
+                      s_.stands_at, action.aim.get(), action.keys.get(), action.easy_grip_m, from, frame_, took_over, came_in, s_.bodies[static_cast<std::size_t>(action.use)],
                       s_.feedback[p]},
                      s_.target);
   }
@@ -254,11 +259,12 @@ class Generation {
   // out = from `from` towards what the rule makes of `beneath`.
   void move(std::size_t p, const Hold& hold, const Posture& from, const Posture& beneath, Posture& out) {
     copy_part(character_, p, beneath, s_.target);
-    apply(planned(hold), p, from, hold.came, hold.frame, content(hold));
-    const double left = 1.0 - hold.eased;
     const double eased = come_in(hold);
+    apply(planned(hold), p, from, hold.came, hold.frame, eased, content(hold));
+    if (places_legs(hold) && p != 0) return copy_part(character_, p, s_.target, out);
+    const double left = 1.0 - hold.eased;
     const double weight = left > 1e-9 ? (eased - hold.eased) / left : 1.0;
-    blend_part(character_, p, from, s_.target, weight, out);
+    blend(p, hold, from, s_.target, weight, out);
   }
 
   int cut_fade() const { return std::max(1, static_cast<int>(kCutFade_s * stage_.rate_hz)); }
@@ -272,9 +278,31 @@ class Generation {
     return std::min(in, ease(static_cast<double>(frame_ - hold.frame) / cut_fade()));
   }
 
+  // Legs under a root that blends put their feet where they belong: blended angles would have them slide.
+  bool places_legs(const Hold& hold) const { return planned(hold).def->spread == Spread::legs; }
+
   void fade(std::size_t p, const Hold& hold) {
-    blend_part(character_, p, s_.base, s_.plain, not_blended_out(planned(hold), content(hold)), s_.plain);
+    if (places_legs(hold) && p != 0) return;
+    const double left = not_blended_out(planned(hold), content(hold));
+    if (places_legs(hold) && left < 1.0) s_.base.root = root_beneath(hold);
+    blend(p, hold, s_.base, s_.plain, left, s_.plain);
   }
+
+  void blend(std::size_t p, const Hold& hold, const Posture& a, const Posture& b, double weight, Posture& out) const {
+    const Rigid root = b.root;  // out may be b
+    blend_part(character_, p, a, b, weight, out);
+    if (places_legs(hold)) out.root = blend_root(below(), a.root, root, weight);
+  }
+
+  // Who has gone somewhere stays there: what is faded to comes along.
+  Rigid root_beneath(const Hold& hold) const {
+    const WholeBody& body = body_of(hold);
+    return brought_along(below(), s_.root_beneath, body.gait.world_from_start(), body.frame.stands_at);
+  }
+  const WholeBody& body_of(const Hold& hold) const { return s_.bodies[static_cast<std::size_t>(planned(hold).use)]; }
+
+  LegsBelow below() const { return {character_, stage_.legs, stage_.environment}; }
+
 
   // An additive that is cut would be gone from one frame to the next: it runs on while it fades, and fades in again where
   // it goes on.
@@ -301,7 +329,7 @@ class Generation {
     mark_additive(index, action);
     s_.added[p] = 1;
     copy_part(character_, p, s_.shown, s_.target);
-    apply(action, p, s_.shown, action.start, frame_, now);
+    apply(action, p, s_.shown, action.start, frame_, 1.0, now);
     blend_part(character_, p, s_.shown, s_.target, weight, s_.shown);
   }
 

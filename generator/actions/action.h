@@ -104,6 +104,8 @@ struct WholeBody {
   int begun = -1;    // frame in which the root was taken
   int made_in = -1;  // frame of `frame`
   std::array<bool, kMaxLegs> lands{};
+  std::array<Rigid, kMaxLegs> seen_soles{};   // in the frame before, world
+  std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   std::array<double, kMaxAimCoords> first_aim{};  // of the chain
   std::array<double, kMaxAimCoords> aimed{};
 };
@@ -119,12 +121,14 @@ struct RuleInput {
   const Rigid& world_from_start;  // where the character stood at first
   const Environment& environment;
   std::span<const Leg> legs;
+  const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: where legs have carried it by now
   const AimPlan* aim;  // of actions with an own_point
   const KeyPlan* keys;  // of key poses from a file
   Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
   const Posture& from;  // where it took its part over; the part's own coordinates only
   int frame;
   int took_over;  // frame in which it took the part
+  double came_in;  // how far a course has blended in, [0, 1]; those that move legs do it themselves
   WholeBody& body;
   Feedback& feedback;
 };

@@ -25,6 +25,13 @@ double swing_bump(double swing) {
   return 16.0 * left * left;
 }
 
+// Toes hang while a foot comes up behind, as far as they have half of its lift above the ground: a foot that stays level
+// asks more of its ankle the more the knee bends.
+double toes_down_rad(const Leg& leg, double bump_m, double swing) {
+  const double toes_m = std::max(leg.high_m.z, 0.01);
+  return std::min(0.5 * bump_m / toes_m, kLongestTilt_rad) * swing_bump(swing) * 2.0 * (1.0 - swing);
+}
+
 double least_length_m(std::span<const Leg> legs) {
   double least = 1e9;
   for (const Leg& leg : legs) least = std::min(least, leg.length_m);
@@ -40,13 +47,7 @@ Vec3 footprint_point(const Leg& leg, int across, int lengthwise) {
   return {leg.low_m.x + u * (leg.high_m.x - leg.low_m.x), 0.0, leg.low_m.z + w * (leg.high_m.z - leg.low_m.z)};
 }
 
-// The ground under a footprint at a place, as a plane h + x·a + z·b through its points, and what sticks out of it.
-struct Foothold {
-  double height_m = 0.0;
-  double slope_x = 0.0;
-  double slope_z = 0.0;
-  double unevenness_m = 0.0;
-};
+using Foothold = Gait::Foothold;
 
 Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
   double heights[kAcross][kLong];
@@ -133,13 +134,29 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s) {
 }
 
 void Gait::begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
-                 const Rigid& world_from_start) {
+                 const Rigid& world_from_start, std::span<const Rigid> seen_soles) {
   character_ = &character, legs_ = legs, environment_ = &environment;
   world_from_start_ = world_from_start;
   leg_length_m_ = least_length_m(legs);
   rows_ = 1;
   for (const Leg& leg : legs) rows_ = std::max(rows_, leg.row + 1);
   steps_.fill({});
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    first_soles_[i] = first_sole(legs[i], i < seen_soles.size() ? &seen_soles[i] : nullptr);
+}
+
+Rigid Gait::first_sole(const Leg& leg, const Rigid* seen) const {
+  constexpr double kStands_m = 0.002;        // nearer to where it would be put, a foot is left as it is
+  constexpr double kFarthest = 0.4;          // from home, of the leg's length: about half of a long stride
+  const Vec3 home = world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z);
+  const Vec3 off = seen != nullptr ? seen->p_m - home : Vec3(0.0);
+  const double off_m = std::sqrt(off.x * off.x + off.z * off.z);
+  if (seen == nullptr || off_m > kFarthest * leg.length_m)
+    return stand_at(leg, home, world_from_start_.q * Vec3(0, 0, 1));
+  const Rigid placed = put_down(seen->p_m, foothold_at(*environment_, leg, {world_from_start_.q, seen->p_m}));
+  const Vec3 up_seen = seen->q * Vec3(0, 1, 0), up_placed = placed.q * Vec3(0, 1, 0);
+  const bool stands = std::fabs(placed.p_m.y - seen->p_m.y) < kStands_m && glm::dot(up_seen, up_placed) > 0.999;
+  return stands ? *seen : placed;
 }
 
 double Gait::phase(const GaitParams& params, const Leg& leg) const {
@@ -194,6 +211,12 @@ Vec3 Gait::travel(const GaitParams& params, double distance_m) const {
   return world_from_start_.q * (distance_m * Vec3(heading.sin, 0.0, heading.cos));
 }
 
+Rigid Gait::put_down(const Vec3& at, const Foothold& foothold) const {
+  // Pitch about the sole's x, then roll about its z, as small rotations of one vector.
+  const Vec3 normal = unit_or(Vec3(-foothold.slope_x, 1.0, -foothold.slope_z), Vec3(0, 1, 0));
+  return {world_from_start_.q * shortest_arc(Vec3(0, 1, 0), normal), Vec3(at.x, foothold.height_m, at.z)};
+}
+
 // Puts a foot on the ground near a place: among a few places along the way the most even one, the nearer the better.
 Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const {
   constexpr double kStep_m = 0.02;
@@ -210,18 +233,16 @@ Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) 
     if (cost < best_cost - 1e-9) best = foothold, best_at = at, best_cost = cost;
     if (environment_->is_level()) break;
   }
-  best_at.y = best.height_m;
-  // Pitch about the sole's x, then roll about its z, as small rotations of one vector.
-  const Vec3 normal = unit_or(Vec3(-best.slope_x, 1.0, -best.slope_z), Vec3(0, 1, 0));
-  return {world_from_start_.q * shortest_arc(Vec3(0, 1, 0), normal), best_at};
+  return put_down(best_at, best);
 }
 
-// A foot stands at home until its first swing begins, and is home again from the step on whose middle comes after the end.
+// A foot stands where it was first until its first swing begins, and is home again from the step on whose middle comes after the end.
 Rigid Gait::foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const {
   const double lifted_s = (step - 1 + params.duty - phase(params, leg)) * params.cycle_s;
   const double middle_s = (step + 0.5 * params.duty - phase(params, leg)) * params.cycle_s;
-  const double distance_m = lifted_s < 0.0 ? 0.0 : travelled_m(pace, middle_s);
-  const Vec3 home = world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z) + travel(params, distance_m);
+  if (lifted_s < 0.0) return first_soles_[static_cast<std::size_t>(&leg - legs_.data())];
+  const Vec3 home =
+      world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z) + travel(params, travelled_m(pace, middle_s));
   return stand_at(leg, home, travel(params, 1.0));
 }
 
@@ -319,8 +340,7 @@ GaitFrame Gait::stand(double lower_share) {
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     constexpr int kHome = -1;  // no step of a course that begins at 0
     if (steps_[i].number != kHome) {
-      const Vec3 home(legs_[i].home_m.x, 0.0, legs_[i].home_m.z);
-      steps_[i].from = stand_at(legs_[i], world_from_start_ * home, world_from_start_.q * Vec3(0, 0, 1));
+      steps_[i].from = first_soles_[i];
       steps_[i].number = kHome;
     }
     frame.feet[i].world_from_sole = steps_[i].from;
@@ -329,6 +349,7 @@ GaitFrame Gait::stand(double lower_share) {
   std::array<double, kMaxLegs> holds;
   holds.fill(1.0);
   frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, Vec3(0.0), 0.0, 0.0);
+  frame.stands_at = world_from_start_;
   frame.root.p_m.y -= lower_share * leg_length_m_;  // from where the legs reach, wherever that is: without a kink
   return frame;
 }
@@ -347,14 +368,18 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
     feet[i] = step.from.p_m + share * (step.to.p_m - step.from.p_m);
     frame.feet[i].world_from_sole = {slerp_short(step.from.q, step.to.q, share), feet[i]};
     frame.feet[i].world_from_sole.p_m.y += step.bump_m * swing_bump(cycle.swing);
+    if (environment_->is_level())  // elsewhere the swing is fitted to the ground with level toes
+      frame.feet[i].world_from_sole.q = frame.feet[i].world_from_sole.q *
+                                        axis_angle(Vec3(1, 0, 0), toes_down_rad(legs_[i], step.bump_m, cycle.swing));
     frame.feet[i].stands = cycle.swing == 0.0 || step.bump_m == 0.0;
   }
   const double in = ease_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
   const double out = ease_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
   const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
   const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
-  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame,
-                         travel(params, travelled_m(pace, time_s)), lower_m, in * out);
+  const Vec3 way = travel(params, travelled_m(pace, time_s));
+  frame.stands_at = {world_from_start_.q, world_from_start_.p_m + way};
+  frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, way, lower_m, in * out);
   return frame;
 }
 

@@ -34,21 +34,34 @@ struct FootTarget {
 
 struct GaitFrame {
   Rigid root;
+  Rigid stands_at;  // a turn about +Y and a place on the plane y = 0: where the course has come to
   std::array<FootTarget, kMaxLegs> feet;
 };
 
 // What is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
 class Gait {
  public:
-  // From where the character stands: a turn about +Y and a place on the plane.
+  // From where the character stands: a turn about +Y and a place on the plane. Feet stay where their soles are seen until
+  // they are lifted, put down on the ground below; those too far away from home for that, or not given, are at home.
   void begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
-             const Rigid& world_from_start);
+             const Rigid& world_from_start, std::span<const Rigid> seen_soles);
 
-  // Standing with every foot at home, the hips lowered by a share of the shortest leg.
+  const std::array<Rigid, kMaxLegs>& first_soles() const { return first_soles_; }
+  const Rigid& world_from_start() const { return world_from_start_; }
+
+  // Standing where the feet are, the hips lowered by a share of the shortest leg.
   GaitFrame stand(double lower_share);
 
-  // At a time of a course of duration_s; it begins and ends standing, with every foot at home.
+  // At a time of a course of duration_s; it begins and ends standing, at the end with every foot at home.
   GaitFrame at(const GaitParams& params, double time_s, double duration_s);
+
+  // The ground under a footprint at a place, as a plane h + x·a + z·b through its points, and what sticks out of it.
+  struct Foothold {
+    double height_m = 0.0;
+    double slope_x = 0.0;
+    double slope_z = 0.0;
+    double unevenness_m = 0.0;
+  };
 
  private:
   struct Step {
@@ -77,6 +90,8 @@ class Gait {
   Cycle cycle_of(const GaitParams& params, const Leg& leg, double time_s) const;
   Vec3 travel(const GaitParams& params, double distance_m) const;
   Rigid foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const;
+  Rigid first_sole(const Leg& leg, const Rigid* seen) const;
+  Rigid put_down(const Vec3& at, const Foothold& foothold) const;
   Rigid stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) const;
   void take_step(const GaitParams& params, const Pace& pace, const Leg& leg, int number, Step& step) const;
   double clear_bump(const Leg& leg, const Step& step, double margin) const;
@@ -92,6 +107,7 @@ class Gait {
   double leg_length_m_ = 1.0;  // of the shortest
   int rows_ = 1;
   std::array<Step, kMaxLegs> steps_;
+  std::array<Rigid, kMaxLegs> first_soles_;
 };
 
 }  // namespace contort

@@ -147,23 +147,78 @@ void reach_for(const Character& character, const ReachChain& chain, std::span<co
   set_upper(character, chain, axis_angle(to_target, swivel_rad) * swing, row);
 }
 
-void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
-                    const Vec3& direction_world, std::span<double> row) {
-  turn_axis_to(character, chain.joints, chain.socket, Vec3(0, 0, 1), world, direction_world, row);
+namespace {
+
+// Joints, and all that moves between the first of them and the socket.
+struct TurnedChain {
+  const Character& character;
+  std::span<const int> joints;
+  int socket;
+  Vec3 socket_axis;
+
+  int end() const {
+    return std::max(joints.back(), character.sockets()[static_cast<std::size_t>(socket)].joint) + 1;
+  }
+  Vec3 facing(std::span<const Rigid> world) const { return world_from_socket(character, world, socket).q * socket_axis; }
+};
+
+// How `facing` changes with a joint's angle, as an axis to turn about; what lies along `facing` does nothing.
+Vec3 turning_part(const Vec3& axis, const Vec3& facing) { return axis - glm::dot(axis, facing) * facing; }
+
+// The turn y, across `facing`, of which each joint takes its share, so that together they make `wanted`: the solution
+// with the smallest angles, y = (sum of p p^T)^-1 wanted, by the pseudo-inverse with damping (Buss, "Introduction to
+// Inverse Kinematics with Jacobian Transpose, Pseudoinverse and Damped Least Squares methods", 2004).
+Vec3 shared_turn(const TurnedChain& chain, std::span<const Rigid> world, const Vec3& facing, const Vec3& wanted) {
+  constexpr double kDamping = 1e-4;
+  const Vec3 u = unit_or(turning_part(std::fabs(facing.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), facing), Vec3(1, 0, 0));
+  const Vec3 v = glm::cross(facing, u);
+  double uu = kDamping, uv = 0.0, vv = kDamping;
+  for (const int j : chain.joints) {
+    const Joint& joint = joint_at(chain.character, j);
+    const Vec3 p = turning_part(world[static_cast<std::size_t>(j)].q * joint.axis, facing);
+    const bool is_ball = joint.kind == JointKind::ball;
+    const double pu = glm::dot(p, u), pv = glm::dot(p, v);
+    uu += is_ball ? 1.0 : pu * pu, uv += is_ball ? 0.0 : pu * pv, vv += is_ball ? 1.0 : pv * pv;
+  }
+  const double wu = glm::dot(wanted, u), wv = glm::dot(wanted, v), det = uu * vv - uv * uv;
+  return ((vv * wu - uv * wv) / det) * u + ((uu * wv - uv * wu) / det) * v;
 }
 
-void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
-                  std::span<Rigid> world, const Vec3& direction_world, std::span<double> row) {
+// A few such steps. What they leave, where the way is far or the joints cannot get there, sweeps do.
+void turn_together(const TurnedChain& chain, std::span<Rigid> world, const Vec3& direction_world,
+                   std::span<double> row) {
+  constexpr int kPasses = 8;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Vec3 facing = chain.facing(world);
+    const Vec3 wanted = to_rotation_vector(shortest_arc(facing, direction_world));
+    if (glm::dot(wanted, wanted) < 1e-24) return;
+    const Vec3 turn = shared_turn(chain, world, facing, wanted);
+    for (const int j : chain.joints) {
+      const Joint& joint = joint_at(chain.character, j);
+      const Quat& world_from_joint = world[static_cast<std::size_t>(j)].q;
+      double* q = &coord_of(row, joint);
+      if (joint.kind == JointKind::ball) {
+        const Quat turned = glm::normalize(Quat(q[0], q[1], q[2], q[3]) *
+                                           from_rotation_vector(glm::conjugate(world_from_joint) * turn));
+        q[0] = turned.w, q[1] = turned.x, q[2] = turned.y, q[3] = turned.z;
+      } else {
+        q[0] += glm::dot(world_from_joint * joint.axis, turn);
+      }
+    }
+    forward_kinematics(chain.character, row, chain.joints.front(), chain.end(), world);
+  }
+}
+
+void sweep(const TurnedChain& chain, std::span<Rigid> world, const Vec3& direction_world, std::span<double> row) {
   constexpr int kMaxSweeps = 12;
-  for (const int j : joints) set_to_rest(joint_at(character, j), row);
-  const int first = joints.front();
-  const int last = std::max(joints.back(), character.sockets()[static_cast<std::size_t>(socket)].joint) + 1;
-  forward_kinematics(character, row, first, last, world);
+  const Character& character = chain.character;
+  const std::span<const int> joints = chain.joints;
+  const int last = chain.end();
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     bool moved = false;
     for (std::size_t i = joints.size(); i-- > 0;) {
       const int j = joints[i];
-      const Vec3 facing = world_from_socket(character, world, socket).q * socket_axis;
+      const Vec3 facing = chain.facing(world);
       const Vec3 apart = glm::cross(facing, direction_world);
       if (glm::dot(apart, apart) < 1e-24 && glm::dot(facing, direction_world) > 0.0) return;
       moved |= turn_joint(joint_at(character, j), world[static_cast<std::size_t>(j)], facing, direction_world, row);
@@ -171,6 +226,28 @@ void turn_axis_to(const Character& character, std::span<const int> joints, int s
     }
     if (!moved) return;
   }
+}
+
+void go_to_rest(const TurnedChain& chain, std::span<Rigid> world, std::span<double> row) {
+  for (const int j : chain.joints) set_to_rest(joint_at(chain.character, j), row);
+  forward_kinematics(chain.character, row, chain.joints.front(), chain.end(), world);
+}
+
+}  // namespace
+
+void face_direction(const Character& character, const FacingChain& facing, std::span<Rigid> world,
+                    const Vec3& direction_world, std::span<double> row) {
+  const TurnedChain chain{character, facing.joints, facing.socket, Vec3(0, 0, 1)};
+  go_to_rest(chain, world, row);
+  turn_together(chain, world, direction_world, row);
+  sweep(chain, world, direction_world, row);
+}
+
+void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
+                  std::span<Rigid> world, const Vec3& direction_world, std::span<double> row) {
+  const TurnedChain chain{character, joints, socket, socket_axis};
+  go_to_rest(chain, world, row);
+  sweep(chain, world, direction_world, row);
 }
 
 }  // namespace contort

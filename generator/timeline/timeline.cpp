@@ -35,7 +35,11 @@ double stretched(double natural, int wanted_frames) {
   return wanted_frames > 0 && natural > 0.0 ? wanted_frames : natural;
 }
 
+}  // namespace
+
 double clip_length(const ClipDesc& clip) { return stretched(natural_length(clip), clip.duration_frames) / clip.speed; }
+
+namespace {
 
 // The first frame at or after a time. Rounding in the stretches must not cost a frame.
 double frame_from(double time) { return std::ceil(time - 1e-6); }

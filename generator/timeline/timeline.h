@@ -49,6 +49,9 @@ struct Timeline {
   int frame_count = 0;                    // up to the end of the last sequence, with every interrupt
 };
 
+// Frames of its sequence's content: natural or stretched, and at the clip's speed.
+double clip_length(const ClipDesc& clip);
+
 struct TimelineInput {
   const std::vector<SequenceDesc>& sequences;
   const std::vector<InterruptDesc>& interrupts;

@@ -1,0 +1,85 @@
+// Feet that stand stay where they stand while walk, run, crouch and squat come in, follow one another or fade out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "checks/evaluate.h"
+#include "generator/generate.h"
+#include "tests/character/stock.h"
+
+namespace contort {
+namespace {
+
+ActionUse legs(const std::string& character, const std::string& action, int start, int duration, int blend_frames,
+               std::map<std::string, ParamValue> params) {
+  ActionUse use;
+  use.action = action, use.slot = character == "quadruped" ? "hips" : "waist";
+  use.start_frame = start, use.duration_frames = duration;
+  use.blend_in_frames = use.blend_out_frames = blend_frames;
+  use.params = std::move(params);
+  return use;
+}
+
+Spec spec_of(const std::string& character, const std::vector<ActionUse>& uses) {
+  Spec spec;
+  spec.character.name = character;
+  spec.sequences.resize(1);
+  spec.sequences[0].clips.resize(1);
+  spec.sequences[0].clips[0].actions = uses;
+  return spec;
+}
+
+Stage stage_of(const Spec& spec) {
+  Result<Stage> stage = build_stage(spec, stock_library());
+  if (!stage) throw std::logic_error(to_line(stage.issue()));
+  return std::move(stage).value();
+}
+
+// Findings of feet: "foot_slide foot_left/foot at 61, -0.03 m".
+std::vector<std::string> of_feet(const Spec& spec) {
+  const Stage stage = stage_of(spec);
+  Evaluator evaluator;
+  std::vector<std::string> found;
+  for (const Finding& finding : evaluator.run(stage).findings)
+    if (finding.check == "foot_slide" || finding.check == "ground_penetration")
+      found.push_back(finding.check + " " + finding.subject + " at " + std::to_string(finding.worst_frame) + ", " +
+                      std::to_string(finding.worst_margin) + " m");
+  return found;
+}
+
+class FeetStay : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Of, FeetStay, ::testing::Values("human", "mech", "quadruped"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(FeetStay, WhereOneFollowsAnother) {
+  EXPECT_EQ(of_feet(spec_of(GetParam(), {legs(GetParam(), "crouch", 0, 60, 0, {{"share", 0.1}}),
+                                         legs(GetParam(), "walk", 60, 180, 20, {{"speed_m_s", 0.6}}),
+                                         legs(GetParam(), "squat", 240, 90, 20, {{"share", 0.1}})})),
+            std::vector<std::string>{});
+}
+
+TEST_P(FeetStay, WhereAnInterruptCutsAWalk) {
+  for (const int frame : {60, 75, 90, 105, 120}) {
+    Spec spec = spec_of(GetParam(), {legs(GetParam(), "walk", 0, 240, 0, {{"speed_m_s", 0.6}})});
+    InterruptDesc interrupt;
+    interrupt.when.frame = frame;
+    interrupt.sequence.clips.resize(1);
+    interrupt.sequence.clips[0].actions = {legs(GetParam(), "crouch", 0, 60, 15, {{"share", 0.1}})};
+    interrupt.resume = false;
+    spec.interrupts = {interrupt};
+    EXPECT_EQ(of_feet(spec), std::vector<std::string>{}) << "cut at " << frame;
+  }
+}
+
+TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
+  const auto walk = [](int blend_frames) {
+    return spec_of(GetParam(), {legs(GetParam(), "walk", 0, 240, blend_frames, {{"speed_m_s", 0.6}})});
+  };
+  const Motion plain = generate(stage_of(walk(0))), faded = generate(stage_of(walk(30)));
+  EXPECT_GT(plain.root.back().p_m.z, 1.0);
+  EXPECT_NEAR(faded.root.back().p_m.z, plain.root.back().p_m.z, 1e-9);
+  EXPECT_EQ(of_feet(walk(30)), std::vector<std::string>{});
+}
+
+}  // namespace
+}  // namespace contort
