@@ -1,9 +1,10 @@
-# Writes a C++ file that holds the texts of FILES: embed.cmake -DOUTPUT=… -DFILES=a.json;b.json
-if(NOT OUTPUT)
-  message(FATAL_ERROR "embed.cmake needs -DOUTPUT=… and -DFILES=…")
+# Writes a C++ file that holds the texts of FILES, in the order of their names:
+# embed.cmake -DOUTPUT=… -DFILES=a.json;b.json -DHEADER=path/of/the.h -DFUNCTION=stock_files
+if(NOT OUTPUT OR NOT HEADER OR NOT FUNCTION)
+  message(FATAL_ERROR "embed.cmake needs -DOUTPUT=…, -DFILES=…, -DHEADER=… and -DFUNCTION=…")
 endif()
-set(text "#include \"generator/character/stock_files.h\"\n\nnamespace contort {\n\n")
-string(APPEND text "std::span<const StockFile> stock_files() {\n  static const StockFile files[] = {\n")
+set(text "#include \"${HEADER}\"\n\nnamespace contort {\n\n")
+string(APPEND text "std::span<const StockFile> ${FUNCTION}() {\n  static const StockFile files[] = {\n")
 list(SORT FILES)
 foreach(file IN LISTS FILES)
   file(READ ${file} content)

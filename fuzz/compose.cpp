@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "fuzz/compose_dynamics.h"
+#include "fuzz/compose_params.h"
+#include "fuzz/compose_turns.h"
 #include "fuzz/features.h"
 #include "generator/actions/action.h"
 #include "generator/character/character.h"
@@ -24,119 +26,10 @@ double speed_of(int raw, const Features& features) {
   return kSpeeds[pick(raw, std::size(kSpeeds))];
 }
 
-// Half of the blends are at once; the others take up to 20 frames.
-int blend_of(int raw, const Features& features) {
+// Unless a rule of the profile says otherwise, half of the blends are at once; the others take up to 20 frames.
+int blend_of(int raw, const Features& features, const DrawRule* rule) {
+  if (rule != nullptr) return between(raw, static_cast<int>(rule->low[0]), static_cast<int>(rule->high[0]));
   return features.omits("blend") ? 0 : std::max(0, between(raw, -20, 20));
-}
-
-// On the lattice, and never beyond the ends.
-double within(double value, double steps_per_unit, double low, double high) {
-  const double rounded = contort::on_lattice(value, steps_per_unit);
-  if (rounded < low) return std::ceil(low * steps_per_unit) / steps_per_unit + 0.0;
-  if (rounded > high) return std::floor(high * steps_per_unit) / steps_per_unit + 0.0;
-  return rounded;
-}
-
-Vec3 on_lattice(const Vec3& v, double steps_per_unit) {
-  Vec3 out;
-  for (int i = 0; i < 3; ++i) out[i] = contort::on_lattice(v[i], steps_per_unit);
-  return out;
-}
-
-// Reads the raw values of one action one after another; wraps around where a part has more joints than there are
-// values.
-class Values {
- public:
-  Values(const std::array<int, kRawValues>& raw, double range) : raw_(raw), range_(range) {}
-  double next() { return fraction(raw_[used_++ % kRawValues]); }
-  // A place in a joint's range, within the share of it that the profile allows.
-  double next_in_range() { return range_ == 1.0 ? next() : 0.5 + range_ * (next() - 0.5); }
-  double range() const { return range_; }
-
- private:
-  const std::array<int, kRawValues>& raw_;
-  double range_;
-  std::size_t used_ = 0;
-};
-
-// A rotation within the ball joint's cone and twist, as a rotation vector in whole degrees. Rounding may carry it half
-// a degree over, so the draw stays 2 % inside.
-Vec3 draw_ball_deg(const Joint& joint, Values& values) {
-  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
-  const double radius = 0.98 * values.range() * std::sqrt(values.next());  // even over the ellipse
-  const Vec3 other = glm::cross(joint.axis, joint.swing_axis);
-  const Vec3 swing =
-      radius * (joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other);
-  const double twist = 0.98 * (joint.low + (joint.high - joint.low) * values.next_in_range());
-  const Quat q = joint.swing_center * from_rotation_vector(swing) * axis_angle(joint.axis, twist);
-  return on_lattice(to_rotation_vector(q) * kDegPerRad, 1.0);
-}
-
-ParamValue draw_joint(const Joint& joint, Values& values) {
-  if (joint.kind == JointKind::ball) return draw_ball_deg(joint, values);
-  const double value = joint.low + (joint.high - joint.low) * values.next_in_range();
-  if (joint.kind == JointKind::prismatic) return within(value, 100.0, joint.low, joint.high);
-  return within(value * kDegPerRad, 1.0, joint.low * kDegPerRad, joint.high * kDegPerRad);
-}
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
-// A point around the chain's upper joint at rest, between 0.3 and 1.1 of the stretched chain away, in centimetres.
-Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
-  std::vector<Rigid> world(character.joints().size());
-  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
-  const Vec3 upper = world[static_cast<std::size_t>(chain.upper)].p_m;
-  const Vec3 middle = world[static_cast<std::size_t>(chain.middle)].p_m;
-  const Vec3 tip = world_from_socket(character, world, chain.tip).p_m;
-  const double distance = (length(middle - upper) + length(tip - middle)) * (0.3 + 0.8 * values.next());
-  const double height = 2.0 * values.next() - 1.0;  // even over the sphere
-  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
-  const double across = std::sqrt(1.0 - height * height);
-  return on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
-}
-
-// A point 0.3 to 5 m away, between the ground and 2.5 m, in centimetres.
-ParamValue draw_around(Values& values) {
-  const det::SinCos around = det::sincos(2.0 * kPi * values.next());
-  const double distance_m = 0.3 + 4.7 * values.next();
-  return on_lattice(Vec3(distance_m * around.sin, 2.5 * values.next(), distance_m * around.cos), 100.0);
-}
-
-ParamValue draw_uniform(const ParamDef& def, Values& values) {
-  const double steps = steps_per_unit(def.name);
-  const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), steps, def.low, def.high); };
-  if (def.type == ParamType::number) return one();
-  const double x = one(), y = one(), z = one();
-  return Vec3(x, y, z);
-}
-
-ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
-                      Values& values) {
-  if (def.type == ParamType::choice) return def.choices[values.next() < 0.5 ? 0 : def.choices.size() - 1];
-  if (def.type == ParamType::object_point || def.type == ParamType::own_point) {
-    const std::vector<std::string> names =
-        def.type == ParamType::own_point ? own_points(character, part) : object_points(character, part);
-    return names[std::min(names.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
-  }
-  switch (def.domain) {
-    case Domain::joint_range:
-      return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
-    case Domain::within_reach:  // large figures reach farther than a spec may say
-      return glm::clamp(draw_reach_point(character, part.reach.front(), values), Vec3(def.low), Vec3(def.high));
-    case Domain::around: return draw_around(values);
-    case Domain::uniform: break;
-  }
-  return draw_uniform(def, values);
-}
-
-void draw_params(const Character& character, const Part& part, const Action& action, Values values, ActionUse& use) {
-  const std::vector<ParamDef> defs = params_of(action, character, part);
-  for (std::size_t i = 0; i < defs.size(); ++i) {
-    // What makes an action of a file that action is changed in one of four.
-    if (action.desc != nullptr && action.desc->params.contains(defs[i].name) && values.next() < 0.75) continue;
-    if (defs[i].optional && values.next() < 0.4) continue;
-    use.params[defs[i].name] = draw_param(character, part, i, defs[i], values);
-  }
 }
 
 // What may be moved, and by what.
@@ -146,7 +39,9 @@ struct Stock {
   std::vector<const Part*> parts;
 
   std::vector<Action> actions(const Part& part) const {
-    return features.among(actions_of(character, part), "action", features.profile().actions,
+    std::vector<Action> all = actions_of(character, part);
+    std::erase_if(all, [&](const Action& action) { return features.profile().never(part.slot, action.name); });
+    return features.among(all, "action", features.profile().actions,
                           [](const Action& action) { return std::string_view(action.name); });
   }
 };
@@ -171,9 +66,12 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   const Profile& profile = stock.features.profile();
   use.duration_frames = between(raw.duration, profile.shortest_frames, profile.longest_frames);
   use.speed = speed_of(raw.speed, stock.features);
-  if (action.def->timing == Timing::course) use.blend_in_frames = blend_of(raw.blend_in, stock.features);
-  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend_of(raw.blend_out, stock.features);
-  draw_params(stock.character, part, action, Values(raw.values, profile.range), use);
+  const auto blend = [&](int raw_frames, std::string_view field) {
+    return blend_of(raw_frames, stock.features, profile.rule_for(part.slot, action.name, field));
+  };
+  if (action.def->timing == Timing::course) use.blend_in_frames = blend(raw.blend_in, "blend_in_frames");
+  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend(raw.blend_out, "blend_out_frames");
+  draw_params(stock.character, part, action, profile, raw.values, use);
   return use;
 }
 
@@ -231,6 +129,7 @@ SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Stock& stoc
   SequenceDesc sequence;
   for (const RawClip& clip : raw)
     if (!stock.parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, stock));
+  if (!stock.features.profile().overlaps) take_turns(stock.character, sequence);
   return sequence;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
+#include "fuzz/profile_files.h"
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
@@ -15,34 +17,17 @@ const json_fields::Rule kNames{.max_count = 1000};
 const json_fields::Rule kOdds{.low = 0, .high = 1};
 const json_fields::Rule kActionFrames{.low = 1, .high = 600};
 
-std::vector<Profile> make_built_in() {
-  Profile nightly;
-  nightly.name = "nightly";
-  nightly.about = "Everything, for an hour.";
-  nightly.time = "1h";
-  Profile pr;
-  pr.name = "pr";
-  pr.about = "Everything, for as long as a pull request may wait.";
-  pr.time = "5m";
-  Profile smoke;
-  smoke.name = "smoke";
-  smoke.about = "Does it run at all? 256 cases.";
-  smoke.cases = 256;
-  Profile tame;
-  tame.name = "tame";
-  tame.about = "The human, on level ground, slowly and well within its ranges: what is found here is a fault.";
-  tame.characters = {"human"};
-  tame.grounds = {"plane"};
-  tame.swaps = tame.objects = tame.interrupts = tame.obstacles = tame.tracking = tame.dynamic = 0.0;
-  tame.impacts = 0;
-  tame.speeds = false;
-  tame.shortest_frames = 60;
-  tame.longest_frames = 120;
-  tame.range = 0.5;
-  return {nightly, pr, smoke, tame};
-}
-
 }  // namespace
+
+template <class V>
+void fields(V& v, const DrawRule*) {
+  v.field("slots", &DrawRule::slots, kNames, "Of these slots; empty: all.");
+  v.field("actions", &DrawRule::actions, kNames, "These actions; empty: all.");
+  v.field("never", &DrawRule::never, {}, "They are not drawn.");
+  v.field("param", &DrawRule::param, {.may_be_empty = true}, "A parameter, blend_in_frames or blend_out_frames, which is drawn from low to high only.");
+  v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3}, "One number, or three of a vector.");
+  v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
+}
 
 template <class V>
 void fields(V& v, const Profile*) {
@@ -62,26 +47,81 @@ void fields(V& v, const Profile*) {
   v.field("dynamic", &Profile::dynamic, kOdds, "Odds of the mode dynamic.");
   v.field("impacts", &Profile::impacts, {.low = 0, .high = 2}, "Blows in a dynamic spec, at most.");
   v.field("speeds", &Profile::speeds, {}, "Whether actions and clips are played at other speeds, or stretched.");
+  v.field("overlaps", &Profile::overlaps, {},
+          "Whether an action may take over a part that another one of its sequence still moves.");
   v.field("shortest_frames", &Profile::shortest_frames, kActionFrames, "Shortest action.");
   v.field("longest_frames", &Profile::longest_frames, kActionFrames, "Longest action.");
   v.field("range", &Profile::range, {.low = 0.01, .high = 1},
           "Poses are drawn from this middle share of every joint's range.");
+  v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
   v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53}, "Of a run, unless the command line says; 0: no opinion.");
   v.field("time", &Profile::time, {.may_be_empty = true}, "The same as a time: 45s, 10m, 2h.");
 }
 
-std::span<const Profile> built_in_profiles() {
-  static const std::vector<Profile> profiles = make_built_in();
-  return profiles;
+bool DrawRule::speaks_of(std::string_view slot, std::string_view action) const {
+  const auto has = [](const std::vector<std::string>& names, std::string_view name) {
+    return names.empty() || std::ranges::find(names, name) != names.end();
+  };
+  return has(slots, slot) && has(actions, action);
 }
+
+bool Profile::never(std::string_view slot, std::string_view action) const {
+  return std::ranges::any_of(rules, [&](const DrawRule& r) { return r.never && r.speaks_of(slot, action); });
+}
+
+const DrawRule* Profile::rule_for(std::string_view slot, std::string_view action, std::string_view param) const {
+  const DrawRule* last = nullptr;
+  for (const DrawRule& rule : rules)
+    if (rule.param == param && rule.speaks_of(slot, action)) last = &rule;
+  return last;
+}
+
+
+namespace {
+
+Result<Done> check_rule(const DrawRule& rule, const std::string& pointer) {
+  if (rule.never == !rule.param.empty())
+    return Issue{"profile.bad_rule", pointer, "a rule says either never, or the range of a param"};
+  if (rule.never) return Done{};
+  const auto is_count = [](std::size_t count) { return count == 1 || count == 3; };
+  if (!is_count(rule.low.size()) || rule.low.size() != rule.high.size())
+    return Issue{"profile.bad_rule", pointer + "/low", "low and high are one number each, or three each"};
+  for (std::size_t i = 0; i < rule.low.size(); ++i)
+    if (rule.low[i] > rule.high[i])
+      return Issue{"profile.no_range", pointer + "/high/" + std::to_string(i), "high is less than low"};
+  return Done{};
+}
+
+Result<Done> check(const Profile& profile) {
+  if (profile.longest_frames < profile.shortest_frames)
+    return Issue{"profile.no_range", "/longest_frames", "the longest action is shorter than the shortest"};
+  if (profile.tracking + profile.dynamic > 1.0)
+    return Issue{"profile.no_odds", "/dynamic", "the odds of tracking and dynamic add up to more than 1"};
+  for (std::size_t i = 0; i < profile.rules.size(); ++i)
+    if (const Result<Done> good = check_rule(profile.rules[i], "/rules/" + std::to_string(i)); !good) return good;
+  return Done{};
+}
+
+}  // namespace
 
 Result<Profile> parse_profile(std::string_view json) {
   Result<Profile> profile = json_fields::read_document<Profile>(json, "profile");
-  if (profile && profile->longest_frames < profile->shortest_frames)
-    return Issue{"profile.no_range", "/longest_frames", "the longest action is shorter than the shortest"};
-  if (profile && profile->tracking + profile->dynamic > 1.0)
-    return Issue{"profile.no_odds", "/dynamic", "the odds of tracking and dynamic add up to more than 1"};
+  if (profile)
+    if (const Result<Done> good = check(*profile); !good) return good.issue();
   return profile;
+}
+
+std::span<const Profile> built_in_profiles() {
+  static const std::vector<Profile> profiles = [] {
+    std::vector<Profile> all;
+    for (const StockFile& file : profile_files()) {
+      Result<Profile> profile = parse_profile(file.text);
+      if (!profile) throw std::logic_error(std::string(file.name) + ": " + to_line(profile.issue()));
+      all.push_back(std::move(profile).value());
+    }
+    return all;
+  }();
+  return profiles;
 }
 
 std::string print_profile(const Profile& profile) { return json_fields::write_pretty(profile); }
@@ -105,29 +145,62 @@ Result<Profile> load_profile(const std::string& name_or_path) {
 namespace {
 
 Result<Done> check_known(const std::vector<std::string>& names, const std::set<std::string>& known,
-                         const std::string& field) {
+                         const std::string& field, const std::string& kind) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!known.contains(names[i]))
       return Issue{"profile.unknown_name", "/" + field + "/" + std::to_string(i),
-                   json_fields::quoted(names[i]) + " is none of the library's " + field};
+                   json_fields::quoted(names[i]) + " is none of the library's " + kind};
   return Done{};
+}
+
+// Names that the library has.
+struct Known {
+  std::set<std::string> characters, slots, actions;
+  std::set<std::string> params = {"blend_in_frames", "blend_out_frames"};
+};
+
+void add_params(const CharacterChoice& choice, const Library& library, std::set<std::string>& params) {
+  const Result<Character> character = build_character(choice, library);
+  if (!character) return;
+  for (const Part& part : character->parts())
+    for (const Action& action : actions_of(*character, part))
+      for (const ParamDef& def : params_of(action, *character, part)) params.insert(def.name);
+}
+
+Known known_of(const Library& library) {
+  Known known;
+  for (const auto& [name, desc] : library.characters) {
+    known.characters.insert(name);
+    add_params({name, {}, {}}, library, known.params);
+    for (const SlotDesc& slot : desc.slots) {
+      known.slots.insert(slot.name);
+      for (const std::string& part : slot.parts) add_params({name, {{slot.name, part}}, {}}, library, known.params);
+    }
+  }
+  for (const ActionDef& action : all_actions()) known.actions.insert(std::string(action.name));
+  for (const ActionDesc& action : library.actions) known.actions.insert(action.name);
+  return known;
+}
+
+Result<Done> check_known(const DrawRule& rule, const Known& known, const std::string& field) {
+  if (!rule.param.empty() && !known.params.contains(rule.param))
+    return Issue{"profile.unknown_name", "/" + field + "/param",
+                 "no action has a parameter " + json_fields::quoted(rule.param)};
+  const Result<Done> slots = check_known(rule.slots, known.slots, field + "/slots", "slots");
+  return slots ? check_known(rule.actions, known.actions, field + "/actions", "actions") : slots;
 }
 
 }  // namespace
 
 Result<Done> validate(const Profile& profile, const Library& library) {
-  std::set<std::string> characters, slots, actions;
-  for (const auto& [name, desc] : library.characters) {
-    characters.insert(name);
-    for (const SlotDesc& slot : desc.slots) slots.insert(slot.name);
-  }
-  for (const ActionDef& action : all_actions()) actions.insert(std::string(action.name));
-  for (const ActionDesc& action : library.actions) actions.insert(action.name);
-  for (const auto& [names, known, field] :
-       {std::tuple(&profile.characters, &characters, "characters"), std::tuple(&profile.slots, &slots, "slots"),
-        std::tuple(&profile.actions, &actions, "actions")})
-    if (const Result<Done> all = check_known(*names, *known, field); !all) return all;
-  return check_known(profile.grounds, {"plane", "slope", "steps", "heights"}, "grounds");
+  const Known known = known_of(library);
+  for (const auto& [names, of_library, field] : {std::tuple(&profile.characters, &known.characters, "characters"),
+                                                 std::tuple(&profile.slots, &known.slots, "slots"),
+                                                 std::tuple(&profile.actions, &known.actions, "actions")})
+    if (const Result<Done> all = check_known(*names, *of_library, field, field); !all) return all;
+  for (std::size_t i = 0; i < profile.rules.size(); ++i)
+    if (const Result<Done> all = check_known(profile.rules[i], known, "rules/" + std::to_string(i)); !all) return all;
+  return check_known(profile.grounds, {"plane", "slope", "steps", "heights"}, "grounds", "grounds");
 }
 
 }  // namespace contort

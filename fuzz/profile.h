@@ -13,6 +13,19 @@
 
 namespace contort {
 
+// Narrows what is drawn for some actions of some slots. Where several rules speak of one thing, the last one counts.
+struct DrawRule {
+  std::vector<std::string> slots;    // empty: all
+  std::vector<std::string> actions;  // empty: all
+  bool never = false;                // these actions are not drawn for these slots
+  std::string param;                 // of these actions, "speed_m_s", or blend_in_frames, blend_out_frames; empty: none
+  std::vector<double> low;           // of the parameter, in its unit: one number, or three of a vector
+  std::vector<double> high;
+  bool operator==(const DrawRule&) const = default;
+
+  bool speaks_of(std::string_view slot, std::string_view action) const;
+};
+
 struct Profile {
   std::string name = "all";
   std::string about;                    // one sentence
@@ -28,12 +41,18 @@ struct Profile {
   double dynamic = 1.0 / 32.0;
   int impacts = 2;                // of a dynamic spec, at most
   bool speeds = true;             // clips and actions at other speeds, stretched clips
+  bool overlaps = true;           // an action may take over a part that another one of its sequence still moves
   int shortest_frames = 6;        // of an action
   int longest_frames = 90;        // of an action
   double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
+  std::vector<DrawRule> rules{};
   std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
   std::string time;               // the same: "45s", "10m", "2h"; "" where there is none
   bool operator==(const Profile&) const = default;
+
+  bool never(std::string_view slot, std::string_view action) const;
+  // The last rule for this parameter, or null.
+  const DrawRule* rule_for(std::string_view slot, std::string_view action, std::string_view param) const;
 };
 
 std::span<const Profile> built_in_profiles();

@@ -1,0 +1,16 @@
+// Values of an action's parameters: within what the parameter declares, its joint's range, or the profile's rules.
+#pragma once
+
+#include <array>
+
+#include "fuzz/profile.h"
+#include "fuzz/raw.h"
+#include "generator/actions/action.h"
+
+namespace contort {
+
+// Fills use.params. Whole degrees, centimetres, 0.1 m/s (steps_per_unit), so that specs are short and read well.
+void draw_params(const Character& character, const Part& part, const Action& action, const Profile& profile,
+                 const std::array<int, kRawValues>& raw, ActionUse& use);
+
+}  // namespace contort

@@ -1,0 +1,12 @@
+// Actions that do not get into each other's way.
+#pragma once
+
+#include "generator/character/character.h"
+#include "generator/timeline/clip.h"
+
+namespace contort {
+
+// Clips begin when the one before them has ended, and an action when none moves a part of its own any more.
+void take_turns(const Character& character, SequenceDesc& sequence);
+
+}  // namespace contort

@@ -1,0 +1,119 @@
+// Profiles: what their rules narrow, and what is refused.
+#include "fuzz/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fuzz/draw.h"
+#include "generator/stage.h"
+
+namespace contort {
+namespace {
+
+std::string profile_json(const std::string& fields) {
+  return R"({"format":"contort.profile/1","name":"x")" + (fields.empty() ? "" : "," + fields) + "}";
+}
+
+Profile profile(const std::string& fields) {
+  Result<Profile> parsed = parse_profile(profile_json(fields));
+  if (!parsed) throw std::logic_error(to_line(parsed.issue()));
+  return std::move(parsed).value();
+}
+
+// "code at pointer", or "" where it is accepted.
+std::string refused(const std::string& fields) {
+  Result<Profile> parsed = parse_profile(profile_json(fields));
+  Result<Done> good = parsed ? validate(*parsed, stock_library()) : Result<Done>(parsed.issue());
+  return good ? "" : good.issue().code + " at " + good.issue().pointer;
+}
+
+// Calls visit(use) for each action of `count` specs drawn by a profile.
+template <class Visit>
+int for_uses(const Profile& profile, int count, Visit visit) {
+  int uses = 0;
+  for (int i = 0; i < count; ++i) {
+    const Spec spec = draw_spec({{"human"}, profile}, stock_library(), 1, i);
+    for (const SequenceDesc& sequence : spec.sequences)
+      for (const ClipDesc& clip : sequence.clips)
+        for (const ActionUse& use : clip.actions) visit(use), ++uses;
+  }
+  return uses;
+}
+
+TEST(Profile, ARuleKeepsAnActionFromASlot) {
+  const Profile narrow = profile(R"("rules":[{"slots":["leg_left","leg_right"],"actions":["pose"],"never":true}])");
+  int others = 0;
+  for_uses(narrow, 300, [&](const ActionUse& use) {
+    EXPECT_FALSE(use.action == "pose" && use.slot.starts_with("leg_"));
+    others += use.action == "pose" || use.slot.starts_with("leg_");
+  });
+  EXPECT_GT(others, 50);
+}
+
+TEST(Profile, ARuleNarrowsAParameter) {
+  const Profile narrow = profile(
+      R"("rules":[{"actions":["look_at"],"param":"target_m","low":[-1,1,2],"high":[1,2,3]},
+                  {"slots":["head"],"actions":["look_at"],"param":"target_m","low":[0,1,2],"high":[1,2,3]},
+                  {"param":"blend_in_frames","low":[7],"high":[9]}])");
+  int seen = 0, right_of_middle = 0;
+  for_uses(narrow, 500, [&](const ActionUse& use) {
+    if (use.action != "look_at") return;
+    const auto at = use.params.find("target_m");
+    if (at == use.params.end()) return;
+    const Vec3 target = std::get<Vec3>(at->second);
+    EXPECT_TRUE(target.y >= 1 && target.y <= 2 && target.z >= 2 && target.z <= 3 && target.x <= 1) << use.slot;
+    EXPECT_GE(target.x, use.slot == "head" ? 0.0 : -1.0) << "the last rule counts";
+    EXPECT_TRUE(use.blend_in_frames >= 7 && use.blend_in_frames <= 9) << use.blend_in_frames;
+    ++seen, right_of_middle += target.x < 0.0;
+  });
+  EXPECT_GT(seen, 50);
+  EXPECT_GT(right_of_middle, 5);
+}
+
+// The most actions that move one part at one time, by what the time line makes of the spec.
+int most_at_once(const Profile& profile, int specs) {
+  int most = 0;
+  for (int i = 0; i < specs; ++i) {
+    const Spec spec = draw_spec({{"human"}, profile}, stock_library(), 1, i);
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    if (!stage) throw std::logic_error(to_line(stage.issue()));
+    const std::vector<PlannedAction>& actions = stage->timeline.actions;
+    for (const PlannedAction& one : actions)
+      most = std::max(most, static_cast<int>(std::ranges::count_if(actions, [&](const PlannedAction& other) {
+                        return other.sequence == one.sequence && other.part == one.part && other.start <= one.start &&
+                               other.end > one.start;
+                      })));
+  }
+  return most;
+}
+
+TEST(Profile, WithoutOverlapsEachPartIsMovedByOneActionAtATime) {
+  EXPECT_EQ(most_at_once(profile(R"("overlaps":false)"), 200), 1);
+  EXPECT_GT(most_at_once(profile(""), 200), 1);
+}
+
+TEST(Profile, WhatCannotBeMeantIsRefused) {
+  EXPECT_EQ(refused(""), "");
+  EXPECT_EQ(refused(R"("rules":[{}])"), "profile.bad_rule at /rules/0");
+  EXPECT_EQ(refused(R"("rules":[{"never":true,"param":"speed_m_s","low":[0],"high":[1]}])"), "profile.bad_rule at /rules/0");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s"}])"), "profile.bad_rule at /rules/0/low");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,2],"high":[3,4]}])"), "profile.bad_rule at /rules/0/low");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[2],"high":[1]}])"), "profile.no_range at /rules/0/high/0");
+  EXPECT_EQ(refused(R"("rules":[{"param":"sped_m_s","low":[0],"high":[1]}])"), "profile.unknown_name at /rules/0/param");
+  EXPECT_EQ(refused(R"("rules":[{"slots":["tail"],"never":true}])"), "profile.unknown_name at /rules/0/slots/0");
+  EXPECT_EQ(refused(R"("rules":[{"actions":["fly"],"never":true}])"), "profile.unknown_name at /rules/0/actions/0");
+  EXPECT_EQ(refused(R"("shortest_frames":30,"longest_frames":20)"), "profile.no_range at /longest_frames");
+}
+
+TEST(Profile, BuiltInOnesAreGoodAndReadBack) {
+  for (const Profile& built_in : built_in_profiles()) {
+    const Result<Profile> read = parse_profile(print_profile(built_in));
+    ASSERT_TRUE(read) << built_in.name << to_line(read.issue());
+    EXPECT_EQ(*read, built_in);
+    EXPECT_TRUE(validate(built_in, stock_library())) << built_in.name;
+  }
+}
+
+}  // namespace
+}  // namespace contort
