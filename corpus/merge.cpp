@@ -51,12 +51,20 @@ std::string sentence_of(const std::vector<RunRecord>& shards, const std::vector<
   return text + " of " + std::to_string(shards.front().shards) + " are missing";
 }
 
-// The first cases of each family by index, as one run would have taken them. The others of that run are not needed.
+// One run would have taken others of its family, which came before it.
+bool came_too_late(const RunRecord& run, const Lead& lead) {
+  const auto family = run.families.find(family_of(lead.original));
+  if (family == run.families.end()) return false;
+  const std::vector<std::int64_t>& first = family->second.first_indices;
+  return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
+}
+
+// The first cases of each family by index, as one run would have taken them. Which these are is on record: of a shard that
+// is merged again on its own, the first leads need not be the first of the run.
 Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
-  std::map<std::string, int> filed;
-  for (const Lead& lead : leads_of(corpus, merged.damaged)) {  // in the order of their indices
+  for (const Lead& lead : leads_of(corpus, merged.damaged)) {
     if (lead.run != run.name || !lead.minimal) continue;
-    if (++filed[family_of(lead.original)] > run.shrinks_per_family) {
+    if (came_too_late(run, lead)) {
       drop_lead(corpus, lead);
     } else if (const auto added = file_lead(corpus, lead); !added) {
       return added.issue();

@@ -181,9 +181,10 @@ class Run {
     add_uses(report.waivers, state_.waivers);
     state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
     for (const std::string& family : report.broken) {
-      const auto count = record.families.try_emplace(family, FamilyCount{0, index, arm_name}).first;
-      if (++count->second.cases <= config_.shrinks_per_family)
-        want({task.lineage, family, report.motion_hash, task.ending});
+      FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, {}, arm_name}).first->second;
+      if (++count.cases > config_.shrinks_per_family) continue;
+      count.first_indices.push_back(index);
+      want({task.lineage, family, report.motion_hash, task.ending});
     }
   }
 
