@@ -124,25 +124,49 @@ CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
   report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
   Result<std::string> kept = keep_lead(corpus_, lead);
-  if (kept && report.confirmed) {
-    const Shrunk shrunk = shrink_one(task, lead.original, slot);
-    lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
-    kept = keep_lead(corpus_, lead);
-  }
+  if (kept && report.confirmed) kept = shrink_lead(task, lead, report, slot);
   if (!kept) report.issue = kept.issue().text;
   return report;
+}
+
+// What shrank in this process at first is shrunk with a guard once a candidate has ended that.
+Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report,
+                                          WorkerSlot& slot) const {
+  const Shrunk shrunk = shrink_one(lead.original, !task.ending.empty(), slot);
+  lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
+  Result<std::string> kept = keep_lead(corpus_, lead);
+  for (const Case& met : shrunk.also)
+    if (kept && is_ending(met.expect)) kept = keep_met(lead, met, report, slot);
+  return kept;
+}
+
+// A spec that ends its process is a failure of its own, whatever was being shrunk. What is met while this one is shrunk
+// is not followed any further.
+Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, CaseReport& report,
+                                       WorkerSlot& slot) const {
+  Lead lead{shrunk.run, met, {}};
+  lead.original.provenance = shrunk.original.provenance;
+  lead.original.provenance.met_shrinking = family_of(shrunk.original);
+  const Shrunk smaller = shrink_one(lead.original, false, slot);
+  const bool again = smaller.stopped != "flaky" && smaller.stopped != "gone";
+  if (again) lead.minimal = smaller.minimal;
+  (again ? report.met : report.met_once).push_back(family_of(met));
+  return keep_lead(corpus_, lead);
 }
 
 Isolation CaseWork::isolation() const {
   return {std::max(1, static_cast<int>(config_.limits.seconds)), config_.limits.bytes, true};
 }
 
-Shrunk CaseWork::shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const {
+Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const {
   ShrinkConfig config = config_.shrink;
   config.checks = config_.checks;
   config.isolation = isolation();
-  // A candidate ended the process that tried it: then the failure is kept as it was drawn.
-  if (!task.ending.empty() && !is_ending(original.expect)) config.max_evaluations = 0;
+  config.guarded = guarded;
+  config.before_run = [&](const Spec& spec) {
+    slot.note(print_spec(spec));
+    if (config_.shrink.before_run) config_.shrink.before_run(spec);
+  };
   config.out_of_time = [&] {
     slot.beat();
     return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s;

@@ -19,7 +19,7 @@ struct CaseTask {
   Lineage lineage;
   std::string family;
   std::string motion_hash;  // of the first time
-  std::string ending;       // where the first time ended the process: "SIGSEGV", "timeout", "memory"
+  std::string ending;       // family of how it ended its process before, or a candidate of its shrinking did
   bool operator==(const CaseTask&) const = default;
 };
 
@@ -32,6 +32,8 @@ struct CaseReport {
   std::vector<NearMiss> near;       // of the island's subjects
   std::vector<WaiverUse> waivers;
   bool confirmed = false;  // of a settled failure: the second time was bit for bit the first
+  std::vector<std::string> met;       // families of other leads that its shrinking left
+  std::vector<std::string> met_once;  // the same, which did not happen again
   std::string issue;       // it could not be written: code and text
 };
 
@@ -51,7 +53,9 @@ class CaseWork {
   Spec spec_of(const CaseTask& task) const;
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
   Isolation isolation() const;
-  Shrunk shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const;
+  Shrunk shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const;
+  Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
+  Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;
 
   const RunConfig& config_;
   const Library& library_;

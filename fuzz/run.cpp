@@ -23,14 +23,16 @@ std::string plan_of(const RunConfig& config) {
          " evaluations=" + std::to_string(config.shrink.max_evaluations);
 }
 
-// "crash|human|SIGSEGV": what became of the process that ran a case.
-std::string family_of_ending(const WorkerEvent& event) {
-  const Result<Spec> spec = parse_spec(event.note);
-  const std::string character = spec ? spec->character.name : "unknown";
+// "crash|human|SIGSEGV": what became of the process that ran a spec.
+Case case_of_ending(const WorkerEvent& event) {
+  const Result<Spec> noted = parse_spec(event.note);
+  Spec spec;
+  spec.character.name = "unknown";
+  if (noted) spec = *noted;
   switch (event.end) {
-    case WorkerEnd::timed_out: return "timeout|" + character + "|evaluation";
-    case WorkerEnd::out_of_memory: return "memory|" + character + "|evaluation";
-    default: return "crash|" + character + "|" + event.text;
+    case WorkerEnd::timed_out: return ending_case(spec, {Ending::Kind::timeout, {}, {}});
+    case WorkerEnd::out_of_memory: return ending_case(spec, {Ending::Kind::memory, {}, {}});
+    default: return ending_case(spec, {Ending::Kind::crash, event.text, {}});
   }
 }
 
@@ -145,8 +147,8 @@ class Run {
     } else {
       place.report = CaseReport{};
       place.report->built = true;
-      place.report->broken = {family_of_ending(event)};
-      place.task.ending = event.end == WorkerEnd::crashed ? event.text : place.report->broken.front();
+      place.task.ending = family_of(case_of_ending(event));
+      place.report->broken = {place.task.ending};
     }
     --open_;
   }
@@ -195,26 +197,41 @@ class Run {
     settling_.push_back(task);
   }
 
-  // A candidate of its shrinking may have ended the process: then the failure is kept as it was found.
   void settled(const CaseTask& task, const WorkerEvent& event) {
     const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
-    if (event.end != WorkerEnd::replied && task.ending.empty()) {
-      CaseTask unshrunk = task;
-      unshrunk.ending = event.text.empty() ? "limit" : event.text;
-      settling_.push_back(unshrunk);
-      return;
-    }
+    if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
     std::erase_if(state_.wanted,
                   [&](const CaseTask& t) { return t.lineage == task.lineage && t.family == task.family; });
     if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
-    if (!report.confirmed)
-      add_once(state_.unconfirmed, path_of_lead(task));
-    else if (config_.shard.count == 1)
-      file(task);
+    take_lead(path_of_lead(task), report.confirmed);
+    for (const std::string& family : report.met) take_lead(path_of_met(task, family), true);
+    for (const std::string& family : report.met_once) take_lead(path_of_met(task, family), false);
+    if (task.ending.empty() || task.ending == task.family) return;
+    if (std::ranges::find(report.met, task.ending) == report.met.end())
+      take_lead(path_of_met(task, task.ending), false);
   }
 
-  void file(const CaseTask& task) {
-    const Result<Lead> lead = read_lead(path_of_lead(task));
+  // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
+  // again, or else it is not confirmed.
+  void shrink_guarded(CaseTask task, const WorkerEvent& event) {
+    Lead lead{state_.record.name, case_of_ending(event), {}};
+    lead.original.provenance.tool = config_.tool;
+    lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
+    lead.original.provenance.met_shrinking = task.family;
+    if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) return fail(kept.issue());
+    task.ending = family_of(lead.original);
+    settling_.push_back(std::move(task));
+  }
+
+  void take_lead(const std::string& path, bool confirmed) {
+    if (!confirmed)
+      add_once(state_.unconfirmed, path);
+    else if (config_.shard.count == 1)
+      file(path);
+  }
+
+  void file(const std::string& path) {
+    const Result<Lead> lead = read_lead(path);
     if (!lead) return fail(lead.issue());
     const Result<Corpus::Added> added = file_lead(corpus_, *lead);
     if (!added) return fail(added.issue());
@@ -225,6 +242,10 @@ class Run {
 
   std::string path_of_lead(const CaseTask& task) const {
     return lead_path(corpus_, state_.record.name, task.family, task.lineage.back());
+  }
+
+  std::string path_of_met(const CaseTask& task, const std::string& family) const {
+    return lead_path(corpus_, state_.record.name, family, task.lineage.back(), task.family);
   }
 
   static void add_once(std::vector<std::string>& list, const std::string& name) {
