@@ -21,19 +21,9 @@ double steady_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Of the subjects that fall to `island`, those that came within reach of their limit and did not break it.
-std::vector<NearMiss> near_misses(const Character& character, const std::vector<SmallestMargins>& smallest,
-                                  int island) {
-  std::vector<NearMiss> near;
-  for (const SmallestMargins& margins : smallest)
-    for (std::size_t s = 0; s < margins.of_subject.size(); ++s) {
-      const double margin = margins.of_subject[s] / margins.check->scale;
-      if (!(margin >= 0.0 && margin <= kWithinReach)) continue;
-      const std::string family = std::string(margins.check->name) + "|" + character.name() + "|" +
-                                 margins.check->subject(character, static_cast<int>(s)).name;
-      if (island_of_target(family) == island) near.push_back({family, margin});
-    }
-  return near;
+std::string target_of(const CheckDef& check, const Character& character, std::size_t subject) {
+  return std::string(check.name) + "|" + character.name() + "|" +
+         check.subject(character, static_cast<int>(subject)).name;
 }
 
 std::vector<std::string> families_of(const std::string& character, const std::vector<Finding>& findings) {
@@ -54,6 +44,14 @@ const Finding* deepest_of(const std::string& character, const std::vector<Findin
 }
 
 }  // namespace
+
+const std::vector<std::int8_t>& TargetIslands::of(const CheckDef& check, const Character& character,
+                                                  std::size_t subjects) {
+  std::vector<std::int8_t>& islands = known_[{check.name, character.name(), character.hash()}];
+  for (std::size_t s = islands.size(); s < subjects; ++s)
+    islands.push_back(static_cast<std::int8_t>(island_of_target(target_of(check, character, s))));
+  return islands;
+}
 
 CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus)
     : config_(config), library_(library), corpus_(corpus), evaluator_(config.checks) {}
@@ -80,8 +78,22 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
-  report.near = near_misses(*stage->character, evaluator_.smallest_margins(), island_of(task.lineage.back()));
+  report.near = near_misses(*stage->character, island_of(task.lineage.back()));
   return report;
+}
+
+// Of the subjects that fall to `island`, those that came within reach of their limit and did not break it.
+std::vector<NearMiss> CaseWork::near_misses(const Character& character, int island) {
+  std::vector<NearMiss> near;
+  for (const SmallestMargins& margins : evaluator_.smallest_margins()) {
+    const std::vector<std::int8_t>& islands = islands_.of(*margins.check, character, margins.of_subject.size());
+    for (std::size_t s = 0; s < margins.of_subject.size(); ++s) {
+      const double margin = margins.of_subject[s] / margins.check->scale;
+      if (islands[s] == island && margin >= 0.0 && margin <= kWithinReach)
+        near.push_back({target_of(*margins.check, character, s), margin});
+    }
+  }
+  return near;
 }
 
 namespace {

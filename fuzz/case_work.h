@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "checks/check.h"
 #include "corpus/leads.h"
 #include "fuzz/islands.h"
 #include "fuzz/run.h"
@@ -41,6 +45,16 @@ std::string print_task(const CaseTask& task);
 CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
 
+// Which island each subject falls to. Remembered, by all that names it: naming and hashing them for each case was 1 %
+// of a run.
+class TargetIslands {
+ public:
+  const std::vector<std::int8_t>& of(const CheckDef& check, const Character& character, std::size_t subjects);
+
+ private:
+  std::map<std::tuple<std::string_view, std::string, std::uint64_t>, std::vector<std::int8_t>> known_;
+};
+
 // One per worker.
 class CaseWork {
  public:
@@ -49,6 +63,7 @@ class CaseWork {
 
  private:
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
+  std::vector<NearMiss> near_misses(const Character& character, int island);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   Spec spec_of(const CaseTask& task) const;
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
@@ -61,6 +76,7 @@ class CaseWork {
   const Library& library_;
   const Corpus& corpus_;
   Evaluator evaluator_;
+  TargetIslands islands_;
 };
 
 }  // namespace contort
