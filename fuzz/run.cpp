@@ -269,7 +269,9 @@ class Run {
 
   void finish() {
     tidy_leads(corpus_, state_.record.name);
-    if (ok())
+    // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
+    // say.
+    if (ok() && !(result_.interrupted && config_.shard.count > 1))
       if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());
     if (is_last(state_.next) && state_.wanted.empty())
       drop_state(corpus_, state_.record);

@@ -201,6 +201,22 @@ TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
   EXPECT_FALSE(result.unconfirmed.empty());  // in a second it was done
 }
 
+TEST_F(Runs, OfAShardThatWasStoppedAreMissingUntilItIsResumed) {
+  const Corpus whole = create(folder_ / "whole"), into = create(folder_ / "into");
+  run(config_of(600, 2), whole);
+  const Corpus shards[] = {create(folder_ / "0"), create(folder_ / "1")};
+  RunConfig config = config_of(600, 1);
+  config.shard = {0, 2};
+  run(config, shards[0]);
+  config.shard = {1, 2};
+  ASSERT_TRUE(run_until(60, config, shards[1]).interrupted);
+  EXPECT_EQ(merge({shards[0], shards[1]}, into)->incomplete.size(), 1U);
+  config.resume = true;
+  EXPECT_FALSE(run(config, shards[1]).interrupted);
+  EXPECT_TRUE(merge({shards[1]}, into)->incomplete.empty());
+  EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(into.folder())), "");
+}
+
 TEST_F(Runs, OfThreeShardsMergeToOneRun) { expect_shards_make_one_run(folder_, config_of(300, 2), 3); }
 TEST_F(RunsSlow, OfSixteenShardsMergeToOneRun) { expect_shards_make_one_run(folder_, config_of(2000, 2), 16); }
 
