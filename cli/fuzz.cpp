@@ -37,6 +37,7 @@ struct Options {
   std::int64_t memory_mb = 4096;
   int shrinks_per_family = 2;
   int shrink_evaluations = 300;
+  std::string shrink_time;
   std::string corpus = "contort-out/corpus";
   std::string report;
   OutputRequest outputs;
@@ -101,6 +102,16 @@ Result<Done> choose_how_long(const Options& options, RunConfig& config) {
   return Done{};
 }
 
+Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
+  config.shrinks_per_family = options.shrinks_per_family;
+  config.shrink.max_evaluations = options.shrink_evaluations;
+  if (options.shrink_time.empty()) return Done{};
+  const Result<double> time_s = parse_time_s(options.shrink_time);
+  if (!time_s) return Issue{time_s.issue().code, "", "--shrink-time: " + time_s.issue().text};
+  config.shrink_time_s = *time_s;
+  return Done{};
+}
+
 Result<Shard> choose_shard(const Options& options) {
   if (!options.shard.empty()) return parse_shard(options.shard);
   const Result<std::optional<Shard>> said = shard_of_environment([](const char* name) { return std::getenv(name); });
@@ -122,8 +133,7 @@ Result<RunConfig> configure(const Options& options, const CheckSettings& setting
   config.limits = {options.case_timeout_s, options.memory_mb << 20};
   config.seed = options.seed;
   config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  config.shrinks_per_family = options.shrinks_per_family;
-  config.shrink.max_evaluations = options.shrink_evaluations;
+  if (const Result<Done> chosen = choose_shrinking(options, config); !chosen) return chosen.issue();
   config.tool = CONTORT_VERSION;
   return config;
 }
@@ -272,6 +282,8 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--shrink-evaluations", options->shrink_evaluations, "Motions generated per shrink, at most")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
+  command->add_option("--shrink-time", options->shrink_time,
+                      "Stop each shrink after this time: 45s, 10m; results then depend on the machine");
   command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   add_output_options(*command, options->outputs);

@@ -116,7 +116,7 @@ void add_shrink(CLI::App& app, Context& context) {
   command->add_option("CASE", options->input, "Case file")->required();
   command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
-  command->add_option("--time", options->time,
+  command->add_option("--time,--shrink-time", options->time,
                       "Stop after this time: 45s, 10m; results then depend on the machine");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")

@@ -179,9 +179,12 @@ Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot
     slot.note(print_spec(spec));
     if (config_.shrink.before_run) config_.shrink.before_run(spec);
   };
+  const double start_s = steady_s();
   config.out_of_time = [&] {
     slot.beat();
-    return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s;
+    const double now_s = steady_s();
+    return (config_.deadline_s > 0.0 && now_s >= config_.deadline_s) ||
+           (config_.shrink_time_s > 0.0 && now_s >= start_s + config_.shrink_time_s);
   };
   return shrink(original, library_, config);
 }

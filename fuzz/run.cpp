@@ -20,7 +20,8 @@ double steady_s() {
 
 std::string plan_of(const RunConfig& config) {
   return run_name(config) + " shrinks=" + std::to_string(config.shrinks_per_family) +
-         " evaluations=" + std::to_string(config.shrink.max_evaluations);
+         " evaluations=" + std::to_string(config.shrink.max_evaluations) +
+         " shrink_time=" + std::to_string(config.shrink_time_s);
 }
 
 // "crash|human|SIGSEGV": what became of the process that ran a spec.

@@ -31,6 +31,7 @@ struct RunConfig {
   bool resume = false;         // go on where a run of the same options was killed
   WorkerLimits limits;         // of one case
   ShrinkConfig shrink;
+  double shrink_time_s = 0.0;  // stop each shrink after so long; 0: no limit
   CheckSettings checks;
   std::string settings;  // the text of the settings file: part of which run this is
   std::string tool;      // version, for provenance

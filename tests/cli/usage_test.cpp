@@ -62,6 +62,8 @@ TEST_F(Usage, NoCommandAnUnknownOneAndUnknownOptionsAreRefused) {
   expect_refused({"shrink", good_spec(), "--depth-floor", "2"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "nan"}, 2, "nan");
   expect_refused({"shrink", good_spec(), "--time", "soon"}, 2, "usage.bad_time");
+  expect_refused({"shrink", good_spec(), "--shrink-time", "soon"}, 2, "usage.bad_time");
+  expect_refused({"fuzz", "--cases", "0", "--shrink-time", "soon", "--corpus", folder_ / "corpus"}, 2, "--shrink-time");
 }
 
 TEST_F(Usage, ABadTimeIsRefused) {
