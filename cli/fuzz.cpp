@@ -12,6 +12,7 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/report.h"
+#include "cli/seeds.h"
 #include "corpus/lifecycle.h"
 #include "fuzz/run.h"
 #include "generator/core/files.h"
@@ -32,6 +33,7 @@ struct Options {
   int jobs = 0;
   std::string shard;
   std::string profile;
+  std::string seeds;
   bool resume = false;
   double case_timeout_s = 10.0;
   std::int64_t memory_mb = 4096;
@@ -102,6 +104,16 @@ Result<Done> choose_how_long(const Options& options, RunConfig& config) {
   return Done{};
 }
 
+// They come on top of the cases that are drawn.
+Result<Done> choose_seeds(const Options& options, const Library& library, RunConfig& config) {
+  if (options.seeds.empty()) return Done{};
+  Result<std::vector<Spec>> seeds = read_seeds(options.seeds, library);
+  if (!seeds) return seeds.issue();
+  config.seeds = std::move(seeds).value();
+  if (config.cases >= 0) config.cases += std::ssize(config.seeds);
+  return Done{};
+}
+
 Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
   config.shrinks_per_family = options.shrinks_per_family;
   config.shrink.max_evaluations = options.shrink_evaluations;
@@ -126,6 +138,7 @@ Result<RunConfig> configure(const Options& options, const CheckSettings& setting
   if (!draw) return draw.issue();
   config.draw = std::move(draw).value();
   if (const Result<Done> chosen = choose_how_long(options, config); !chosen) return chosen.issue();
+  if (const Result<Done> chosen = choose_seeds(options, library, config); !chosen) return chosen.issue();
   const Result<Shard> shard = choose_shard(options);
   if (!shard) return shard.issue();
   config.shard = *shard;
@@ -264,6 +277,8 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--jobs", options->jobs, "Worker processes (default: one per core)")->check(CLI::Range(1, 1024));
   command->add_option("--profile", options->profile,
                       "What is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
+  command->add_option("--seeds", options->seeds,
+                      "Folder of specs and cases (*.json) that run before all that is drawn, and on top of --cases");
   command->add_option("--shard", options->shard,
                       "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or CI_NODE_ "
                       "variables say)");

@@ -62,6 +62,8 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
 }
 
 Spec CaseWork::spec_of(const CaseTask& task) const {
+  const std::int64_t index = task.lineage.back();
+  if (is_seed(config_, index)) return config_.seeds[static_cast<std::size_t>(index)];
   return compose(raw_of(config_.seed, task.lineage), config_.draw, library_);
 }
 
@@ -78,7 +80,8 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
-  report.near = near_misses(*stage->character, island_of(task.lineage.back()));
+  const std::int64_t index = task.lineage.back();
+  if (!is_seed(config_, index)) report.near = near_misses(*stage->character, island_of(index));
   return report;
 }
 

@@ -103,7 +103,8 @@ class Run {
     for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
-      const Lineage lineage = state_.islands[static_cast<std::size_t>(island)].lineage_of(config_.seed, index);
+      const Island& pools = state_.islands[static_cast<std::size_t>(island)];
+      const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(config_.seed, index);
       round_.push_back({{lineage, {}, {}, {}}, {}});
     }
     open_ = static_cast<int>(round_.size());
@@ -174,7 +175,8 @@ class Run {
   void fold(const CaseTask& task, const CaseReport& report) {
     RunRecord& record = state_.record;
     const std::int64_t index = task.lineage.back();
-    const std::string arm_name(contort::arm_name(arm_of(config_.seed, task.lineage)));
+    const std::string arm_name(is_seed(config_, index) ? "seed"
+                                                       : contort::arm_name(arm_of(config_.seed, task.lineage)));
     ArmCount& arm = record.arms[arm_name];
     ++record.cases, ++arm.cases;
     record.frames += report.frames;
@@ -327,6 +329,7 @@ class Run {
 std::string run_name(const RunConfig& config) {
   std::string text = print_profile(config.draw.profile) + config.settings;
   for (const std::string& name : config.draw.characters) text += name + "\n";
+  for (const Spec& spec : config.seeds) text += spec_id(spec) + "\n";
   return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);
 }
 

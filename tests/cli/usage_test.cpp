@@ -76,6 +76,21 @@ TEST_F(Usage, ABadTimeIsRefused) {
   }
 }
 
+TEST_F(Usage, SeedsThatWouldTestNothingAreRefused) {
+  const std::string seeds = folder_ / "seeds", corpus = folder_ / "corpus";
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.none");
+  std::filesystem::create_directories(seeds);
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.none");
+  Spec nobody = bent_elbow(190);
+  nobody.character.name = "nobody";
+  spill(seeds + "/a.json", pretty_spec(bent_elbow(190)));
+  spill(seeds + "/b.json", pretty_spec(nobody));
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.refused");
+  spill(seeds + "/b.json", "{");
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "b.json");
+  EXPECT_FALSE(std::filesystem::exists(corpus));
+}
+
 TEST_F(Usage, AnUnknownCharacterIsRefused) {
   expect_refused({"fuzz", "--character", "nobody", "--corpus", folder_ / "corpus"}, 2, "nobody");
   expect_refused({"check", file("a.glb", "x"), "--character", "nobody"}, 2, "nobody");
