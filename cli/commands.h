@@ -38,6 +38,9 @@ struct Context {
   // What checks are to do; the defaults without --settings.
   Result<CheckSettings> load_settings() const;
 
+  // The same for cases that a user names: what is waived is still there.
+  Result<CheckSettings> load_settings_without_waivers() const;
+
   // --today, else the day of the clock, UTC.
   std::string day() const;
 

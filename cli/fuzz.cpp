@@ -12,6 +12,7 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/report.h"
+#include "cli/seeds.h"
 #include "corpus/lifecycle.h"
 #include "fuzz/run.h"
 #include "generator/core/files.h"
@@ -32,11 +33,13 @@ struct Options {
   int jobs = 0;
   std::string shard;
   std::string profile;
+  std::string seeds;
   bool resume = false;
   double case_timeout_s = 10.0;
   std::int64_t memory_mb = 4096;
   int shrinks_per_family = 2;
   int shrink_evaluations = 300;
+  std::string shrink_time;
   std::string corpus = "contort-out/corpus";
   std::string report;
   OutputRequest outputs;
@@ -101,6 +104,26 @@ Result<Done> choose_how_long(const Options& options, RunConfig& config) {
   return Done{};
 }
 
+// They come on top of the cases that are drawn.
+Result<Done> choose_seeds(const Options& options, const Library& library, RunConfig& config) {
+  if (options.seeds.empty()) return Done{};
+  Result<std::vector<Spec>> seeds = read_seeds(options.seeds, library);
+  if (!seeds) return seeds.issue();
+  config.seeds = std::move(seeds).value();
+  if (config.cases >= 0) config.cases += std::ssize(config.seeds);
+  return Done{};
+}
+
+Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
+  config.shrinks_per_family = options.shrinks_per_family;
+  config.shrink.max_evaluations = options.shrink_evaluations;
+  if (options.shrink_time.empty()) return Done{};
+  const Result<double> time_s = parse_time_s(options.shrink_time);
+  if (!time_s) return Issue{time_s.issue().code, "", "--shrink-time: " + time_s.issue().text};
+  config.shrink_time_s = *time_s;
+  return Done{};
+}
+
 Result<Shard> choose_shard(const Options& options) {
   if (!options.shard.empty()) return parse_shard(options.shard);
   const Result<std::optional<Shard>> said = shard_of_environment([](const char* name) { return std::getenv(name); });
@@ -115,6 +138,7 @@ Result<RunConfig> configure(const Options& options, const CheckSettings& setting
   if (!draw) return draw.issue();
   config.draw = std::move(draw).value();
   if (const Result<Done> chosen = choose_how_long(options, config); !chosen) return chosen.issue();
+  if (const Result<Done> chosen = choose_seeds(options, library, config); !chosen) return chosen.issue();
   const Result<Shard> shard = choose_shard(options);
   if (!shard) return shard.issue();
   config.shard = *shard;
@@ -122,8 +146,7 @@ Result<RunConfig> configure(const Options& options, const CheckSettings& setting
   config.limits = {options.case_timeout_s, options.memory_mb << 20};
   config.seed = options.seed;
   config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  config.shrinks_per_family = options.shrinks_per_family;
-  config.shrink.max_evaluations = options.shrink_evaluations;
+  if (const Result<Done> chosen = choose_shrinking(options, config); !chosen) return chosen.issue();
   config.tool = CONTORT_VERSION;
   return config;
 }
@@ -254,6 +277,8 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--jobs", options->jobs, "Worker processes (default: one per core)")->check(CLI::Range(1, 1024));
   command->add_option("--profile", options->profile,
                       "What is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
+  command->add_option("--seeds", options->seeds,
+                      "Folder of specs and cases (*.json) that run before all that is drawn, and on top of --cases");
   command->add_option("--shard", options->shard,
                       "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or CI_NODE_ "
                       "variables say)");
@@ -272,6 +297,8 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--shrink-evaluations", options->shrink_evaluations, "Motions generated per shrink, at most")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
+  command->add_option("--shrink-time", options->shrink_time,
+                      "Stop each shrink after this time: 45s, 10m; results then depend on the machine");
   command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   add_output_options(*command, options->outputs);

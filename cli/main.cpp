@@ -51,6 +51,14 @@ Result<CheckSettings> Context::load_settings() const {
   return settings;
 }
 
+Result<CheckSettings> Context::load_settings_without_waivers() const {
+  Result<CheckSettings> settings = load_settings();
+  if (!settings) return settings;
+  CheckSettings bare = std::move(settings).value();
+  bare.waivers.clear();
+  return bare;
+}
+
 std::string Context::day() const { return today.empty() ? day_of_clock() : today; }
 
 void Context::fail(const Issue& issue, Exit code) {

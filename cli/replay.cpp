@@ -241,11 +241,9 @@ class Session {
 void run(const Options& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
-  Result<CheckSettings> settings = context.load_settings();
+  const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
-  CheckSettings without_waivers = std::move(settings).value();
-  without_waivers.waivers.clear();  // what is waived is still there
-  Session session(options, *library, without_waivers, context);
+  Session session(options, *library, *settings, context);
   if (const Result<Done> ready = session.prepare(); !ready) return context.fail(ready.issue());
   for (const std::string& path : options.paths) {
     std::error_code error;

@@ -87,13 +87,11 @@ void print_json(const Shrunk& shrunk, const std::string& output) {
 void run(const Options& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
-  Result<CheckSettings> settings = context.load_settings();
+  const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
-  CheckSettings without_waivers = std::move(settings).value();
-  without_waivers.waivers.clear();  // what is waived is still there
-  const Result<ShrinkConfig> config = configure(options, without_waivers);
+  const Result<ShrinkConfig> config = configure(options, *settings);
   if (!config) return context.fail(config.issue());
-  const std::optional<Case> original = failing_now(options, *library, without_waivers, context);
+  const std::optional<Case> original = failing_now(options, *library, *settings, context);
   if (!original) return;
   const Shrunk shrunk = shrink(*original, *library, *config);
   if (shrunk.stopped == "flaky" || shrunk.stopped == "gone")
@@ -118,7 +116,8 @@ void add_shrink(CLI::App& app, Context& context) {
   command->add_option("CASE", options->input, "Case file")->required();
   command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
-  command->add_option("--time", options->time, "Stop after this time: 45s, 10m; results then depend on the machine");
+  command->add_option("--time,--shrink-time", options->time,
+                      "Stop after this time: 45s, 10m; results then depend on the machine");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")
       ->check(CLI::Range(0, 36000))

@@ -47,6 +47,8 @@ void fields(V& v, const Provenance*) {
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
   v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");
   v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
+  v.field("met_shrinking", &Provenance::met_shrinking, {.text = Text::prose, .may_be_empty = true},
+          "Family of the failure whose shrinking met this one; empty: the case itself showed it.");
 }
 
 template <class V>
@@ -57,6 +59,8 @@ void fields(V& v, const Case*) {
   v.field("provenance", &Case::provenance, {}, "Where it came from.");
   v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = Text::label},
           "Pointers into the spec: fields that could as well have other values.");
+  v.field("also", &Case::also, {.max_count = 100'000, .text = Text::prose},
+          "Families of other failures that shrinking met, and that the original does not show.");
 }
 
 std::string family_of(const Case& stored) {

@@ -16,14 +16,16 @@ constexpr std::string_view kMinimal = "-min.json", kWorst = "-worst.json";
 std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
 
 // Without ".json". Indices in file names have equal length, so that names sort as indices do.
-std::string stem_of(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index) {
+std::string stem_of(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
+                    const std::string& met_shrinking) {
   std::string digits = std::to_string(index);
   digits.insert(0, 16 - std::min<std::size_t>(16, digits.size()), '0');
-  return folder_of(corpus, run) + "/" + bucket_id(family, "") + "-" + digits;
+  return folder_of(corpus, run) + "/" + bucket_id(family, met_shrinking) + "-" + digits;
 }
 
 std::string stem_of(const Corpus& corpus, const Lead& lead) {
-  return stem_of(corpus, lead.run, family_of(lead.original), lead.original.provenance.index);
+  const Provenance& from = lead.original.provenance;
+  return stem_of(corpus, lead.run, family_of(lead.original), from.index, from.met_shrinking);
 }
 
 std::vector<std::string> case_files(const Corpus& corpus) {
@@ -52,9 +54,12 @@ Result<Lead> read_lead(const std::string& path) {
   return lead;
 }
 
-std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index) {
-  return stem_of(corpus, run, family, index) + ".json";
+std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
+                      const std::string& met_shrinking) {
+  return stem_of(corpus, run, family, index, met_shrinking) + ".json";
 }
+
+std::string lead_path(const Corpus& corpus, const Lead& lead) { return stem_of(corpus, lead) + ".json"; }
 
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
   if (const Result<Done> made = make_folder(folder_of(corpus, lead.run)); !made) return made.issue();

@@ -4,7 +4,8 @@
 //                   <family12>-<index>-min.json   what it was shrunk to
 //                   <family12>-<index>-worst.json the deepest that shows the same
 //
-// So a kill loses nothing, and a shard can hand over what it found.
+// So a kill loses nothing, and a shard can hand over what it found. A failure that was met while another was shrunk is
+// a lead of its own, which goes the way of that other; the hash in its name is over both families.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +31,10 @@ Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 // `path` is the original's.
 Result<Lead> read_lead(const std::string& path);
 
-// Where the original of a lead is.
-std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index);
+// Where the original of a lead is. `met_shrinking` as in its provenance.
+std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
+                      const std::string& met_shrinking = {});
+std::string lead_path(const Corpus& corpus, const Lead& lead);
 
 // By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.
 std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged);

@@ -22,8 +22,7 @@ Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus&
 // Where both have a lead, the one that was shrunk stays.
 Result<Done> take_leads(const Corpus& from, const Corpus& into, Merged& merged) {
   for (const Lead& lead : leads_of(from, merged.damaged)) {
-    const std::string path = lead_path(into, lead.run, family_of(lead.original), lead.original.provenance.index);
-    const Result<Lead> present = read_lead(path);
+    const Result<Lead> present = read_lead(lead_path(into, lead));
     if (present && present->minimal && !lead.minimal) continue;
     if (const Result<std::string> kept = keep_lead(into, lead); !kept) return kept.issue();
   }
@@ -51,12 +50,22 @@ std::string sentence_of(const std::vector<RunRecord>& shards, const std::vector<
   return text + " of " + std::to_string(shards.front().shards) + " are missing";
 }
 
-// The first cases of each family by index, as one run would have taken them. The others of that run are not needed.
+// One run would have taken others of its family, which came before it. What was met while another failure was shrunk
+// would not have been met without that one.
+bool came_too_late(const RunRecord& run, const Lead& lead) {
+  const std::string& shrunk = lead.original.provenance.met_shrinking;
+  const auto family = run.families.find(shrunk.empty() ? family_of(lead.original) : shrunk);
+  if (family == run.families.end()) return false;
+  const std::vector<std::int64_t>& first = family->second.first_indices;
+  return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
+}
+
+// The first cases of each family by index, as one run would have taken them. Which these are is on record: of a shard
+// that is merged again on its own, the first leads need not be the first of the run.
 Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
-  std::map<std::string, int> filed;
-  for (const Lead& lead : leads_of(corpus, merged.damaged)) {  // in the order of their indices
+  for (const Lead& lead : leads_of(corpus, merged.damaged)) {
     if (lead.run != run.name || !lead.minimal) continue;
-    if (++filed[family_of(lead.original)] > run.shrinks_per_family) {
+    if (came_too_late(run, lead)) {
       drop_lead(corpus, lead);
     } else if (const auto added = file_lead(corpus, lead); !added) {
       return added.issue();

@@ -10,13 +10,16 @@ namespace run_rules {
 inline const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
 inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
 inline constexpr std::size_t kMostEntries = 1'000'000;
+inline constexpr int kMostShrinks = 1000;  // of one family
 }  // namespace run_rules
 
 template <class V>
 void fields(V& v, const FamilyCount*) {
   v.field("cases", &FamilyCount::cases, run_rules::kTotal, "Cases that showed it.");
-  v.field("first_index", &FamilyCount::first_index, run_rules::kTotal, "The first of them.");
-  v.field("first_arm", &FamilyCount::first_arm, {.may_be_empty = true}, "How that one was drawn.");
+  v.field("first_indices", &FamilyCount::first_indices,
+          {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostShrinks},
+          "The first of them: those that go into buckets.");
+  v.field("first_arm", &FamilyCount::first_arm, {.may_be_empty = true}, "How the first one was drawn.");
 }
 
 template <class V>
@@ -27,12 +30,12 @@ void fields(V& v, const ArmCount*) {
 
 template <class V>
 void fields(V& v, const RunRecord*) {
-  v.constant("format", "contort.run/2");
+  v.constant("format", "contort.run/3");
   v.field("name", &RunRecord::name, {.required = true}, "Name of the run.");
   v.field("tool", &RunRecord::tool, run_rules::kLabel, "Version.");
   v.field("shard", &RunRecord::shard, {.low = 0, .high = 63}, "Which share of the run, from 0.");
   v.field("shards", &RunRecord::shards, {.low = 1, .high = 64}, "Of how many.");
-  v.field("shrinks_per_family", &RunRecord::shrinks_per_family, {.low = 1, .high = 1000},
+  v.field("shrinks_per_family", &RunRecord::shrinks_per_family, {.low = 1, .high = run_rules::kMostShrinks},
           "Failures of a family that go into buckets.");
   v.field("cases", &RunRecord::cases, run_rules::kTotal, "Cases that ran.");
   v.field("frames", &RunRecord::frames, run_rules::kTotal, "Frames that they had.");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "corpus/run_fields.h"
 #include "generator/core/files.h"
@@ -33,10 +34,13 @@ std::string path_of(const Corpus& corpus, const RunRecord& run) {
 
 void add_families(const RunRecord& shard, RunRecord& sum) {
   for (const auto& [family, count] : shard.families) {
-    FamilyCount& all = sum.families.try_emplace(family, FamilyCount{0, count.first_index, count.first_arm}).first->second;
+    FamilyCount& all = sum.families[family];
+    if (all.cases == 0 || count.first_indices < all.first_indices) all.first_arm = count.first_arm;
     all.cases += count.cases;
-    if (count.first_index >= all.first_index) continue;
-    all.first_index = count.first_index, all.first_arm = count.first_arm;
+    std::vector<std::int64_t> both;
+    std::ranges::merge(all.first_indices, count.first_indices, std::back_inserter(both));
+    both.resize(std::min(both.size(), static_cast<std::size_t>(sum.shrinks_per_family)));
+    all.first_indices = std::move(both);
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace contort {
 
-// How often a family was seen, and where first. The first index of all families together is the discovery curve.
+// How often a family was seen, and where first. The first of all families together are the discovery curve.
 struct FamilyCount {
   std::int64_t cases = 0;
-  std::int64_t first_index = 0;
-  std::string first_arm;  // "guided": how that case was drawn
+  std::vector<std::int64_t> first_indices;  // of its first cases, ascending; at most shrinks_per_family of the run
+  std::string first_arm;                    // "guided": how the first of them was drawn
   bool operator==(const FamilyCount&) const = default;
 };
 

@@ -21,7 +21,7 @@ void fields(V& v, const CaseTask*) {
   v.field("lineage", &CaseTask::lineage, case_rules::kIndices, "Ancestry of the case, itself last.");
   v.field("family", &CaseTask::family, case_rules::kProse, "The failure to be settled; empty: evaluate.");
   v.field("motion_hash", &CaseTask::motion_hash, case_rules::kHash, "Of the first time.");
-  v.field("ending", &CaseTask::ending, case_rules::kProse, "How the process ended that ran it first.");
+  v.field("ending", &CaseTask::ending, case_rules::kProse, "How the process ended that ran or shrank it first.");
 }
 
 template <class V>
@@ -46,6 +46,8 @@ void fields(V& v, const CaseReport*) {
   v.field("near", &CaseReport::near, {.max_count = 100000}, "Near misses.");
   v.field("waivers", &CaseReport::waivers, {.max_count = 1000}, "Use of each.");
   v.field("confirmed", &CaseReport::confirmed, {}, "Failed twice in the same way.");
+  v.field("met", &CaseReport::met, case_rules::kFamilies, "Leads of other families.");
+  v.field("met_once", &CaseReport::met_once, case_rules::kFamilies, "Those that did not happen again.");
   v.field("issue", &CaseReport::issue, case_rules::kProse, "Why the lead could not be written.");
 }
 

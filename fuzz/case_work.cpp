@@ -21,19 +21,9 @@ double steady_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Of the subjects that fall to `island`, those that came within reach of their limit and did not break it.
-std::vector<NearMiss> near_misses(const Character& character, const std::vector<SmallestMargins>& smallest,
-                                  int island) {
-  std::vector<NearMiss> near;
-  for (const SmallestMargins& margins : smallest)
-    for (std::size_t s = 0; s < margins.of_subject.size(); ++s) {
-      const double margin = margins.of_subject[s] / margins.check->scale;
-      if (!(margin >= 0.0 && margin <= kWithinReach)) continue;
-      const std::string family = std::string(margins.check->name) + "|" + character.name() + "|" +
-                                 margins.check->subject(character, static_cast<int>(s)).name;
-      if (island_of_target(family) == island) near.push_back({family, margin});
-    }
-  return near;
+std::string target_of(const CheckDef& check, const Character& character, std::size_t subject) {
+  return std::string(check.name) + "|" + character.name() + "|" +
+         check.subject(character, static_cast<int>(subject)).name;
 }
 
 std::vector<std::string> families_of(const std::string& character, const std::vector<Finding>& findings) {
@@ -55,6 +45,14 @@ const Finding* deepest_of(const std::string& character, const std::vector<Findin
 
 }  // namespace
 
+const std::vector<std::int8_t>& TargetIslands::of(const CheckDef& check, const Character& character,
+                                                  std::size_t subjects) {
+  std::vector<std::int8_t>& islands = known_[{check.name, character.name(), character.hash()}];
+  for (std::size_t s = islands.size(); s < subjects; ++s)
+    islands.push_back(static_cast<std::int8_t>(island_of_target(target_of(check, character, s))));
+  return islands;
+}
+
 CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus)
     : config_(config), library_(library), corpus_(corpus), evaluator_(config.checks) {}
 
@@ -64,6 +62,8 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
 }
 
 Spec CaseWork::spec_of(const CaseTask& task) const {
+  const std::int64_t index = task.lineage.back();
+  if (is_seed(config_, index)) return config_.seeds[static_cast<std::size_t>(index)];
   return compose(raw_of(config_.seed, task.lineage), config_.draw, library_);
 }
 
@@ -80,8 +80,23 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
-  report.near = near_misses(*stage->character, evaluator_.smallest_margins(), island_of(task.lineage.back()));
+  const std::int64_t index = task.lineage.back();
+  if (!is_seed(config_, index)) report.near = near_misses(*stage->character, island_of(index));
   return report;
+}
+
+// Of the subjects that fall to `island`, those that came within reach of their limit and did not break it.
+std::vector<NearMiss> CaseWork::near_misses(const Character& character, int island) {
+  std::vector<NearMiss> near;
+  for (const SmallestMargins& margins : evaluator_.smallest_margins()) {
+    const std::vector<std::int8_t>& islands = islands_.of(*margins.check, character, margins.of_subject.size());
+    for (std::size_t s = 0; s < margins.of_subject.size(); ++s) {
+      const double margin = margins.of_subject[s] / margins.check->scale;
+      if (islands[s] == island && margin >= 0.0 && margin <= kWithinReach)
+        near.push_back({target_of(*margins.check, character, s), margin});
+    }
+  }
+  return near;
 }
 
 namespace {
@@ -124,28 +139,55 @@ CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
   report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
   Result<std::string> kept = keep_lead(corpus_, lead);
-  if (kept && report.confirmed) {
-    const Shrunk shrunk = shrink_one(task, lead.original, slot);
-    lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
-    kept = keep_lead(corpus_, lead);
-  }
+  if (kept && report.confirmed) kept = shrink_lead(task, lead, report, slot);
   if (!kept) report.issue = kept.issue().text;
   return report;
+}
+
+// What shrank in this process at first is shrunk with a guard once a candidate has ended that.
+Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report,
+                                          WorkerSlot& slot) const {
+  const Shrunk shrunk = shrink_one(lead.original, !task.ending.empty(), slot);
+  lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
+  Result<std::string> kept = keep_lead(corpus_, lead);
+  for (const Case& met : shrunk.also)
+    if (kept && is_ending(met.expect)) kept = keep_met(lead, met, report, slot);
+  return kept;
+}
+
+// A spec that ends its process is a failure of its own, whatever was being shrunk. What is met while this one is shrunk
+// is not followed any further.
+Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, CaseReport& report,
+                                       WorkerSlot& slot) const {
+  Lead lead{shrunk.run, met, {}};
+  lead.original.provenance = shrunk.original.provenance;
+  lead.original.provenance.met_shrinking = family_of(shrunk.original);
+  const Shrunk smaller = shrink_one(lead.original, false, slot);
+  const bool again = smaller.stopped != "flaky" && smaller.stopped != "gone";
+  if (again) lead.minimal = smaller.minimal;
+  (again ? report.met : report.met_once).push_back(family_of(met));
+  return keep_lead(corpus_, lead);
 }
 
 Isolation CaseWork::isolation() const {
   return {std::max(1, static_cast<int>(config_.limits.seconds)), config_.limits.bytes, true};
 }
 
-Shrunk CaseWork::shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const {
+Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const {
   ShrinkConfig config = config_.shrink;
   config.checks = config_.checks;
   config.isolation = isolation();
-  // A candidate ended the process that tried it: then the failure is kept as it was drawn.
-  if (!task.ending.empty() && !is_ending(original.expect)) config.max_evaluations = 0;
+  config.guarded = guarded;
+  config.before_run = [&](const Spec& spec) {
+    slot.note(print_spec(spec));
+    if (config_.shrink.before_run) config_.shrink.before_run(spec);
+  };
+  const double start_s = steady_s();
   config.out_of_time = [&] {
     slot.beat();
-    return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s;
+    const double now_s = steady_s();
+    return (config_.deadline_s > 0.0 && now_s >= config_.deadline_s) ||
+           (config_.shrink_time_s > 0.0 && now_s >= start_s + config_.shrink_time_s);
   };
   return shrink(original, library_, config);
 }

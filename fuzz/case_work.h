@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "checks/check.h"
 #include "corpus/leads.h"
 #include "fuzz/islands.h"
 #include "fuzz/run.h"
@@ -19,7 +23,7 @@ struct CaseTask {
   Lineage lineage;
   std::string family;
   std::string motion_hash;  // of the first time
-  std::string ending;       // where the first time ended the process: "SIGSEGV", "timeout", "memory"
+  std::string ending;       // family of how it ended its process before, or a candidate of its shrinking did
   bool operator==(const CaseTask&) const = default;
 };
 
@@ -32,12 +36,24 @@ struct CaseReport {
   std::vector<NearMiss> near;       // of the island's subjects
   std::vector<WaiverUse> waivers;
   bool confirmed = false;  // of a settled failure: the second time was bit for bit the first
+  std::vector<std::string> met;       // families of other leads that its shrinking left
+  std::vector<std::string> met_once;  // the same, which did not happen again
   std::string issue;       // it could not be written: code and text
 };
 
 std::string print_task(const CaseTask& task);
 CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
+
+// Which island each subject falls to. Remembered, by all that names it: naming and hashing them for each case was 1 %
+// of a run.
+class TargetIslands {
+ public:
+  const std::vector<std::int8_t>& of(const CheckDef& check, const Character& character, std::size_t subjects);
+
+ private:
+  std::map<std::tuple<std::string_view, std::string, std::uint64_t>, std::vector<std::int8_t>> known_;
+};
 
 // One per worker.
 class CaseWork {
@@ -47,16 +63,20 @@ class CaseWork {
 
  private:
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
+  std::vector<NearMiss> near_misses(const Character& character, int island);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   Spec spec_of(const CaseTask& task) const;
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
   Isolation isolation() const;
-  Shrunk shrink_one(const CaseTask& task, const Case& original, WorkerSlot& slot) const;
+  Shrunk shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const;
+  Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
+  Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;
 
   const RunConfig& config_;
   const Library& library_;
   const Corpus& corpus_;
   Evaluator evaluator_;
+  TargetIslands islands_;
 };
 
 }  // namespace contort

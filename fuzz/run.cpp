@@ -20,17 +20,20 @@ double steady_s() {
 
 std::string plan_of(const RunConfig& config) {
   return run_name(config) + " shrinks=" + std::to_string(config.shrinks_per_family) +
-         " evaluations=" + std::to_string(config.shrink.max_evaluations);
+         " evaluations=" + std::to_string(config.shrink.max_evaluations) +
+         " shrink_time=" + std::to_string(config.shrink_time_s);
 }
 
-// "crash|human|SIGSEGV": what became of the process that ran a case.
-std::string family_of_ending(const WorkerEvent& event) {
-  const Result<Spec> spec = parse_spec(event.note);
-  const std::string character = spec ? spec->character.name : "unknown";
+// "crash|human|SIGSEGV": what became of the process that ran a spec.
+Case case_of_ending(const WorkerEvent& event) {
+  const Result<Spec> noted = parse_spec(event.note);
+  Spec spec;
+  spec.character.name = "unknown";
+  if (noted) spec = *noted;
   switch (event.end) {
-    case WorkerEnd::timed_out: return "timeout|" + character + "|evaluation";
-    case WorkerEnd::out_of_memory: return "memory|" + character + "|evaluation";
-    default: return "crash|" + character + "|" + event.text;
+    case WorkerEnd::timed_out: return ending_case(spec, {Ending::Kind::timeout, {}, {}});
+    case WorkerEnd::out_of_memory: return ending_case(spec, {Ending::Kind::memory, {}, {}});
+    default: return ending_case(spec, {Ending::Kind::crash, event.text, {}});
   }
 }
 
@@ -100,7 +103,8 @@ class Run {
     for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
-      const Lineage lineage = state_.islands[static_cast<std::size_t>(island)].lineage_of(config_.seed, index);
+      const Island& pools = state_.islands[static_cast<std::size_t>(island)];
+      const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(config_.seed, index);
       round_.push_back({{lineage, {}, {}, {}}, {}});
     }
     open_ = static_cast<int>(round_.size());
@@ -145,8 +149,8 @@ class Run {
     } else {
       place.report = CaseReport{};
       place.report->built = true;
-      place.report->broken = {family_of_ending(event)};
-      place.task.ending = event.end == WorkerEnd::crashed ? event.text : place.report->broken.front();
+      place.task.ending = family_of(case_of_ending(event));
+      place.report->broken = {place.task.ending};
     }
     --open_;
   }
@@ -171,7 +175,8 @@ class Run {
   void fold(const CaseTask& task, const CaseReport& report) {
     RunRecord& record = state_.record;
     const std::int64_t index = task.lineage.back();
-    const std::string arm_name(contort::arm_name(arm_of(config_.seed, task.lineage)));
+    const std::string arm_name(is_seed(config_, index) ? "seed"
+                                                       : contort::arm_name(arm_of(config_.seed, task.lineage)));
     ArmCount& arm = record.arms[arm_name];
     ++record.cases, ++arm.cases;
     record.frames += report.frames;
@@ -181,9 +186,10 @@ class Run {
     add_uses(report.waivers, state_.waivers);
     state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
     for (const std::string& family : report.broken) {
-      const auto count = record.families.try_emplace(family, FamilyCount{0, index, arm_name}).first;
-      if (++count->second.cases <= config_.shrinks_per_family)
-        want({task.lineage, family, report.motion_hash, task.ending});
+      FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, {}, arm_name}).first->second;
+      if (++count.cases > config_.shrinks_per_family) continue;
+      count.first_indices.push_back(index);
+      want({task.lineage, family, report.motion_hash, task.ending});
     }
   }
 
@@ -194,26 +200,41 @@ class Run {
     settling_.push_back(task);
   }
 
-  // A candidate of its shrinking may have ended the process: then the failure is kept as it was found.
   void settled(const CaseTask& task, const WorkerEvent& event) {
     const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
-    if (event.end != WorkerEnd::replied && task.ending.empty()) {
-      CaseTask unshrunk = task;
-      unshrunk.ending = event.text.empty() ? "limit" : event.text;
-      settling_.push_back(unshrunk);
-      return;
-    }
+    if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
     std::erase_if(state_.wanted,
                   [&](const CaseTask& t) { return t.lineage == task.lineage && t.family == task.family; });
     if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
-    if (!report.confirmed)
-      add_once(state_.unconfirmed, path_of_lead(task));
-    else if (config_.shard.count == 1)
-      file(task);
+    take_lead(path_of_lead(task), report.confirmed);
+    for (const std::string& family : report.met) take_lead(path_of_met(task, family), true);
+    for (const std::string& family : report.met_once) take_lead(path_of_met(task, family), false);
+    if (task.ending.empty() || task.ending == task.family) return;
+    if (std::ranges::find(report.met, task.ending) == report.met.end())
+      take_lead(path_of_met(task, task.ending), false);
   }
 
-  void file(const CaseTask& task) {
-    const Result<Lead> lead = read_lead(path_of_lead(task));
+  // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
+  // again, or else it is not confirmed.
+  void shrink_guarded(CaseTask task, const WorkerEvent& event) {
+    Lead lead{state_.record.name, case_of_ending(event), {}};
+    lead.original.provenance.tool = config_.tool;
+    lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
+    lead.original.provenance.met_shrinking = task.family;
+    if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) return fail(kept.issue());
+    task.ending = family_of(lead.original);
+    settling_.push_back(std::move(task));
+  }
+
+  void take_lead(const std::string& path, bool confirmed) {
+    if (!confirmed)
+      add_once(state_.unconfirmed, path);
+    else if (config_.shard.count == 1)
+      file(path);
+  }
+
+  void file(const std::string& path) {
+    const Result<Lead> lead = read_lead(path);
     if (!lead) return fail(lead.issue());
     const Result<Corpus::Added> added = file_lead(corpus_, *lead);
     if (!added) return fail(added.issue());
@@ -224,6 +245,10 @@ class Run {
 
   std::string path_of_lead(const CaseTask& task) const {
     return lead_path(corpus_, state_.record.name, task.family, task.lineage.back());
+  }
+
+  std::string path_of_met(const CaseTask& task, const std::string& family) const {
+    return lead_path(corpus_, state_.record.name, family, task.lineage.back(), task.family);
   }
 
   static void add_once(std::vector<std::string>& list, const std::string& name) {
@@ -247,7 +272,9 @@ class Run {
 
   void finish() {
     tidy_leads(corpus_, state_.record.name);
-    if (ok())
+    // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
+    // say.
+    if (ok() && !(result_.interrupted && config_.shard.count > 1))
       if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());
     if (is_last(state_.next) && state_.wanted.empty())
       drop_state(corpus_, state_.record);
@@ -302,6 +329,7 @@ class Run {
 std::string run_name(const RunConfig& config) {
   std::string text = print_profile(config.draw.profile) + config.settings;
   for (const std::string& name : config.draw.characters) text += name + "\n";
+  for (const Spec& spec : config.seeds) text += spec_id(spec) + "\n";
   return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);
 }
 

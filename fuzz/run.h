@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ namespace contort {
 
 struct RunConfig {
   DrawConfig draw;
+  std::vector<Spec> seeds;     // the first cases, as they are; all others are drawn
   std::int64_t seed = 1;       // [0, 2^53]
-  std::int64_t cases = 2000;   // stop after so many, of all shards together; < 0: no limit
+  std::int64_t cases = 2000;   // stop after so many, seeds too, of all shards together; < 0: no limit
   double time_s = 0.0;         // stop after so long; 0: no limit
   int jobs = 1;                // worker processes, >= 1
   Shard shard;
@@ -31,11 +33,15 @@ struct RunConfig {
   bool resume = false;         // go on where a run of the same options was killed
   WorkerLimits limits;         // of one case
   ShrinkConfig shrink;
+  double shrink_time_s = 0.0;  // stop each shrink after so long; 0: no limit
   CheckSettings checks;
   std::string settings;  // the text of the settings file: part of which run this is
   std::string tool;      // version, for provenance
   double deadline_s = 0.0;  // on the steady clock; set by the run
 };
+
+// Whether case `index` is a seed. It has no numbers that could be mutated, so nothing is drawn from it.
+inline bool is_seed(const RunConfig& config, std::int64_t index) { return index < std::ssize(config.seeds); }
 
 struct RunProgress {
   std::int64_t cases = 0;
@@ -59,7 +65,7 @@ struct RunResult {
   Issue issue;                             // the corpus could not be written; code "" where all went well
 };
 
-// "seed_7_0123abcd". Another seed, other characters, another profile or other limits are another run.
+// "seed_7_0123abcd". Another seed, other seeds, characters or limits, or another profile are another run.
 std::string run_name(const RunConfig& config);
 
 // `progress` is called now and then. `stop` is asked often; when it answers true the run ends early and keeps what it

@@ -46,6 +46,12 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   return from;
 }
 
+std::vector<std::string> families_of(const std::vector<Case>& cases) {
+  std::vector<std::string> families;
+  for (const Case& other : cases) families.push_back(family_of(other));
+  return families;
+}
+
 }  // namespace
 
 Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config) {
@@ -66,16 +72,19 @@ Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, c
   }
   shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(confirmed, state, shrunk.stopped);
   shrunk.also = state.also();
+  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : families_of(shrunk.also);
   shrunk.evaluations = state.evaluations();
   return shrunk;
 }
 
 Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& config) {
   if (!is_ending(original.expect)) {
-    CheckTrial trial(original.expect, library, config.checks);
-    return shrink_with(trial, original, library, config);
+    CheckTrial trial(original.expect, library, config.checks, config.before_run);
+    GuardedTrial guarded(trial, config.isolation);
+    return shrink_with(config.guarded ? static_cast<Trial&>(guarded) : trial, original, library, config);
   }
   const auto work = [&](const Spec& spec) {
+    if (config.before_run) config.before_run(spec);
     if (const Result<Stage> stage = build_stage(spec, library)) Evaluator(config.checks).run(*stage);
   };
   EndingTrial trial(original.expect, work, config.isolation);

@@ -22,6 +22,8 @@ struct ShrinkConfig {
   double depth_floor = 0.5;
   CheckSettings checks;               // those that found the failure
   Isolation isolation;                // for cases that end their process
+  bool guarded = false;               // a candidate is known to end its process: each is tried in another one first
+  BeforeRun before_run;               // may be empty
   std::function<bool()> out_of_time;  // asked before every evaluation; may be empty. Makes results differ.
 };
 
@@ -34,7 +36,7 @@ struct Shrunk {
 };
 
 // Keeps check, subject and character of `original`. A case that ends its process (isolate.h) is run in others: then the
-// caller has one thread only.
+// caller has one thread only. So is a guarded one.
 Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& config);
 
 // The same by any way of running specs.

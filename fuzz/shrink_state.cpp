@@ -36,6 +36,7 @@ std::optional<TrialResult> ShrinkState::run(const Spec& candidate) {
   if (spent()) return std::nullopt;
   TrialResult shown = trial_.run(candidate, most_frames_);
   if (shown.built) ++evaluations_;
+  for (const Case& other : shown.met) meet(other);
   return shown;
 }
 
@@ -49,11 +50,12 @@ bool ShrinkState::confirm() {
     stopped_ = "gone";
   if (halted()) return false;
   best_.expect = second->expect;
-  best_.free_fields.clear();
+  best_.free_fields.clear(), best_.also.clear();
   shown_ = *second;
   least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
   most_frames_ = shown_.most_frames;
   for (const Case& other : trial_.others(best_.spec)) families_.insert(family_of(other));
+  std::erase_if(also_, [&](const auto& met) { return families_.contains(met.first); });
   return true;
 }
 
@@ -64,7 +66,6 @@ bool ShrinkState::accept(Spec candidate) {
   std::optional<TrialResult> shown = run(candidate);
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;
-  for (const Case& other : shown->met) meet(other);
   if (!shown->fails || shown->depth < least_depth_) return false;
   best_.spec = std::move(candidate);
   best_.expect = shown->expect;

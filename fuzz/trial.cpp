@@ -7,8 +7,13 @@
 
 namespace contort {
 
-CheckTrial::CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings)
-    : check_(family.check), subject_(family.subject), library_(library), evaluator_(settings) {}
+CheckTrial::CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings,
+                       BeforeRun before)
+    : check_(family.check),
+      subject_(family.subject),
+      library_(library),
+      evaluator_(settings),
+      before_(std::move(before)) {}
 
 // Most candidates keep the character: it need not be assembled again for them.
 Result<Stage> CheckTrial::build(const Spec& spec) const {
@@ -18,6 +23,7 @@ Result<Stage> CheckTrial::build(const Spec& spec) const {
 
 TrialResult CheckTrial::run(const Spec& spec, int most_frames) {
   TrialResult shown;
+  if (before_) before_(spec);
   Result<Stage> stage = build(spec);
   if (!stage || stage->most_frames > most_frames) return shown;
   stage_ = std::move(stage);
@@ -55,6 +61,31 @@ std::vector<Case> CheckTrial::others_among(const Spec& spec, const Evaluation& e
     if (finding->check != check_ || finding->subject != subject_)
       cases.push_back({spec, expectation_of(*stage_, evaluator_.motion(), evaluation, *finding), {}});
   return cases;
+}
+
+GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation) : inner_(inner), isolation_(isolation) {
+  isolation_.silent = true;
+}
+
+// Where no process can be had, the spec is run in this one as ever.
+std::optional<Case> GuardedTrial::ended(const Spec& spec, const std::function<void()>& work) const {
+  const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation_);
+  if (!ending || ending->kind == Ending::Kind::finished) return std::nullopt;
+  return ending_case(spec, *ending);
+}
+
+TrialResult GuardedTrial::run(const Spec& spec, int most_frames) {
+  std::optional<Case> met = ended(spec, [&] { inner_.run(spec, most_frames); });
+  if (!met) return inner_.run(spec, most_frames);
+  TrialResult shown;
+  shown.built = true;
+  shown.met.push_back(std::move(*met));
+  return shown;
+}
+
+std::vector<Case> GuardedTrial::others(const Spec& spec) {
+  if (std::optional<Case> met = ended(spec, [&] { inner_.others(spec); })) return {std::move(*met)};
+  return inner_.others(spec);
 }
 
 EndingTrial::EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation)

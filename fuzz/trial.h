@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "checks/evaluate.h"
@@ -23,6 +24,9 @@ struct TrialResult {
   std::vector<Case> met;                       // failures of other families that were seen at no further cost
 };
 
+// Told each spec in the process that runs it, before it does: what it notes may be its last words.
+using BeforeRun = std::function<void(const Spec&)>;
+
 class Trial {
  public:
   virtual ~Trial() = default;
@@ -35,7 +39,7 @@ class Trial {
 // For a failure that a check found: that check alone is measured.
 class CheckTrial final : public Trial {
  public:
-  CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings);
+  CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings, BeforeRun before = {});
   TrialResult run(const Spec& spec, int most_frames) override;
   std::vector<Case> others(const Spec& spec) override;
 
@@ -46,8 +50,24 @@ class CheckTrial final : public Trial {
   std::string check_, subject_;
   const Library& library_;
   Evaluator evaluator_;
+  BeforeRun before_;
   Result<Stage> stage_ = Issue{};  // that was run last
   CharacterChoice choice_;         // what its character was built from
+};
+
+// Where some candidate ends the process that runs it: each is first run in another one. What ends that is met as a
+// failure of its own; all else is as the inner trial shows it.
+class GuardedTrial final : public Trial {
+ public:
+  GuardedTrial(Trial& inner, const Isolation& isolation);
+  TrialResult run(const Spec& spec, int most_frames) override;
+  std::vector<Case> others(const Spec& spec) override;
+
+ private:
+  std::optional<Case> ended(const Spec& spec, const std::function<void()>& work) const;
+
+  Trial& inner_;
+  Isolation isolation_;
 };
 
 // For a crash, a timeout or memory: each candidate runs in a process of its own, up to ten times as long as the first

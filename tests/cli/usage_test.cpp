@@ -62,6 +62,8 @@ TEST_F(Usage, NoCommandAnUnknownOneAndUnknownOptionsAreRefused) {
   expect_refused({"shrink", good_spec(), "--depth-floor", "2"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "nan"}, 2, "nan");
   expect_refused({"shrink", good_spec(), "--time", "soon"}, 2, "usage.bad_time");
+  expect_refused({"shrink", good_spec(), "--shrink-time", "soon"}, 2, "usage.bad_time");
+  expect_refused({"fuzz", "--cases", "0", "--shrink-time", "soon", "--corpus", folder_ / "corpus"}, 2, "--shrink-time");
 }
 
 TEST_F(Usage, ABadTimeIsRefused) {
@@ -72,6 +74,21 @@ TEST_F(Usage, ABadTimeIsRefused) {
     EXPECT_EQ(ran.err.rfind("contort: ", 0), 0U) << ran.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "corpus"));
   }
+}
+
+TEST_F(Usage, SeedsThatWouldTestNothingAreRefused) {
+  const std::string seeds = folder_ / "seeds", corpus = folder_ / "corpus";
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.none");
+  std::filesystem::create_directories(seeds);
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.none");
+  Spec nobody = bent_elbow(190);
+  nobody.character.name = "nobody";
+  spill(seeds + "/a.json", pretty_spec(bent_elbow(190)));
+  spill(seeds + "/b.json", pretty_spec(nobody));
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "seeds.refused");
+  spill(seeds + "/b.json", "{");
+  expect_refused({"fuzz", "--seeds", seeds, "--corpus", corpus}, 2, "b.json");
+  EXPECT_FALSE(std::filesystem::exists(corpus));
 }
 
 TEST_F(Usage, AnUnknownCharacterIsRefused) {

@@ -50,8 +50,12 @@ Case draw_case() {
                   draw_text("0123456789abcdef", 0, 32),
                   *rc::gen::inRange(0, 36001),
                   draw_text("fixpoint", 0, 10),
-                  std::ldexp(static_cast<double>(*rc::gen::inRange(0, 1000)), -4)};
-  for (int i = *rc::gen::inRange(0, 4); i > 0; --i) c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
+                  std::ldexp(static_cast<double>(*rc::gen::inRange(0, 1000)), -4),
+                  draw_text("abc|/ ~", 0, 60)};
+  for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {
+    c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
+    c.also.push_back("check|" + draw_text("abc/_ ~", 1, 60) + "|a");
+  }
   return c;
 }
 

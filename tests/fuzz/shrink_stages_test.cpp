@@ -210,6 +210,10 @@ TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
   EXPECT_EQ(family_of(result.also[0]), "at_once|human|it");
   EXPECT_EQ(family_of(result.also[1]), "later|human|it");
   for (const Case& other : result.also) EXPECT_EQ(other.spec, result.minimal.spec);
+  EXPECT_EQ(result.minimal.also, (std::vector<std::string>{"at_once|human|it", "later|human|it"}));
+  EXPECT_TRUE(result.worst.also.empty());
+  const Shrunk again = shrink_with(trial, result.minimal, stock_library(), {});
+  EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
 }
 
 Shrunk shrunk_ending(const Spec& spec, const Ending& ending, const std::function<void(const Spec&)>& work) {

@@ -2,7 +2,9 @@
 #include "fuzz/shrink.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "corpus/replay.h"
@@ -54,6 +56,43 @@ TEST(ShrinkLawsSlow, TheResultFailsTheSameWayAndDeepEnough) {
       Evaluator evaluator;
       EXPECT_EQ(replay(least, stock_library(), evaluator).verdict, Verdict::same);
     }
+}
+
+int actions_of(const Spec& spec) {
+  int count = 0;
+  for (const SequenceDesc& sequence : spec.sequences)
+    for (const ClipDesc& clip : sequence.clips) count += static_cast<int>(clip.actions.size());
+  return count;
+}
+
+TEST(ShrinkGuarded, ChangesNothingWhereNoCandidateEndsItsProcess) {
+  const Case original = elbow_case();
+  ShrinkConfig how = config(0.5);
+  const Shrunk plain = shrink(original, stock_library(), how);
+  how.guarded = true;
+  const Shrunk guarded = shrink(original, stock_library(), how);
+  EXPECT_EQ(print_case(guarded.minimal), print_case(plain.minimal));
+  EXPECT_EQ(print_case(guarded.worst), print_case(plain.worst));
+  EXPECT_EQ(guarded.evaluations, plain.evaluations);
+}
+
+TEST(ShrinkGuarded, GoesRoundWhatCrashesAndHandsItBack) {
+  Case original = elbow_case();
+  const Spec spec =
+      spec_of({original.spec.sequences[0].clips[0].actions[0], pose_use("head", {}), pose_use("leg_left", {})});
+  original = failing_case(spec, "joint_range", kElbow);
+  ShrinkConfig how = config(0.5);
+  how.guarded = true;
+  how.before_run = [](const Spec& candidate) {
+    if (actions_of(candidate) == 1) ::raise(SIGUSR1);
+  };
+  const Shrunk result = shrink(original, stock_library(), how);
+  EXPECT_EQ(result.stopped, "fixpoint");
+  EXPECT_EQ(family_of(result.minimal), family_of(original));
+  EXPECT_EQ(actions_of(result.minimal.spec), 2);
+  const auto met = std::ranges::find(result.also, "crash|human|SIGUSR1", [](const Case& c) { return family_of(c); });
+  ASSERT_NE(met, result.also.end());
+  EXPECT_EQ(actions_of(met->spec), 1);
 }
 
 TEST(ShrinkLawsSlow, EqualInputGivesEqualOutput) {

@@ -1,0 +1,49 @@
+#include "cli/seeds.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/input.h"
+#include "corpus/isolate.h"
+#include "generator/stage.h"
+
+namespace contort::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> files_of(const std::string& folder) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+// Why it does not build, "" where it does. One that ends the process is worth a case of the run.
+std::string refusal_of(const Spec& spec, const Library& library) {
+  const Result<Ending> ending = isolate([&] {
+    const Result<Stage> stage = build_stage(spec, library);
+    return stage ? std::string() : to_line(stage.issue());
+  });
+  return ending ? ending->result : to_line(ending.issue());
+}
+
+}  // namespace
+
+Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& library) {
+  std::vector<Spec> seeds;
+  for (const std::string& path : files_of(folder)) {
+    const Result<SpecInput> input = read_spec_input(path);
+    if (!input) return input.issue();
+    if (const std::string why = refusal_of(input->spec, library); !why.empty())
+      return Issue{"seeds.refused", "", path + ": " + why};
+    seeds.push_back(input->spec);
+  }
+  if (seeds.empty()) return Issue{"seeds.none", "", folder + " is no folder with specs or cases (*.json)"};
+  return seeds;
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,17 @@
+// Specs that a run begins with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+#include "generator/spec.h"
+
+namespace contort::cli {
+
+// The specs of all specs and cases (*.json) of a folder, in the order of their names. Codes of reading them;
+// seeds.none, and seeds.refused for one that does not build: a night that tests nothing must not look clean.
+Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& library);
+
+}  // namespace contort::cli

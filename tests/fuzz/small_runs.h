@@ -1,0 +1,94 @@
+// Runs of a small character for tests. It is a hundred times as fast as the stock ones; two slots and a box each fail
+// often enough.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "corpus/merge.h"
+#include "corpus/replay.h"
+#include "fuzz/run.h"
+#include "tests/checks/small_character.h"
+#include "tests/corpus/temp_folder.h"
+
+namespace contort::small_runs {
+
+inline const Library& library() {
+  static const Library small_and_stock = [] {
+    Library all = stock_library();
+    const Library own = small::library();
+    all.parts.insert(own.parts.begin(), own.parts.end());
+    all.objects.insert(own.objects.begin(), own.objects.end());
+    all.characters.insert(own.characters.begin(), own.characters.end());
+    return all;
+  }();
+  return small_and_stock;
+}
+
+inline RunConfig config_of(std::int64_t cases, int jobs) {
+  RunConfig config;
+  config.draw.characters = {"small"};
+  config.seed = 4;
+  config.cases = cases;
+  config.jobs = jobs;
+  config.shrinks_per_family = 1;
+  config.shrink.max_evaluations = 12;
+  config.tool = "test";
+  return config;
+}
+
+inline Corpus create(const std::string& folder) {
+  Result<Corpus> corpus = Corpus::create(folder);
+  if (!corpus) ADD_FAILURE() << to_line(corpus.issue());
+  return std::move(corpus).value();
+}
+
+inline RunResult run(const RunConfig& config, const Corpus& corpus) {
+  return run_fuzz(
+      config, library(), corpus, [](const RunProgress&) {}, [] { return false; });
+}
+
+inline std::vector<Bucket> buckets_of(const Corpus& corpus) {
+  std::vector<Issue> damaged;
+  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  EXPECT_TRUE(damaged.empty());
+  return buckets;
+}
+
+inline void expect_all_replay_as_the_same(const Corpus& corpus) {
+  Evaluator evaluator;
+  for (const Bucket& bucket : buckets_of(corpus))
+    for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) {
+      const Result<Case> stored = read_case(corpus.folder_of(bucket) + "/" + file);
+      ASSERT_TRUE(stored) << to_line(stored.issue());
+      EXPECT_EQ(replay(*stored, library(), evaluator).verdict, Verdict::same) << file;
+      EXPECT_EQ(family_of(*stored), bucket.family);
+    }
+}
+
+// Runs and is stopped after so many questions whether it should be; as the interrupt of a user does.
+inline RunResult run_until(int questions, const RunConfig& config, const Corpus& corpus) {
+  int asked = 0;
+  return run_fuzz(
+      config, library(), corpus, [](const RunProgress&) {}, [&] { return ++asked > questions; });
+}
+
+// A run as one and as `count` shards that are merged: the same bytes.
+inline void expect_shards_make_one_run(const TempFolder& folder, RunConfig config, int count) {
+  const Corpus whole = create(folder / "whole"), into = create(folder / "merged");
+  run(config, whole);
+  std::vector<Corpus> shards;
+  for (int i = 0; i < count; ++i) {
+    config.shard = {i, count};
+    shards.push_back(create(folder / std::to_string(i)));
+    EXPECT_TRUE(run(config, shards.back()).new_buckets.empty());
+  }
+  const Result<Merged> merged = merge(shards, into);
+  ASSERT_TRUE(merged) << to_line(merged.issue());
+  EXPECT_TRUE(merged->incomplete.empty() && merged->damaged.empty());
+  EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(into.folder())), "") << count;
+}
+
+}  // namespace contort::small_runs
