@@ -100,7 +100,7 @@ class Run {
     for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
-      const Lineage lineage = state_.islands[static_cast<std::size_t>(island)].lineage_of(config_.seed, index);
+      const Lineage lineage = state_.islands[static_cast<std::size_t>(island)].lineage_of(odds_, index);
       round_.push_back({{lineage, {}, {}, {}}, {}});
     }
     open_ = static_cast<int>(round_.size());
@@ -171,7 +171,7 @@ class Run {
   void fold(const CaseTask& task, const CaseReport& report) {
     RunRecord& record = state_.record;
     const std::int64_t index = task.lineage.back();
-    const std::string arm_name(contort::arm_name(arm_of(config_.seed, task.lineage)));
+    const std::string arm_name(contort::arm_name(arm_of(odds_, task.lineage)));
     ArmCount& arm = record.arms[arm_name];
     ++record.cases, ++arm.cases;
     record.frames += report.frames;
@@ -285,6 +285,7 @@ class Run {
   const Corpus& corpus_;
   const std::function<void(const RunProgress&)>& progress_;
   const std::function<bool()>& stop_;
+  const Odds odds_ = odds_of(config_.seed, config_.draw.profile);
   const double start_s_ = steady_s();
   double next_keep_s_ = steady_s() + kKeepEvery_s;
   RunState state_;
