@@ -216,12 +216,12 @@ class Bench:
     def first_detection(self, name, mode, seed, cases):
         with tempfile.TemporaryDirectory(dir=self.out) as corpus:
             record = self.fuzz(name, mode, seed, cases, corpus, (1, 0))
-            found = sorted((count["first_index"], family) for family, count in record["families"].items()
+            found = sorted((count.get("first_index", 0), family) for family, count in record["families"].items()
                            if family not in self.baseline)
             for index, family in found:
                 spec = self.stored_case(corpus, family)
                 if spec is not None and not self.is_on_clean(spec, family):
-                    return {"found": index + 1, "family": family, "arm": record["families"][family]["first_arm"]}
+                    return {"found": index + 1, "family": family, "arm": record["families"][family].get("first_arm")}
         return None
 
     def race(self, mutant, mode, seed):
@@ -272,8 +272,8 @@ class Bench:
             for done in concurrent.futures.as_completed([pool.submit(*job) for job in jobs]):
                 try:
                     done.result()
-                except RuntimeError as error:
-                    say(f"no result: {error}")
+                except Exception as error:  # one run that fails must not end the bench
+                    say(f"no result: {error!r}")
 
     def run(self):
         self.build()
