@@ -53,8 +53,8 @@ class Mutant:
         self.path = path
         self.name = path.stem
         self.is_equivalent = "-equivalent_" in self.name
-        self.id = short_hash(path.read_bytes())
-        self.about = path.read_text().split("\n", 1)[0]
+        self.about, diff = path.read_text().split("\n", 1)
+        self.id = short_hash(diff.encode())
 
 
 class Builds:
