@@ -117,6 +117,14 @@ void print_params(const Json& action) {
 }
 
 // docs/actions.md is this, and a test compares them.
+// Each as the file that a profile of one's own may start from.
+Json list_profiles(const Library&) {
+  Json list = Json::array();
+  for (const Profile& profile : built_in_profiles())
+    list.push_back({{"name", profile.name}, {"help", profile.about}, {"profile", Json::parse(print_profile(profile))}});
+  return list;
+}
+
 void print_markdown(const Json& list) {
   std::printf("# Actions\n\nWritten by `contort list actions --markdown`. Layers and timings: `docs/timeline.md`.\n");
   for (const Json& action : list) {
@@ -154,7 +162,8 @@ void print_text(const Json& list) {
 using Lister = std::function<Json(const Library&)>;
 const std::map<std::string, Lister>& listers() {
   static const std::map<std::string, Lister> all = {
-      {"characters", list_characters}, {"parts", list_parts}, {"actions", list_actions}, {"checks", list_checks}};
+      {"characters", list_characters}, {"parts", list_parts}, {"actions", list_actions}, {"checks", list_checks},
+      {"profiles", list_profiles}};
   return all;
 }
 
@@ -176,8 +185,8 @@ void add_list(CLI::App& app, Context& context) {
     bool markdown = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("list", "List characters, parts, actions or checks");
-  command->add_option("WHAT", options->what, "characters, parts, actions or checks")
+  CLI::App* command = app.add_subcommand("list", "List characters, parts, actions, checks or profiles");
+  command->add_option("WHAT", options->what, "characters, parts, actions, checks or profiles")
       ->required()
       ->check(CLI::IsMember(listers()));
   command->add_flag("--json", options->json, "Print as JSON");

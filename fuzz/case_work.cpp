@@ -64,7 +64,7 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
 Spec CaseWork::spec_of(const CaseTask& task) const {
   const std::int64_t index = task.lineage.back();
   if (is_seed(config_, index)) return config_.seeds[static_cast<std::size_t>(index)];
-  return compose(raw_of(config_.seed, task.lineage), config_.draw, library_);
+  return compose(raw_of(odds_of(config_.seed, config_.draw.profile), task.lineage), config_.draw, library_);
 }
 
 CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {

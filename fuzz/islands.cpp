@@ -21,9 +21,9 @@ int island_of_target(const std::string& family) {
   return static_cast<int>((hash.value() >> 16) % kIslands);
 }
 
-Lineage Island::lineage_of(std::int64_t seed, std::int64_t index) const {
-  if (pools.empty() || !wants_guidance(seed, index)) return {index};
-  Dice dice(seed, index, kParentStream);
+Lineage Island::lineage_of(const Odds& odds, std::int64_t index) const {
+  if (pools.empty() || !wants_guidance(odds, index)) return {index};
+  Dice dice(odds.seed, index, kParentStream);
   const std::vector<PoolEntry>& pool = std::next(pools.begin(), dice.below(static_cast<int>(pools.size())))->second;
   Lineage lineage = pool[static_cast<std::size_t>(dice.below(static_cast<int>(pool.size())))].lineage;
   lineage.push_back(index);

@@ -40,7 +40,7 @@ struct PoolEntry {
 class Island {
  public:
   // The ancestry of case `index`: a mutation of one of the pool where there is any and the case wants it.
-  Lineage lineage_of(std::int64_t seed, std::int64_t index) const;
+  Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
   // What a case showed, in the order of cases.
   void learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<std::string>& broken);

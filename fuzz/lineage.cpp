@@ -16,20 +16,23 @@ std::string_view arm_name(Arm arm) {
   return kNames[static_cast<std::size_t>(arm)];
 }
 
-bool wants_guidance(std::int64_t seed, std::int64_t index) { return Dice(seed, index, kChoice).below(100) < 50; }
+bool wants_guidance(const Odds& odds, std::int64_t index) {
+  return Dice(odds.seed, index, kChoice).below(100) < 100.0 * odds.guided;
+}
 
-// Of 50 that are not guided 15 are even; the rest have corners, or features left out, or both, or neither.
-Arm unguided(std::int64_t seed, std::int64_t index) {
-  Dice dice(seed, index, kChoice);
+// A share is even; the rest have corners, or features left out, or both, or neither.
+Arm unguided(const Odds& odds, std::int64_t index) {
+  Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
-  if (dice.below(50) < 15) return Arm::uniform;
+  if (dice.below(50) < 50.0 * odds.uniform) return Arm::uniform;
   constexpr Arm kMixed[] = {Arm::uniform, Arm::corners, Arm::swarm, Arm::corners_and_swarm};
   return kMixed[dice.below(4)];
 }
 
-RawSpec raw_of(std::int64_t seed, const Lineage& lineage) {
+RawSpec raw_of(const Odds& odds, const Lineage& lineage) {
+  const std::int64_t seed = odds.seed;
   RawSpec raw = draw_raw(seed, lineage.front());
-  const Arm arm = unguided(seed, lineage.front());
+  const Arm arm = unguided(odds, lineage.front());
   Dice dice(seed, lineage.front(), kChange);
   if (arm == Arm::corners || arm == Arm::corners_and_swarm) go_to_corners(raw, dice);
   if (arm == Arm::swarm || arm == Arm::corners_and_swarm) leave_out(raw, dice);

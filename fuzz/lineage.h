@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/profile.h"
 #include "fuzz/raw.h"
 
 namespace contort {
@@ -18,14 +19,21 @@ inline constexpr int kArms = 5;
 
 using Lineage = std::vector<std::int64_t>;  // never empty
 
-// How case `index` is made: half of all cases are to be guided. Where there is nothing to be guided by yet, `unguided`
-// is the arm instead.
-bool wants_guidance(std::int64_t seed, std::int64_t index);
-Arm unguided(std::int64_t seed, std::int64_t index);
-inline Arm arm_of(std::int64_t seed, const Lineage& lineage) {
-  return lineage.size() > 1 ? Arm::guided : unguided(seed, lineage.front());
+// Of which run a case is, as far as its making goes.
+struct Odds {
+  std::int64_t seed = 1;
+  double guided = Profile{}.guided;
+  double uniform = Profile{}.uniform;
+};
+inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, profile.guided, profile.uniform}; }
+
+// How case `index` is made. Where there is nothing to be guided by yet, `unguided` is the arm instead.
+bool wants_guidance(const Odds& odds, std::int64_t index);
+Arm unguided(const Odds& odds, std::int64_t index);
+inline Arm arm_of(const Odds& odds, const Lineage& lineage) {
+  return lineage.size() > 1 ? Arm::guided : unguided(odds, lineage.front());
 }
 
-RawSpec raw_of(std::int64_t seed, const Lineage& lineage);
+RawSpec raw_of(const Odds& odds, const Lineage& lineage);
 
 }  // namespace contort

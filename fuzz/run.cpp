@@ -104,7 +104,7 @@ class Run {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
       const Island& pools = state_.islands[static_cast<std::size_t>(island)];
-      const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(config_.seed, index);
+      const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index);
       round_.push_back({{lineage, {}, {}, {}}, {}});
     }
     open_ = static_cast<int>(round_.size());
@@ -176,7 +176,7 @@ class Run {
     RunRecord& record = state_.record;
     const std::int64_t index = task.lineage.back();
     const std::string arm_name(is_seed(config_, index) ? "seed"
-                                                       : contort::arm_name(arm_of(config_.seed, task.lineage)));
+                                                       : contort::arm_name(arm_of(odds_, task.lineage)));
     ArmCount& arm = record.arms[arm_name];
     ++record.cases, ++arm.cases;
     record.frames += report.frames;
@@ -312,6 +312,7 @@ class Run {
   const Corpus& corpus_;
   const std::function<void(const RunProgress&)>& progress_;
   const std::function<bool()>& stop_;
+  const Odds odds_ = odds_of(config_.seed, config_.draw.profile);
   const double start_s_ = steady_s();
   double next_keep_s_ = steady_s() + kKeepEvery_s;
   RunState state_;

@@ -148,8 +148,10 @@ void WorkerPool::start(Worker& worker) {
   worker.received.clear();
 }
 
-// In the child. An interrupt at the terminal goes to the whole group; the pool decides what it means.
-void WorkerPool::serve(int socket, WorkerSlot& slot) {
+// In the child. An interrupt at the terminal goes to the whole group; the pool decides what it means. noexcept: an
+// exception ends the child by SIGABRT; it must not unwind into the caller's copy of the stack, where the pool's
+// destructor would kill whom it takes for its workers, the whole process group among them.
+void WorkerPool::serve(int socket, WorkerSlot& slot) noexcept {
   ::signal(SIGINT, SIG_IGN);
   ::signal(SIGTERM, SIG_DFL);
   std::string task;

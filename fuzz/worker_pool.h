@@ -76,7 +76,7 @@ class WorkerPool {
   };
 
   void start(Worker& worker);
-  [[noreturn]] void serve(int socket, WorkerSlot& slot);
+  [[noreturn]] void serve(int socket, WorkerSlot& slot) noexcept;
   std::optional<WorkerEvent> receive(int index);
   std::optional<WorkerEvent> over_limit(int index);
   WorkerEvent bury(int index, WorkerEnd end);

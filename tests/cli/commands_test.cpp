@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "corpus/isolate.h"
+#include "fuzz/profile.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_library.h"
 #include "tests/corpus/sample_cases.h"
@@ -137,6 +138,16 @@ TEST_F(Commands, GenerateWritesATableOfNumbersToo) {
   const Json table = Json::parse(slurp(path), nullptr, false);
   ASSERT_TRUE(table.is_object());
   EXPECT_EQ(table["frames"].size(), 61U);
+}
+
+TEST_F(Commands, BuiltInProfilesArePrintedAsFilesOfThem) {
+  const Json list = Json::parse(contort_program({"list", "profiles", "--json"}).out, nullptr, false);
+  ASSERT_EQ(list.size(), built_in_profiles().size());
+  for (const Json& entry : list) {
+    const Result<Profile> read = parse_profile(entry["profile"].dump());
+    ASSERT_TRUE(read) << to_line(read.issue());
+    EXPECT_EQ(*read, *load_profile(entry["name"].get<std::string>()));
+  }
 }
 
 TEST_F(Commands, FuzzFindsAndReplayConfirms) {

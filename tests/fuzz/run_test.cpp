@@ -111,6 +111,15 @@ TEST_F(Runs, AreRecordedInTheCorpus) {
   }
 }
 
+TEST_F(Runs, WithoutGuidanceAreEven) {
+  RunConfig config = config_of(600, 2);
+  config.draw.profile.guided = 0.0, config.draw.profile.uniform = 1.0;
+  const RunResult result = run(config, create(folder_ / "even"));
+  ASSERT_EQ(result.record.arms.size(), 1U);
+  EXPECT_EQ(result.record.arms.at("uniform").cases, 600);
+  EXPECT_NE(run_name(config), run_name(config_of(600, 2)));
+}
+
 TEST_F(Runs, OfDifferentCharactersAreDifferentRuns) {
   const Corpus corpus = create(folder_ / "corpus");
   for (const char* name : {"small", "human"}) {

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <thread>
 
 namespace contort {
@@ -17,6 +18,7 @@ std::string obey(const std::string& task, WorkerSlot& slot) {
   slot.note("doing " + task);
   if (task == "crash") ::raise(SIGSEGV);
   if (task == "abort") ::abort();
+  if (task == "throw") throw std::runtime_error("as told");
   if (task == "exit") ::_exit(3);
   if (task == "hang")
     for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -58,7 +60,7 @@ TEST(WorkerPool, GivesRepliesOfAnyLength) {
 
 TEST(WorkerPool, NamesTheSignalAndWhatWasBeingDone) {
   for (const auto& [task, name] : std::map<std::string, std::string>{
-           {"crash", "SIGSEGV"}, {"abort", "SIGABRT"}, {"exit", "exit 3"}}) {
+           {"crash", "SIGSEGV"}, {"abort", "SIGABRT"}, {"throw", "SIGABRT"}, {"exit", "exit 3"}}) {
     const WorkerEvent event = outcome_of(task);
     EXPECT_EQ(event.end, WorkerEnd::crashed);
 #ifndef __SANITIZE_ADDRESS__  // which takes signals for itself and exits
