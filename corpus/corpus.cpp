@@ -1,6 +1,10 @@
 #include "corpus/corpus.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "corpus/bucket_files.h"
@@ -26,11 +30,10 @@ Result<Case> read_case(const std::string& path) {
 Result<Corpus> Corpus::create(const std::string& folder) {
   for (const char* sub : {"/buckets", "/leads", "/runs"})
     if (const Result<Done> made = make_folder(folder + sub); !made) return made.issue();
-  // A folder that exists may still be read-only: find out now, not after an hour of fuzzing.
-  const std::string probe = folder + "/leads/.probe";
-  if (const Result<Done> written = write_file(probe, ""); !written) return written.issue();
-  std::error_code ignored;
-  fs::remove(probe, ignored);
+  // A folder that exists may still be read-only: find out now, not after an hour of fuzzing. Without a file, which a kill
+  // would leave behind.
+  if (::access((folder + "/leads").c_str(), W_OK | X_OK) != 0)
+    return Issue{"file.unwritable", "", "cannot write into " + folder + "/leads: " + std::strerror(errno)};
   // Made here, so that whether a corpus was locked yet makes no difference.
   if (const Result<CorpusLock> lock = CorpusLock::take(folder); !lock) return lock.issue();
   return Corpus(folder);

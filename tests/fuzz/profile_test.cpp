@@ -101,7 +101,7 @@ TEST(Profile, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,2],"high":[3,4]}])"), "profile.bad_rule at /rules/0/low");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[2],"high":[1]}])"), "profile.no_range at /rules/0/high/0");
   EXPECT_EQ(refused(R"("rules":[{"param":"sped_m_s","low":[0],"high":[1]}])"), "profile.unknown_name at /rules/0/param");
-  EXPECT_EQ(refused(R"("rules":[{"slots":["tail"],"never":true}])"), "profile.unknown_name at /rules/0/slots/0");
+  EXPECT_EQ(refused(R"("rules":[{"slots":["wing"],"never":true}])"), "profile.unknown_name at /rules/0/slots/0");
   EXPECT_EQ(refused(R"("rules":[{"actions":["fly"],"never":true}])"), "profile.unknown_name at /rules/0/actions/0");
   EXPECT_EQ(refused(R"("shortest_frames":30,"longest_frames":20)"), "profile.no_range at /longest_frames");
 }

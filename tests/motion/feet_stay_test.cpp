@@ -49,7 +49,7 @@ std::vector<std::string> of_feet(const Spec& spec) {
 
 class FeetStay : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Of, FeetStay, ::testing::Values("human", "mech", "quadruped"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& of) { return of.param; });
 
 TEST_P(FeetStay, WhereOneFollowsAnother) {
   EXPECT_EQ(of_feet(spec_of(GetParam(), {legs(GetParam(), "crouch", 0, 60, 0, {{"share", 0.1}}),
