@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "generator/actions/hand.h"
-#include "generator/core/detmath.h"
+#include "generator/happened.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/kinematics.h"
 #include "generator/motion/root_blend.h"
@@ -27,8 +27,7 @@ class Generation {
     motion_.coords.resize(static_cast<std::size_t>(motion_.frame_count) *
                           static_cast<std::size_t>(motion_.coord_count));
     motion_.root.resize(static_cast<std::size_t>(motion_.frame_count));
-    const std::span<const QueueSpan> history = s_.queue.history();
-    motion_.queue.assign(history.begin(), history.end());
+    motion_.queue.assign(s_.queue.history().begin(), s_.queue.history().end());
   }
 
  private:
@@ -39,17 +38,15 @@ class Generation {
     motion_.coord_count = character_.coord_count();
     motion_.coords.resize(frames * static_cast<std::size_t>(character_.coord_count()));
     motion_.root.resize(frames);
-    motion_.spans.clear();
+    motion_.spans.clear(), motion_.aims.clear();
     // Every action may be cut once by every interrupt.
     motion_.spans.reserve(timeline_.actions.size() * (1 + timeline_.interrupts.size()));
     s_.queue.start(timeline_.sequences, timeline_.interrupts, timeline_.queued);
     s_.signals.assign(timeline_.interrupts.size(), 0);
     s_.stacks.assign(character_.parts().size(), {});
     s_.feedback.assign(character_.parts().size(), {});
-    s_.additive_spans.assign(timeline_.actions.size(), -1);
-    s_.aim_spans.assign(timeline_.actions.size(), -1);
+    s_.additive_spans.assign(timeline_.actions.size(), -1), s_.aim_spans.assign(timeline_.actions.size(), -1);
     s_.added.assign(character_.parts().size(), 0);
-    motion_.aims.clear();
     s_.world.resize(character_.joints().size());
     s_.bodies.assign(static_cast<std::size_t>(timeline_.use_count), {});
     s_.base.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
@@ -63,12 +60,13 @@ class Generation {
   // At rest on level ground; elsewhere hips and feet fit themselves to what is beneath.
   void stand_up() {
     const Vec3& at = stage_.start.p_m;
+    Gait gait;
+    gait.begin(character_, stage_.legs, stage_.environment, stage_.start, {});
+    soles_ = gait.first_soles();
     if ((stage_.environment.is_level() && !stage_.bends) || stage_.legs.empty()) {
       s_.base.root.p_m.y += stage_.environment.height_at(at.x, at.z);
       return;
     }
-    Gait gait;
-    gait.begin(character_, stage_.legs, stage_.environment, stage_.start, {});
     const GaitFrame frame = gait.stand(0.0);
     s_.base.root = frame.root;
     forward_kinematics(character_, s_.base.root, s_.base.coords, s_.world);
@@ -86,8 +84,7 @@ class Generation {
   void make_frame(int frame) {
     frame_ = frame;
     s_.queue.advance(frame, s_.signals);
-    for (Feedback& feedback : s_.feedback) feedback = {};
-    for (char& added : s_.added) added = 0;
+    std::ranges::fill(s_.feedback, Feedback{}), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(static_cast<std::size_t>(p));
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) mark_aim(p);
     signal();
@@ -100,27 +97,7 @@ class Generation {
   void signal() {
     for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
       const PlannedInterrupt& interrupt = timeline_.interrupts[i];
-      if (!PlayQueue::knows(interrupt.when.event)) s_.signals[i] = happened(interrupt);
-    }
-  }
-
-  bool happened(const PlannedInterrupt& interrupt) const {
-    const auto told = [&](bool Feedback::*what) { return s_.feedback[static_cast<std::size_t>(interrupt.part)].*what; };
-    switch (interrupt.when.event) {
-      case Event::contact: return told(&Feedback::contact);
-      case Event::aim_reached: return told(&Feedback::aim_reached);
-      case Event::impact:
-        return std::any_of(s_.feedback.begin(), s_.feedback.end(), [](const Feedback& f) { return f.impact; });
-      case Event::near_obstacle: {
-        const Surface surface = stage_.environment.nearest_obstacle(s_.shown.root.p_m);
-        return surface.obstacle >= 0 && surface.distance_m <= interrupt.when.distance_m &&
-               (interrupt.obstacle < 0 || interrupt.obstacle == surface.obstacle);
-      }
-      case Event::ground_steeper: {
-        const Vec3 normal = stage_.environment.normal_at(s_.shown.root.p_m.x, s_.shown.root.p_m.z);
-        return normal.y < det::cos(interrupt.when.slope_deg * kRadPerDeg);
-      }
-      default: return false;
+      if (!PlayQueue::knows(interrupt.when.event)) s_.signals[i] = happened(interrupt, stage_, s_.feedback, s_.shown.root);
     }
   }
 
@@ -129,15 +106,16 @@ class Generation {
     const Hold ik = winner(stack.ik, Layer::ik, p);
     // One that starts in this frame has moved nothing yet: what had the layer ends as if nobody came.
     const bool follows = stack.ik.action >= 0 && ik.action >= 0 && ik.since < frame_;
-    if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows && (places_legs(stack.ik) || !(planned(stack.ik).blend_out > 0.0)))
+    if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows &&
+        (places_foot(stack.ik, p) || !(planned(stack.ik).blend_out > 0.0)))
       settle(p, stack.overwrite);
     take_over(stack.overwrite, winner(stack.overwrite, Layer::overwrite, p), p, s_.base, s_.from_overwrite);
     if (stack.overwrite.action >= 0) move(p, stack.overwrite, s_.from_overwrite, s_.from_overwrite, s_.base);
     take_over(stack.ik, ik, p, follows ? s_.plain : s_.base, s_.from_ik);
     if (stack.ik.action >= 0) {
       move(p, stack.ik, s_.from_ik, s_.base, s_.plain);
+      if (p == 0 && places_legs(stack.ik)) remember_place(body_of(stack.ik).frame);
       fade(p, stack.ik);
-      if (p == 0 && places_legs(stack.ik)) s_.stands_at = body_of(stack.ik).frame.stands_at;
     } else {
       copy_part(character_, p, s_.base, s_.plain);
     }
@@ -214,10 +192,11 @@ class Generation {
 
   void begin(Hold& hold, std::size_t p, const Posture& present, Posture& from) {
     copy_part(character_, p, present, from);
-    if (p == 0) s_.root_beneath = s_.base.root;
     const PlannedAction& action = planned(hold);
     hold.came = std::max(action.start, static_cast<double>(run_of(hold).first_content));
-    hold.eased = action.def->timing == Timing::goal ? blended_in(action, hold.came, content(hold) - 1) : 0.0;
+    hold.eased = action.def->timing == Timing::goal ? blended_in(action, hold.came, content(hold) - 1)
+                                                    : static_cast<double>(stands_for(hold, p));
+    if (p == 0 && places_legs(hold)) s_.bodies[static_cast<std::size_t>(action.use)].seen_soles = soles_;
     hold.span = add_span(action);
     hold.frame = frame_;
   }
@@ -230,6 +209,7 @@ class Generation {
   // An ik action has ended: what it reached is the base now, and an overwrite beneath goes on from there.
   void settle(std::size_t p, Hold& overwrite) {
     copy_part(character_, p, s_.plain, s_.base);
+    if (p == 0) base_stands_at_ = s_.stands_at;
     if (overwrite.action < 0) return;
     copy_part(character_, p, s_.plain, s_.from_overwrite);
     overwrite.eased = blended_in(planned(overwrite), overwrite.came, content(overwrite) - 1);
@@ -261,7 +241,6 @@ class Generation {
     copy_part(character_, p, beneath, s_.target);
     const double eased = come_in(hold);
     apply(planned(hold), p, from, hold.came, hold.frame, eased, content(hold));
-    if (places_legs(hold) && p != 0) return copy_part(character_, p, s_.target, out);
     const double left = 1.0 - hold.eased;
     const double weight = left > 1e-9 ? (eased - hold.eased) / left : 1.0;
     blend(p, hold, from, s_.target, weight, out);
@@ -279,12 +258,15 @@ class Generation {
   }
 
   // Legs under a root that blends put their feet where they belong: blended angles would have them slide.
+  bool places_foot(const Hold& hold, std::size_t p) const {
+    return places_legs(hold) && p != 0 && hold.eased >= 1.0;
+  }
   bool places_legs(const Hold& hold) const { return planned(hold).def->spread == Spread::legs; }
 
   void fade(std::size_t p, const Hold& hold) {
-    if (places_legs(hold) && p != 0) return;
+    if (places_foot(hold, p)) return;
     const double left = not_blended_out(planned(hold), content(hold));
-    if (places_legs(hold) && left < 1.0) s_.base.root = root_beneath(hold);
+    if (places_legs(hold) && left < 1.0) bring_base_along();
     blend(p, hold, s_.base, s_.plain, left, s_.plain);
   }
 
@@ -294,10 +276,23 @@ class Generation {
     if (places_legs(hold)) out.root = blend_root(below(), a.root, root, weight);
   }
 
+  // Whether a leg or foot is where the last course of legs put it. No action that blends its joints has moved it since.
+  bool stands_for(const Hold& next, std::size_t p) const {
+    const GenerateScratch::Stack& stack = s_.stacks[p];
+    const int last = stack.ik.since_action;
+    return places_legs(next) && p != 0 && stack.overwrite.since_action < 0 &&
+           (last < 0 || timeline_.actions[static_cast<std::size_t>(last)].def->spread == Spread::legs);
+  }
+
+  void remember_place(const GaitFrame& frame) {
+    s_.stands_at = frame.stands_at;
+    for (std::size_t i = 0; i < stage_.legs.size(); ++i) soles_[i] = frame.feet[i].world_from_sole;
+  }
+
   // Who has gone somewhere stays there: what is faded to comes along.
-  Rigid root_beneath(const Hold& hold) const {
-    const WholeBody& body = body_of(hold);
-    return brought_along(below(), s_.root_beneath, body.gait.world_from_start(), body.frame.stands_at);
+  void bring_base_along() {
+    s_.base.root = brought_along(below(), s_.base.root, base_stands_at_, s_.stands_at);
+    base_stands_at_ = s_.stands_at;
   }
   const WholeBody& body_of(const Hold& hold) const { return s_.bodies[static_cast<std::size_t>(planned(hold).use)]; }
 
@@ -377,6 +372,8 @@ class Generation {
   GenerateScratch& s_;
   Motion& motion_;
   int frame_ = 0;
+  std::array<Rigid, kMaxLegs> soles_;    // where legs have put the feet
+  Rigid base_stands_at_ = stage_.start;  // where legs had carried the character when the base's root was made
 };
 
 }  // namespace

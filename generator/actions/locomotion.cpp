@@ -3,7 +3,6 @@
 
 #include "generator/actions/action.h"
 #include "generator/core/detmath.h"
-#include "generator/motion/kinematics.h"
 
 namespace contort {
 
@@ -49,13 +48,22 @@ bool is_root_with_legs(const Character& character, const Part& part) {
 
 bool is_root(const RuleInput& in) { return &in.part == in.character.parts().data(); }
 
+// Where a foot goes while the course comes in: what it is off at first goes away with the blend.
+Rigid blended_sole(const RuleInput& in, std::size_t leg) {
+  const Rigid& wanted = in.body.frame.feet[leg].world_from_sole;
+  const double left = 1.0 - in.came_in;
+  const Rigid& seen = in.body.seen_soles[leg];
+  const Rigid& first = in.body.first_soles[leg];
+  if (left <= 0.0 || seen == first) return wanted;
+  const Quat off = seen.q * glm::conjugate(first.q) * wanted.q;
+  return {slerp_short(wanted.q, off, left), wanted.p_m + left * (seen.p_m - first.p_m)};
+}
+
 // The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
 template <class Make>
 const GaitFrame& frame_of(const RuleInput& in, Make make) {
   WholeBody& body = in.body;
   if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) {
-    for (std::size_t i = 0; i < in.legs.size(); ++i)
-      body.seen_soles[i] = world_from_socket(in.character, in.world, in.legs[i].sole);
     body.gait.begin(in.character, in.legs, in.environment, in.stands_at,
                     std::span(body.seen_soles).first(in.legs.size()));
     body.first_soles = body.gait.first_soles();
@@ -66,19 +74,9 @@ const GaitFrame& frame_of(const RuleInput& in, Make make) {
   body.frame = make(body.gait);
   for (std::size_t i = 0; i < in.legs.size(); ++i)
     body.lands[i] = body.made_in >= 0 && body.frame.feet[i].stands && !before.feet[i].stands;
+  for (std::size_t i = 0; i < in.legs.size(); ++i) body.frame.feet[i].world_from_sole = blended_sole(in, i);
   body.made_in = in.frame;
   return body.frame;
-}
-
-// Where a foot goes while the course comes in: what it is off at first goes away with the blend.
-Rigid blended_sole(const RuleInput& in, std::size_t leg) {
-  const Rigid& wanted = in.body.frame.feet[leg].world_from_sole;
-  const double left = 1.0 - in.came_in;
-  if (left <= 0.0) return wanted;
-  const Rigid& seen = in.body.seen_soles[leg];
-  const Rigid& first = in.body.first_soles[leg];
-  const Quat off = seen.q * glm::conjugate(first.q) * wanted.q;
-  return {slerp_short(wanted.q, off, left), wanted.p_m + left * (seen.p_m - first.p_m)};
 }
 
 template <class Make>
@@ -88,7 +86,7 @@ void follow(const RuleInput& in, Posture& posture, Make make) {
   if (part == 0) posture.root = frame.root;
   for (std::size_t i = 0; i < in.legs.size(); ++i) {
     const Leg& leg = in.legs[i];
-    const Rigid sole = blended_sole(in, i);
+    const Rigid& sole = frame.feet[i].world_from_sole;
     if (leg.part == part) place_foot(in.character, leg, in.world, sole, posture.coords);
     if (leg.foot_part == part && leg.part != part)
       level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
