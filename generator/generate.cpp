@@ -273,7 +273,7 @@ class Generation {
   void blend(std::size_t p, const Hold& hold, const Posture& a, const Posture& b, double weight, Posture& out) const {
     const Rigid root = b.root;  // out may be b
     blend_part(character_, p, a, b, weight, out);
-    if (places_legs(hold)) out.root = blend_root(below(), a.root, root, weight);
+    if (p == 0 && places_legs(hold)) out.root = blend_root(below(), a.root, root, weight);
   }
 
   // Whether a leg or foot is where the last course of legs put it. No action that blends its joints has moved it since.

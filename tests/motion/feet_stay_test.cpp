@@ -35,13 +35,13 @@ Stage stage_of(const Spec& spec) {
   return std::move(stage).value();
 }
 
-// Findings of feet: "foot_slide foot_left/foot at 61, -0.03 m".
+// Findings of feet, and jumps: "foot_slide foot_left/foot at 61, -0.03 m".
 std::vector<std::string> of_feet(const Spec& spec) {
   const Stage stage = stage_of(spec);
   Evaluator evaluator;
   std::vector<std::string> found;
   for (const Finding& finding : evaluator.run(stage).findings)
-    if (finding.check == "foot_slide" || finding.check == "ground_penetration")
+    if (finding.check == "foot_slide" || finding.check == "ground_penetration" || finding.check == "pop")
       found.push_back(finding.check + " " + finding.subject + " at " + std::to_string(finding.worst_frame) + ", " +
                       std::to_string(finding.worst_margin) + " m");
   return found;
@@ -55,6 +55,13 @@ TEST_P(FeetStay, WhereOneFollowsAnother) {
   EXPECT_EQ(of_feet(spec_of(GetParam(), {legs(GetParam(), "crouch", 0, 60, 0, {{"share", 0.1}}),
                                          legs(GetParam(), "walk", 60, 180, 20, {{"speed_m_s", 0.6}}),
                                          legs(GetParam(), "squat", 240, 90, 20, {{"share", 0.1}})})),
+            std::vector<std::string>{});
+}
+
+TEST_P(FeetStay, WhereOneFadesOutAndTheNextComesIn) {
+  EXPECT_EQ(of_feet(spec_of(GetParam(), {legs(GetParam(), "crouch", 0, 60, 20, {{"share", 0.1}, {"back_m", 0.05}}),
+                                         legs(GetParam(), "crouch", 60, 90, 20, {{"share", 0.1}, {"lean_deg", 10.0}}),
+                                         legs(GetParam(), "walk", 150, 180, 20, {{"speed_m_s", 0.5}})})),
             std::vector<std::string>{});
 }
 
