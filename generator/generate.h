@@ -37,7 +37,6 @@ struct GenerateScratch {
   std::vector<char> added;          // by part: an additive moved it in this frame
   Posture base;                     // what the overwrite layer has made
   Rigid stands_at;                  // where legs have carried the character: a turn about +Y and a place on the ground
-  Rigid root_beneath;               // of the base, where the present action on it began
   Posture plain;                    // with ik, without additives: what was seen last, but for these
   Posture from_overwrite;           // where the actions that have the layers took over
   Posture from_ik;
