@@ -104,7 +104,7 @@ struct WholeBody {
   int begun = -1;    // frame in which the root was taken
   int made_in = -1;  // frame of `frame`
   std::array<bool, kMaxLegs> lands{};
-  std::array<Rigid, kMaxLegs> seen_soles{};   // in the frame before, world
+  std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   std::array<double, kMaxAimCoords> first_aim{};  // of the chain
   std::array<double, kMaxAimCoords> aimed{};
