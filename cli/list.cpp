@@ -116,7 +116,6 @@ void print_params(const Json& action) {
   }
 }
 
-// docs/actions.md is this, and a test compares them.
 // Each as the file that a profile of one's own may start from.
 Json list_profiles(const Library&) {
   Json list = Json::array();
@@ -125,6 +124,7 @@ Json list_profiles(const Library&) {
   return list;
 }
 
+// docs/actions.md is this, and a test compares them.
 void print_markdown(const Json& list) {
   std::printf("# Actions\n\nWritten by `contort list actions --markdown`. Layers and timings: `docs/timeline.md`.\n");
   for (const Json& action : list) {

@@ -41,9 +41,11 @@ void fields(V& v, const RunRecord*) {
   v.field("frames", &RunRecord::frames, run_rules::kTotal, "Frames that they had.");
   v.field("failing", &RunRecord::failing, run_rules::kTotal, "Cases with at least one finding.");
   v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that did not build.");
-  v.field("tested", &RunRecord::tested, {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = json_fields::Text::label},
+  using json_fields::Text;
+  v.field("tested", &RunRecord::tested,
+          {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = Text::label},
           "What the cases were made of.");
-  v.field("families", &RunRecord::families, {.max_count = run_rules::kMostEntries, .key_text = json_fields::Text::prose},
+  v.field("families", &RunRecord::families, {.max_count = run_rules::kMostEntries, .key_text = Text::prose},
           "Failures, by family.");
   v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");
 }

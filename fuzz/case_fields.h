@@ -1,4 +1,5 @@
-// Field lists (json_fields.h) of what workers are asked and answer, and of what a run keeps. Included from .cpp files only.
+// Field lists (json_fields.h) of what workers are asked and answer, and of what a run keeps. Included from .cpp files
+// only.
 #pragma once
 
 #include "corpus/run_fields.h"

@@ -38,14 +38,16 @@ class Generation {
     motion_.coord_count = character_.coord_count();
     motion_.coords.resize(frames * static_cast<std::size_t>(character_.coord_count()));
     motion_.root.resize(frames);
-    motion_.spans.clear(), motion_.aims.clear();
+    motion_.spans.clear();
+    motion_.aims.clear();
     // Every action may be cut once by every interrupt.
     motion_.spans.reserve(timeline_.actions.size() * (1 + timeline_.interrupts.size()));
     s_.queue.start(timeline_.sequences, timeline_.interrupts, timeline_.queued);
     s_.signals.assign(timeline_.interrupts.size(), 0);
     s_.stacks.assign(character_.parts().size(), {});
     s_.feedback.assign(character_.parts().size(), {});
-    s_.additive_spans.assign(timeline_.actions.size(), -1), s_.aim_spans.assign(timeline_.actions.size(), -1);
+    s_.additive_spans.assign(timeline_.actions.size(), -1);
+    s_.aim_spans.assign(timeline_.actions.size(), -1);
     s_.added.assign(character_.parts().size(), 0);
     s_.world.resize(character_.joints().size());
     s_.bodies.assign(static_cast<std::size_t>(timeline_.use_count), {});
@@ -54,7 +56,6 @@ class Generation {
     s_.stands_at = stage_.start;
     stand_up();
     s_.plain = s_.from_overwrite = s_.from_ik = s_.target = s_.shown = s_.base;
-    forward_kinematics(character_, s_.base.root, s_.base.coords, s_.world);  // where feet are before the first frame
   }
 
   // At rest on level ground; elsewhere hips and feet fit themselves to what is beneath.
@@ -97,7 +98,8 @@ class Generation {
   void signal() {
     for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
       const PlannedInterrupt& interrupt = timeline_.interrupts[i];
-      if (!PlayQueue::knows(interrupt.when.event)) s_.signals[i] = happened(interrupt, stage_, s_.feedback, s_.shown.root);
+      if (PlayQueue::knows(interrupt.when.event)) continue;
+      s_.signals[i] = happened(interrupt, stage_, s_.feedback, s_.shown.root);
     }
   }
 
@@ -231,8 +233,8 @@ class Generation {
     if (action.def->layer != Layer::overwrite) place(p, s_.target);  // a chain may hang on a joint of its own part
     const ActionTime time = time_of(action, came, content_frame);
     action.def->rule({character_, part, action.params, s_.world, time, stage_.start, stage_.environment, stage_.legs,
-                      s_.stands_at, action.aim.get(), action.keys.get(), action.easy_grip_m, from, frame_, took_over, came_in, s_.bodies[static_cast<std::size_t>(action.use)],
-                      s_.feedback[p]},
+                      s_.stands_at, action.aim.get(), action.keys.get(), action.easy_grip_m, from, frame_, took_over,
+                      came_in, s_.bodies[static_cast<std::size_t>(action.use)], s_.feedback[p]},
                      s_.target);
   }
 

@@ -236,7 +236,8 @@ Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) 
   return put_down(best_at, best);
 }
 
-// A foot stands where it was first until its first swing begins, and is home again from the step on whose middle comes after the end.
+// A foot stands where it was first until its first swing begins, and is home again from the step on whose middle comes
+// after the end.
 Rigid Gait::foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const {
   const double lifted_s = (step - 1 + params.duty - phase(params, leg)) * params.cycle_s;
   const double middle_s = (step + 0.5 * params.duty - phase(params, leg)) * params.cycle_s;

@@ -31,7 +31,8 @@ double draw_margin() {
 
 Case draw_case() {
   Case c;
-  c.spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), *rc::gen::inRange(0, 1000), *rc::gen::inRange(0, 1000));
+  c.spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), *rc::gen::inRange(0, 1000),
+                     *rc::gen::inRange(0, 1000));
   Expectation& e = c.expect;
   e.check = draw_text("abcxyz_09", 1, 20);
   e.subject = draw_text("arm_left/ ~\"\\<>", 1, 60);
