@@ -79,12 +79,12 @@ Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& l
   if (!options.profile.empty()) {
     Result<Profile> profile = load_profile(options.profile);
     if (!profile) return profile.issue();
-    if (const Result<Done> known = validate(*profile, library); !known) return known.issue();
     draw.profile = std::move(profile).value();
   }
   draw.characters = options.characters.empty() ? draw.profile.characters : options.characters;
   if (draw.characters.empty())
     for (const auto& [name, desc] : library.characters) draw.characters.push_back(name);
+  if (const Result<Done> good = validate(draw.profile, draw.characters, library); !good) return good.issue();
   for (const std::string& name : draw.characters)
     if (const auto built = build_character({name, {}, {}}, library); !built) return built.issue();
   return draw;
@@ -169,7 +169,8 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
     for (const auto& [arm, count] : t.arms)
       arms[arm] = {{"cases", count.cases}, {"failing", count.failing}, {"families", 0}};
     for (const auto& [family, count] : t.families)
-      if (arms.contains(count.first_arm)) arms[count.first_arm]["families"] = arms[count.first_arm]["families"].get<int>() + 1;
+      if (arms.contains(count.first_arm))
+        arms[count.first_arm]["families"] = arms[count.first_arm]["families"].get<int>() + 1;
     json_fields::Json out = {{"cases", t.cases},
                              {"frames", t.frames},
                              {"failing", t.failing},
@@ -280,8 +281,8 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--seeds", options->seeds,
                       "Folder of specs and cases (*.json) that run before all that is drawn, and on top of --cases");
   command->add_option("--shard", options->shard,
-                      "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or CI_NODE_ "
-                      "variables say)");
+                      "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or "
+                      "CI_NODE_ variables say)");
   command->add_flag("--resume", options->resume, "Go on where a run with the same options was killed");
   command->add_option("--case-timeout", options->case_timeout_s, "Seconds for one case; a longer one is a finding")
       ->check(CLI::Range(0.1, 86400.0))

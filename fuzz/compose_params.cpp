@@ -110,12 +110,14 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   return draw_uniform(def, values);
 }
 
+// What the rule and the parameter both allow; off the lattice where no step of it lies there.
 ParamValue draw_by_rule(const DrawRule& rule, const ParamDef& def, Values& values) {
   const double steps = steps_per_unit(def.name);
   const auto one = [&](std::size_t i) {
     const double low = std::max(def.low, rule.low[std::min(i, rule.low.size() - 1)]);
     const double high = std::min(def.high, rule.high[std::min(i, rule.high.size() - 1)]);
-    return within(low + (high - low) * values.next(), steps, low, high);
+    const double value = within(low + (high - low) * values.next(), steps, low, high);
+    return value < low || value > high ? low : value;
   };
   if (def.type == ParamType::number) return one(0);
   const double x = one(0), y = one(1), z = one(2);

@@ -1,11 +1,9 @@
 #include "fuzz/profile.h"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include "fuzz/profile_files.h"
-#include "generator/actions/action.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
@@ -24,8 +22,9 @@ void fields(V& v, const DrawRule*) {
   v.field("slots", &DrawRule::slots, kNames, "Of these slots; empty: all.");
   v.field("actions", &DrawRule::actions, kNames, "These actions; empty: all.");
   v.field("never", &DrawRule::never, {}, "They are not drawn.");
-  v.field("param", &DrawRule::param, {.may_be_empty = true}, "A parameter, blend_in_frames or blend_out_frames, which is drawn from low to high only.");
-  v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3}, "One number, or three of a vector.");
+  v.field("param", &DrawRule::param, {.may_be_empty = true},
+          "A number or vector among the parameters, blend_in_frames or blend_out_frames: drawn from low to high only.");
+  v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3}, "One number, or three of a vector; one counts for all three.");
   v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
 }
 
@@ -57,7 +56,8 @@ void fields(V& v, const Profile*) {
   v.field("guided", &Profile::guided, kOdds, "Share of the cases that are mutations of one that came near a limit.");
   v.field("uniform", &Profile::uniform, kOdds,
           "Share of the others that are drawn evenly; the rest has corner values, features left out, both or neither.");
-  v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53}, "Of a run, unless the command line says; 0: no opinion.");
+  v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53},
+          "Of a run, unless the command line says; 0: no opinion.");
   v.field("time", &Profile::time, {.may_be_empty = true}, "The same as a time: 45s, 10m, 2h.");
 }
 
@@ -78,7 +78,6 @@ const DrawRule* Profile::rule_for(std::string_view slot, std::string_view action
     if (rule.param == param && rule.speaks_of(slot, action)) last = &rule;
   return last;
 }
-
 
 namespace {
 
@@ -143,67 +142,6 @@ Result<Profile> load_profile(const std::string& name_or_path) {
   Issue issue = profile.issue();
   issue.text = name_or_path + ": " + issue.text;
   return issue;
-}
-
-namespace {
-
-Result<Done> check_known(const std::vector<std::string>& names, const std::set<std::string>& known,
-                         const std::string& field, const std::string& kind) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (!known.contains(names[i]))
-      return Issue{"profile.unknown_name", "/" + field + "/" + std::to_string(i),
-                   json_fields::quoted(names[i]) + " is none of the library's " + kind};
-  return Done{};
-}
-
-// Names that the library has.
-struct Known {
-  std::set<std::string> characters, slots, actions;
-  std::set<std::string> params = {"blend_in_frames", "blend_out_frames"};
-};
-
-void add_params(const CharacterChoice& choice, const Library& library, std::set<std::string>& params) {
-  const Result<Character> character = build_character(choice, library);
-  if (!character) return;
-  for (const Part& part : character->parts())
-    for (const Action& action : actions_of(*character, part))
-      for (const ParamDef& def : params_of(action, *character, part)) params.insert(def.name);
-}
-
-Known known_of(const Library& library) {
-  Known known;
-  for (const auto& [name, desc] : library.characters) {
-    known.characters.insert(name);
-    add_params({name, {}, {}}, library, known.params);
-    for (const SlotDesc& slot : desc.slots) {
-      known.slots.insert(slot.name);
-      for (const std::string& part : slot.parts) add_params({name, {{slot.name, part}}, {}}, library, known.params);
-    }
-  }
-  for (const ActionDef& action : all_actions()) known.actions.insert(std::string(action.name));
-  for (const ActionDesc& action : library.actions) known.actions.insert(action.name);
-  return known;
-}
-
-Result<Done> check_known(const DrawRule& rule, const Known& known, const std::string& field) {
-  if (!rule.param.empty() && !known.params.contains(rule.param))
-    return Issue{"profile.unknown_name", "/" + field + "/param",
-                 "no action has a parameter " + json_fields::quoted(rule.param)};
-  const Result<Done> slots = check_known(rule.slots, known.slots, field + "/slots", "slots");
-  return slots ? check_known(rule.actions, known.actions, field + "/actions", "actions") : slots;
-}
-
-}  // namespace
-
-Result<Done> validate(const Profile& profile, const Library& library) {
-  const Known known = known_of(library);
-  for (const auto& [names, of_library, field] : {std::tuple(&profile.characters, &known.characters, "characters"),
-                                                 std::tuple(&profile.slots, &known.slots, "slots"),
-                                                 std::tuple(&profile.actions, &known.actions, "actions")})
-    if (const Result<Done> all = check_known(*names, *of_library, field, field); !all) return all;
-  for (std::size_t i = 0; i < profile.rules.size(); ++i)
-    if (const Result<Done> all = check_known(profile.rules[i], known, "rules/" + std::to_string(i)); !all) return all;
-  return check_known(profile.grounds, {"plane", "slope", "steps", "heights"}, "grounds", "grounds");
 }
 
 }  // namespace contort

@@ -19,7 +19,8 @@ struct DrawRule {
   std::vector<std::string> actions;  // empty: all
   bool never = false;                // these actions are not drawn for these slots
   std::string param;                 // of these actions, "speed_m_s", or blend_in_frames, blend_out_frames; empty: none
-  std::vector<double> low;           // of the parameter, in its unit: one number, or three of a vector
+  std::vector<double> low;           // of the parameter, in its unit: one number, or three of a vector; what lies beyond
+                                     // the range that an action declares is left out
   std::vector<double> high;
   bool operator==(const DrawRule&) const = default;
 
@@ -65,7 +66,9 @@ Result<Profile> parse_profile(std::string_view json);
 std::string print_profile(const Profile& profile);
 std::string profile_schema();
 
-// Names that the library does not have are refused: a night that tests nothing must not look clean.
-Result<Done> validate(const Profile& profile, const Library& library);
+// What would test nothing, and look clean, is refused: names that the library does not have, a character that nothing
+// moves (profile.nothing_moves), rules for what is no number or vector, and ranges that a parameter does not have
+// (profile.bad_rule, .no_range). `characters` are those that will be drawn.
+Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, const Library& library);
 
 }  // namespace contort

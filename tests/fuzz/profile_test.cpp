@@ -24,7 +24,8 @@ Profile profile(const std::string& fields) {
 // "code at pointer", or "" where it is accepted.
 std::string refused(const std::string& fields) {
   Result<Profile> parsed = parse_profile(profile_json(fields));
-  Result<Done> good = parsed ? validate(*parsed, stock_library()) : Result<Done>(parsed.issue());
+  const Result<Done> good =
+      parsed ? validate(*parsed, {"human", "mech"}, stock_library()) : Result<Done>(parsed.issue());
   return good ? "" : good.issue().code + " at " + good.issue().pointer;
 }
 
@@ -93,14 +94,53 @@ TEST(Profile, WithoutOverlapsEachPartIsMovedByOneActionAtATime) {
   EXPECT_GT(most_at_once(profile(""), 200), 1);
 }
 
+// A spec that does not build is passed over, and a motion of which nothing moves is clean: neither may come of a rule.
+TEST(Profile, RulesThatWouldTestNothingAreRefused) {
+  EXPECT_EQ(refused(R"("rules":[{"never":true}])"), "profile.nothing_moves at ");
+  EXPECT_EQ(refused(R"("actions":["walk"],"slots":["head"])"), "profile.nothing_moves at ");
+  EXPECT_EQ(refused(R"("rules":[{"param":"lead","low":[0],"high":[1]}])"), "profile.bad_rule at /rules/0/param");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,1,1],"high":[1,1,1]}])"),
+            "profile.bad_rule at /rules/0/low");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[900],"high":[950]}])"), "profile.no_range at /rules/0/low/0");
+  EXPECT_EQ(refused(R"("rules":[{"slots":["head"],"param":"speed_m_s","low":[1],"high":[1]}])"),
+            "profile.unknown_name at /rules/0/param");
+  for (const char* frames : {"-5", "601", "2.5"})
+    EXPECT_EQ(refused(R"("rules":[{"param":"blend_in_frames","low":[)" + std::string(frames) + R"(],"high":[800]}])"),
+              "profile.bad_rule at /rules/0/low");
+  EXPECT_EQ(refused(R"("rules":[{"param":"blend_in_frames","low":[1,1,1],"high":[2,2,2]}])"),
+            "profile.bad_rule at /rules/0/low");
+}
+
+// Half beyond what walk declares, and between two steps of 0.1 m/s.
+TEST(Profile, ARuleIsKeptWithinWhatTheActionDeclares) {
+  int seen = 0;
+  for (const char* range : {R"("low":[-900],"high":[900])", R"("low":[0.33],"high":[0.36])"}) {
+    const Profile walks = profile(R"("slots":["waist"],"actions":["walk"],"rules":[{"actions":["walk"],"param":"speed_m_s",)" +
+                                  std::string(range) + "}]");
+    for (int i = 0; i < 200; ++i) {
+      const Spec spec = draw_spec({{"human"}, walks}, stock_library(), 1, i);
+      EXPECT_TRUE(build_stage(spec, stock_library())) << print_spec(spec);
+    }
+    const bool between_steps = std::string_view(range).starts_with(R"("low":[0.33])");
+    for_uses(walks, 200, [&](const ActionUse& use) {
+      if (use.action != "walk" || !between_steps) return;
+      EXPECT_EQ(std::get<double>(use.params.at("speed_m_s")), 0.33);
+      ++seen;
+    });
+  }
+  EXPECT_GT(seen, 100);
+}
+
 TEST(Profile, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(refused(""), "");
   EXPECT_EQ(refused(R"("rules":[{}])"), "profile.bad_rule at /rules/0");
-  EXPECT_EQ(refused(R"("rules":[{"never":true,"param":"speed_m_s","low":[0],"high":[1]}])"), "profile.bad_rule at /rules/0");
+  EXPECT_EQ(refused(R"("rules":[{"never":true,"param":"speed_m_s","low":[0],"high":[1]}])"),
+            "profile.bad_rule at /rules/0");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s"}])"), "profile.bad_rule at /rules/0/low");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,2],"high":[3,4]}])"), "profile.bad_rule at /rules/0/low");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[2],"high":[1]}])"), "profile.no_range at /rules/0/high/0");
-  EXPECT_EQ(refused(R"("rules":[{"param":"sped_m_s","low":[0],"high":[1]}])"), "profile.unknown_name at /rules/0/param");
+  EXPECT_EQ(refused(R"("rules":[{"param":"sped_m_s","low":[0],"high":[1]}])"),
+            "profile.unknown_name at /rules/0/param");
   EXPECT_EQ(refused(R"("rules":[{"slots":["wing"],"never":true}])"), "profile.unknown_name at /rules/0/slots/0");
   EXPECT_EQ(refused(R"("rules":[{"actions":["fly"],"never":true}])"), "profile.unknown_name at /rules/0/actions/0");
   EXPECT_EQ(refused(R"("shortest_frames":30,"longest_frames":20)"), "profile.no_range at /longest_frames");
@@ -111,7 +151,9 @@ TEST(Profile, BuiltInOnesAreGoodAndReadBack) {
     const Result<Profile> read = parse_profile(print_profile(built_in));
     ASSERT_TRUE(read) << built_in.name << to_line(read.issue());
     EXPECT_EQ(*read, built_in);
-    EXPECT_TRUE(validate(built_in, stock_library())) << built_in.name;
+    const std::vector<std::string> all = {"human", "mech", "quadruped"};
+    EXPECT_TRUE(validate(built_in, built_in.characters.empty() ? all : built_in.characters, stock_library()))
+        << built_in.name;
   }
 }
 

@@ -1,0 +1,139 @@
+// What a profile says, held against a library.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fuzz/profile.h"
+#include "generator/actions/action.h"
+#include "generator/core/json_fields.h"
+#include "generator/spec_fields.h"
+
+namespace contort {
+
+namespace {
+
+using json_fields::quoted;
+
+// An action that a character's part in a slot has.
+struct Movement {
+  std::string character, slot, action;
+  std::vector<ParamDef> params;
+};
+
+// Names that a library has, and what may be moved.
+struct Known {
+  std::set<std::string> characters, slots, actions;
+  std::vector<Movement> movements;
+};
+
+void add_movements(const CharacterChoice& choice, const Library& library, std::vector<Movement>& movements) {
+  const Result<Character> character = build_character(choice, library);
+  if (!character) return;
+  for (const Part& part : character->parts())
+    for (const Action& action : actions_of(*character, part))
+      movements.push_back(
+          {choice.name, part.slot, std::string(action.name), params_of(action, *character, part)});
+}
+
+Known known_of(const Library& library) {
+  Known known;
+  for (const auto& [name, desc] : library.characters) {
+    known.characters.insert(name);
+    add_movements({name, {}, {}}, library, known.movements);
+    for (const SlotDesc& slot : desc.slots) {
+      known.slots.insert(slot.name);
+      for (const std::string& part : slot.parts) add_movements({name, {{slot.name, part}}, {}}, library, known.movements);
+    }
+  }
+  for (const ActionDef& action : all_actions()) known.actions.insert(std::string(action.name));
+  for (const ActionDesc& action : library.actions) known.actions.insert(action.name);
+  return known;
+}
+
+Result<Done> check_known(const std::vector<std::string>& names, const std::set<std::string>& known,
+                         const std::string& pointer, const std::string& kind) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!known.contains(names[i]))
+      return Issue{"profile.unknown_name", pointer + "/" + std::to_string(i),
+                   quoted(names[i]) + " is none of the library's " + kind};
+  return Done{};
+}
+
+bool is_blend(std::string_view param) { return param == "blend_in_frames" || param == "blend_out_frames"; }
+
+Result<Done> check_blend(const DrawRule& rule, const std::string& pointer) {
+  const auto good = [](double frames) {
+    return frames >= kBlend.low && frames <= kBlend.high && std::floor(frames) == frames;
+  };
+  if (rule.low.size() == 1 && good(rule.low[0]) && good(rule.high[0])) return Done{};
+  return Issue{"profile.bad_rule", pointer + "/low", rule.param + " is one whole number, from 0 to " +
+                                                        json_fields::Json(kBlend.high).dump()};
+}
+
+// Whether a parameter can have a value that the rule allows.
+Result<Done> check_range(const DrawRule& rule, const ParamDef& def, const Movement& of, const std::string& pointer) {
+  const std::string whose = "of " + of.action + " in slot " + of.slot + " of " + of.character;
+  if (def.type != ParamType::number && def.type != ParamType::vector)
+    return Issue{"profile.bad_rule", pointer + "/param", quoted(def.name) + " " + whose + " is no number and no vector"};
+  if (def.type == ParamType::number && rule.low.size() != 1)
+    return Issue{"profile.bad_rule", pointer + "/low", quoted(def.name) + " " + whose + " is one number"};
+  for (std::size_t i = 0; i < rule.low.size(); ++i)
+    if (rule.low[i] > def.high || rule.high[i] < def.low)
+      return Issue{"profile.no_range", pointer + "/low/" + std::to_string(i),
+                   quoted(def.name) + " " + whose + " lies within " + json_fields::Json(def.low).dump() + " and " +
+                       json_fields::Json(def.high).dump()};
+  return Done{};
+}
+
+Result<Done> check_param(const DrawRule& rule, const Known& known, const std::string& pointer) {
+  if (is_blend(rule.param)) return check_blend(rule, pointer);
+  bool found = false;
+  for (const Movement& movement : known.movements)
+    for (const ParamDef& def : movement.params) {
+      if (def.name != rule.param || !rule.speaks_of(movement.slot, movement.action)) continue;
+      found = true;
+      if (const Result<Done> good = check_range(rule, def, movement, pointer); !good) return good;
+    }
+  if (found) return Done{};
+  return Issue{"profile.unknown_name", pointer + "/param",
+               "no action that the rule speaks of has a parameter " + quoted(rule.param)};
+}
+
+Result<Done> check_rule(const DrawRule& rule, const Known& known, const std::string& pointer) {
+  if (const Result<Done> all = check_known(rule.slots, known.slots, pointer + "/slots", "slots"); !all) return all;
+  if (const Result<Done> all = check_known(rule.actions, known.actions, pointer + "/actions", "actions"); !all) return all;
+  return rule.param.empty() ? Result<Done>(Done{}) : check_param(rule, known, pointer);
+}
+
+// Something of every character has to move; those that the library does not have are refused where they are built.
+Result<Done> check_moves(const Profile& profile, const std::vector<std::string>& characters, const Known& known) {
+  const DrawRule allowed{profile.slots, profile.actions, false, {}, {}, {}};
+  for (const std::string& character : characters) {
+    if (!known.characters.contains(character)) continue;
+    const bool moves = std::ranges::any_of(known.movements, [&](const Movement& m) {
+      return m.character == character && allowed.speaks_of(m.slot, m.action) && !profile.never(m.slot, m.action);
+    });
+    if (!moves)
+      return Issue{"profile.nothing_moves", "",
+                   "slots, actions and rules of the profile leave " + quoted(character) + " no action at all"};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, const Library& library) {
+  const Known known = known_of(library);
+  for (const auto& [names, of_library, field] : {std::tuple(&profile.characters, &known.characters, "characters"),
+                                                 std::tuple(&profile.slots, &known.slots, "slots"),
+                                                 std::tuple(&profile.actions, &known.actions, "actions")})
+    if (const Result<Done> all = check_known(*names, *of_library, std::string("/") + field, field); !all) return all;
+  if (const Result<Done> all = check_known(profile.grounds, {"plane", "slope", "steps", "heights"}, "/grounds", "grounds");
+      !all)
+    return all;
+  for (std::size_t i = 0; i < profile.rules.size(); ++i)
+    if (const Result<Done> good = check_rule(profile.rules[i], known, "/rules/" + std::to_string(i)); !good) return good;
+  return check_moves(profile, characters, known);
+}
+
+}  // namespace contort
