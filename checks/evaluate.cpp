@@ -76,6 +76,14 @@ void Evaluator::place(const Character& character, const Motion& motion) {
   }
 }
 
+MarginFold Evaluator::fold(const CheckDef& check, const CheckInput& input, bool record) const {
+  MarginFold margins(check.subject_count(input.character), settings_.merge_gap_frames, check.resolution);
+  if (record) margins.record(input.motion.frame_count);
+  apply_limits(check, input, margins);
+  check.measure(input, margins);
+  return margins;
+}
+
 std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check,
                                       const Environment& environment, const Timeline* timeline) {
   bool placed = false;
@@ -87,12 +95,9 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
       place(character, motion);
       placed = true;
     }
-    MarginFold fold(check.subject_count(character), settings_.merge_gap_frames, check.resolution);
-    const CheckInput input{character, motion, world_, settings_, environment, timeline};
-    apply_limits(check, input, fold);
-    check.measure(input, fold);
-    append_findings(check, character, fold, findings);
-    smallest_.push_back({&check, fold.smallest()});
+    const MarginFold margins = fold(check, {character, motion, world_, settings_, environment, timeline}, false);
+    append_findings(check, character, margins, findings);
+    smallest_.push_back({&check, margins.smallest()});
   }
   // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
   const int lost = first_without_balance(motion);
@@ -100,6 +105,55 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& l, const Finding& r) { return l.first_frame < r.first_frame; });
   return findings;
+}
+
+namespace {
+
+struct Candidate {
+  double nearness = 0.0;  // smallest margin in the check's scale
+  std::size_t row = 0;    // of smallest_margins()
+  int subject = 0;
+};
+
+// What was judged, nearest to its limit first; what is not a number is nearest of all.
+std::vector<Candidate> by_nearness(const std::vector<SmallestMargins>& smallest) {
+  std::vector<Candidate> all;
+  for (std::size_t row = 0; row < smallest.size(); ++row)
+    for (std::size_t s = 0; s < smallest[row].of_subject.size(); ++s) {
+      const double margin = smallest[row].of_subject[s];
+      if (margin == std::numeric_limits<double>::infinity()) continue;
+      const double nearness = std::isnan(margin) ? -std::numeric_limits<double>::infinity() : margin;
+      all.push_back({nearness / smallest[row].check->scale, row, static_cast<int>(s)});
+    }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& l, const Candidate& r) { return l.nearness < r.nearness; });
+  return all;
+}
+
+}  // namespace
+
+std::vector<MarginCurve> Evaluator::curves(const Stage& stage, const Finding& about, std::size_t most) const {
+  std::vector<Candidate> chosen = by_nearness(smallest_);
+  const auto is_about = [&](const Candidate& c) {
+    const CheckDef& check = *smallest_[c.row].check;
+    return check.name == about.check && check.subject(*stage.character, c.subject).name == about.subject;
+  };
+  const auto first = std::ranges::find_if(chosen, is_about);
+  if (first != chosen.end()) std::rotate(chosen.begin(), first, first + 1);
+  chosen.resize(std::min(chosen.size(), most));
+  std::vector<MarginCurve> curves(chosen.size());
+  const CheckInput input{*stage.character, motion_, world_, settings_, stage.environment, &stage.timeline};
+  for (std::size_t row = 0; row < smallest_.size(); ++row) {
+    if (std::ranges::none_of(chosen, [&](const Candidate& c) { return c.row == row; })) continue;
+    const CheckDef& check = *smallest_[row].check;
+    const MarginFold margins = fold(check, input, true);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (chosen[i].row != row) continue;
+      const std::span<const double> recorded = margins.recorded(chosen[i].subject);
+      curves[i] = {&check, check.subject(*stage.character, chosen[i].subject), {recorded.begin(), recorded.end()}};
+    }
+  }
+  return curves;
 }
 
 const Finding* deepest(const std::vector<Finding>& findings, const std::string& check, const std::string& subject) {

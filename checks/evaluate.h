@@ -35,6 +35,13 @@ struct SmallestMargins {
   std::vector<double> of_subject;
 };
 
+// The margins of one subject over a motion, for people to look at.
+struct MarginCurve {
+  const CheckDef* check = nullptr;
+  Subject subject;
+  std::vector<double> margins;  // by frame; +infinity where it was not judged
+};
+
 // Owns the memory of one thread's evaluations; nothing of one evaluation reaches the next.
 class Evaluator {
  public:
@@ -51,10 +58,14 @@ class Evaluator {
   const Motion& motion() const { return motion_; }  // of the last run
   // Of the last evaluation, in the manifest's order; what guides the search.
   const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
+  // Of the last run, which was of this stage and had all checks: first the subject that a finding is about, then those
+  // that came nearest to their limits in the check's scale, `most` at the most.
+  std::vector<MarginCurve> curves(const Stage& stage, const Finding& about, std::size_t most) const;
 
  private:
   void set_waived_apart(const Stage& stage, Evaluation& evaluation) const;
   void place(const Character& character, const Motion& motion);
+  MarginFold fold(const CheckDef& check, const CheckInput& input, bool record) const;
 
   CheckSettings settings_;
   GenerateScratch scratch_;

@@ -18,6 +18,28 @@ MarginFold::MarginFold(int subject_count, int merge_gap_frames, double resolutio
 void MarginFold::tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count) {
   tolerances_ = std::move(tolerances), phases_ = std::move(phases);
   phase_count_ = static_cast<std::size_t>(phase_count);
+  plain_ = plain_ && tolerances_.empty();
+}
+
+void MarginFold::record(int frame_count) {
+  recorded_frames_ = static_cast<std::size_t>(frame_count);
+  recorded_.assign(smallest_.size() * recorded_frames_, std::numeric_limits<double>::infinity());
+  plain_ = false;
+}
+
+std::span<const double> MarginFold::recorded(int subject) const {
+  return std::span(recorded_).subspan(static_cast<std::size_t>(subject) * recorded_frames_, recorded_frames_);
+}
+
+double MarginFold::tolerated_and_recorded(int subject, int frame, double margin) {
+  const auto s = static_cast<std::size_t>(subject), f = static_cast<std::size_t>(frame);
+  if (!tolerances_.empty()) {
+    const double more = tolerances_[s * phase_count_ + (phases_.empty() ? 0 : phases_[f])];
+    if (more == std::numeric_limits<double>::infinity()) return more;
+    margin += more;
+  }
+  if (!recorded_.empty()) recorded_[s * recorded_frames_ + f] = margin;
+  return margin;
 }
 
 void MarginFold::violated(int subject, int frame, double margin) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,15 @@ class MarginFold {
   // frame) empty, the first number of each subject counts for every frame.
   void tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count);
 
+  // Keeps the margins themselves, too: frame_count of each subject.
+  void record(int frame_count);
+  // Of a subject that was recorded, by frame; +infinity where it was not judged.
+  std::span<const double> recorded(int subject) const;
+
   void report(int subject, int frame, double margin) {
-    if (!tolerances_.empty()) {
-      const double more = tolerance(subject, frame);
-      if (more == std::numeric_limits<double>::infinity()) return;
-      margin += more;
+    if (!plain_) {
+      margin = tolerated_and_recorded(subject, frame, margin);
+      if (margin == std::numeric_limits<double>::infinity()) return;
     }
     double& smallest = smallest_[static_cast<std::size_t>(subject)];
     if (margin >= least_) {
@@ -62,10 +67,8 @@ class MarginFold {
   const std::vector<double>& smallest() const { return smallest_; }
 
  private:
-  double tolerance(int subject, int frame) const {
-    const std::size_t phase = phases_.empty() ? 0 : phases_[static_cast<std::size_t>(frame)];
-    return tolerances_[static_cast<std::size_t>(subject) * phase_count_ + phase];
-  }
+  // +infinity where it is not judged.
+  double tolerated_and_recorded(int subject, int frame, double margin);
   void violated(int subject, int frame, double margin);
 
   int merge_gap_frames_;
@@ -73,9 +76,12 @@ class MarginFold {
   std::vector<double> smallest_;
   std::vector<int> open_;  // per subject: index of its last episode, or -1
   std::vector<Episode> episodes_;
+  bool plain_ = true;               // neither tolerances nor records
   std::vector<double> tolerances_;  // subjects x phases; empty: none
   std::vector<std::uint8_t> phases_;
   std::size_t phase_count_ = 1;
+  std::size_t recorded_frames_ = 0;
+  std::vector<double> recorded_;  // subjects x frames
 };
 
 }  // namespace contort

@@ -31,6 +31,7 @@ struct Context {
   const Library* library = nullptr;          // stock and folders, made on first use
   std::string settings_file;                 // --settings
   std::string today;                         // --today, for waivers and quarantines
+  std::string gl = "auto";                   // --gl: who draws; "none": nobody
 
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();

@@ -79,6 +79,9 @@ int run(int argc, char** argv) {
   app.add_option("--today", context.today, "Judge waivers and quarantines as on this day (default: today, UTC)")
       ->type_name("YYYY-MM-DD")
       ->check(refuse_no_day);
+  app.add_option("--gl", context.gl, "Who draws pictures; none: there are none")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "none"}))
+      ->capture_default_str();
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(

@@ -20,6 +20,12 @@ std::string renderer_path() {
   return (self.parent_path() / "contort-render").string();
 }
 
+std::vector<std::string> renderer_call(const Context& context) {
+  std::vector<std::string> call = {renderer_path(), "--gl", context.gl};
+  for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+  return call;
+}
+
 Result<int> run_program(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
@@ -44,6 +50,7 @@ void add_render(CLI::App& app, Context& context) {
     std::vector<std::string> labels;
     std::string frames;
     std::string azimuth_deg;
+    std::string clip;
     int tiles = 8;
     bool rows = false;
   };
@@ -57,17 +64,21 @@ void add_render(CLI::App& app, Context& context) {
   command->add_option("--frames", options->frames, "Which frames, instead of a choice: 0,4,8")->type_name("LIST");
   command->add_option("--azimuth", options->azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
       ->type_name("DEGREES");
+  command->add_option("--clip", options->clip, "The failing half second as a moving picture, too (WebP)")
+      ->type_name("FILE");
   command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
   command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
       ->allow_extra_args(false);
   command->footer("Example: contort render docs/examples/reach_hand.json -o strip.png");
   command->callback([options, &context] {
-    std::vector<std::string> call = {renderer_path(), "-o", options->output, "--tiles", std::to_string(options->tiles)};
+    if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
+    std::vector<std::string> call = renderer_call(context);
+    call.insert(call.end(), {"-o", options->output, "--tiles", std::to_string(options->tiles)});
     if (options->rows) call.push_back("--rows");
     if (!options->frames.empty()) call.insert(call.end(), {"--frames", options->frames});
     if (!options->azimuth_deg.empty()) call.insert(call.end(), {"--azimuth", options->azimuth_deg});
     for (const std::string& label : options->labels) call.insert(call.end(), {"--label", label});
-    for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+    if (!options->clip.empty()) call.insert(call.end(), {"--clip", options->clip});
     call.push_back("--");  // A file may be called --rows.
     call.insert(call.end(), options->inputs.begin(), options->inputs.end());
     const Result<int> code = run_program(call);

@@ -4,12 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/commands.h"
 #include "generator/core/result.h"
 
 namespace contort::cli {
 
 // Path of contort-render, beside the running program.
 std::string renderer_path();
+
+// The start of every call of it: its path, --gl and --library.
+std::vector<std::string> renderer_call(const Context& context);
 
 // Runs a program to its end; its exit code, or kInternal where a signal ended it. Code render.no_process.
 Result<int> run_program(const std::vector<std::string>& command);

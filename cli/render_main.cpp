@@ -26,6 +26,9 @@ struct Options {
   std::vector<std::string> labels;
   std::vector<int> frames;
   std::string azimuth_deg;  // as it was written; "": none is given
+  std::string clip;         // where the moving picture of one file goes; "": there is none
+  std::string gl = "auto";
+  bool clips = false;  // with `many`: beside each strip
   bool many = false;
   bool rows = false;
   int tiles = 8;
@@ -42,6 +45,10 @@ const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& fi
   for (const Finding& finding : findings)
     if (worst == nullptr || finding.depth > worst->depth) worst = &finding;
   return worst;
+}
+
+std::string clip_of(const Options& options, const std::string& png) {
+  return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
 Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
@@ -62,7 +69,7 @@ Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Op
   strip.frames = options.frames;
   strip.azimuth_rad = options.azimuth_rad();
   if (!options.labels.empty()) strip.title = options.labels.front();
-  return renderer.render(strip, png);
+  return renderer.render(strip, png, clip_of(options, png));
 }
 
 // A file of several, and what it makes.
@@ -145,7 +152,7 @@ int report(const Result<StripDone>& done) {
 int run(const Options& options) {
   const Result<Library> library = load_libraries(options.libraries);
   if (!library) return fail(library.issue(), kBadInput);
-  Result<StripRenderer> renderer = StripRenderer::create();
+  Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
   StripRenderer drawing = std::move(renderer).value();
   if (options.rows) return report(draw_all(drawing, *library, options));
@@ -162,6 +169,8 @@ std::string misfit(const Options& options) {
   const std::size_t files = options.files.size();
   if (options.many && options.rows) return "--many and --rows exclude each other";
   if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
+  if (options.clips && !options.many) return "--clips needs --many";
+  if (!options.clip.empty() && (options.many || options.rows)) return "--clip is of one FILE";
   if (!options.many && options.output.empty()) return "expected -o PNG";
   if (!options.many && !options.rows && files > 1)
     return "found " + std::to_string(files) + " files: with --rows they become the rows of one picture";
@@ -184,6 +193,9 @@ int parse_and_run(int argc, char** argv) {
       ->check(CLI::Range(-360.0, 360.0))
       ->check(refuse_nan);
   app.add_option("--label", options.labels, "Title of the strip, or of the rows in turn")->allow_extra_args(false);
+  app.add_option("--clip", options.clip, "A moving picture, too");
+  app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
+  app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
   app.add_flag("--rows", options.rows, "A row for each FILE");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");
   try {

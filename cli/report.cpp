@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "cli/case_pages.h"
 #include "cli/input.h"
 #include "cli/print.h"
 #include "cli/render.h"
@@ -18,6 +19,7 @@
 #include "fuzz/parallel.h"
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
+#include "generator/core/hash.h"
 #include "renders/report.h"
 
 namespace contort::cli {
@@ -29,6 +31,12 @@ struct Picture {
   std::string png;
 };
 
+// What lies beside the page.
+struct Media {
+  std::vector<Picture> pictures;
+  std::vector<CasePage> cases;
+};
+
 // As code hosts want it: below the folder where we are, which in CI is the project's, or else below the corpus.
 std::string location_of(const Bucket& bucket, const std::string& path) {
   std::error_code error;
@@ -37,11 +45,18 @@ std::string location_of(const Bucket& bucket, const std::string& path) {
   return is_below ? here : "buckets/" + folder_name(bucket) + "/" + bucket.min;
 }
 
+// Another picture has another name, so that one that is there already is right.
+std::string picture_name(const std::string& key, const Case& stored) {
+  const std::string shown = print_spec(stored.spec) + stored.expect.motion_hash + CONTORT_VERSION;
+  return "strips/" + key + "-" + content_id(shown).substr(0, 8);
+}
+
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
                  const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
   row.family = bucket.family, row.check = bucket.check,
+  row.key = folder_name(bucket), row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
   row.bucket = bucket.id, row.state = state_name(bucket.state);
@@ -50,7 +65,10 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.case_file = location_of(bucket, path);
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, context.library_folders);
-  row.strip = "strips/" + bucket.check + "-" + bucket.id + ".png";
+  if (row.has_motion && context.gl != "none") {
+    const std::string name = picture_name(row.key, stored);
+    row.strip = name + ".png", row.clip = name + ".webp";
+  }
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
@@ -59,8 +77,8 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
 }
 
 // Rows by how deep the failure is; ties by name, so that equal corpora give equal pages.
-void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, std::vector<Picture>& pictures,
-               const std::string& out, Context& context) {
+void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, Media& media, const std::string& out,
+               Context& context) {
   std::vector<Issue> damaged;
   std::vector<std::pair<double, ReportRow>> rows;
   for (const Bucket& bucket : corpus.buckets(damaged)) {
@@ -71,7 +89,10 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
       continue;
     }
     rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, known, context));
-    pictures.push_back({folder + "/" + bucket.min, out + "/" + rows.back().second.strip});
+    const ReportRow& row = rows.back().second;
+    if (!row.has_motion) continue;  // to draw it would end the renderer, too
+    if (!row.strip.empty()) media.pictures.push_back({folder + "/" + bucket.min, out + "/" + row.strip});
+    media.cases.push_back({row.key, folder, bucket.min, bucket.orig, bucket.worst});
   }
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   std::stable_sort(rows.begin(), rows.end(), [](const auto& l, const auto& r) {
@@ -96,7 +117,9 @@ void count_totals(const std::map<std::string, std::int64_t>& seen, ReportModel& 
 std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& model, Context& context) {
   std::vector<Issue> damaged;
   std::map<std::string, std::int64_t> tested, seen;
-  for (const RunRecord& run : runs_of(corpus, damaged)) {
+  const std::vector<RunRecord> runs = runs_of(corpus, damaged);
+  model.search = progress_of(runs);
+  for (const RunRecord& run : runs) {
     model.cases += run.cases;
     model.frames += run.frames;
     for (const auto& [what, count] : run.tested) tested[what] += count;
@@ -125,6 +148,31 @@ std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
   return static_cast<std::int64_t>(pairs.size());
 }
 
+// Pictures that are there already stay; those that no row shows any more go.
+void tidy(const std::string& folder, std::vector<Picture>& pictures) {
+  std::set<std::string> wanted;
+  for (const Picture& picture : pictures)
+    for (const char* ending : {".png", ".webp"})
+      wanted.insert(std::filesystem::path(picture.png).replace_extension(ending).filename().string());
+  std::error_code error;
+  std::set<std::string> present;
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::string ending = entry.path().extension().string();
+    if (wanted.contains(name))
+      present.insert(name);
+    else if (ending == ".png" || ending == ".webp")
+      old.push_back(entry.path());
+  }
+  for (const std::filesystem::path& path : old) std::filesystem::remove(path, error);
+  std::erase_if(pictures, [&](const Picture& picture) {
+    const std::filesystem::path png(picture.png);
+    return present.contains(png.filename().string()) &&
+           present.contains(std::filesystem::path(png).replace_extension(".webp").filename().string());
+  });
+}
+
 // Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -132,11 +180,11 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
   parallel_for(
       jobs, jobs,
       [&](int, int share) {
-        std::vector<std::string> call = {renderer_path(), "--many"};
-        for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+        std::vector<std::string> call = renderer_call(context);
+        call.insert(call.end(), {"--many", "--clips"});
+        const std::size_t fixed = call.size();
         for (std::size_t i = static_cast<std::size_t>(share); i < pictures.size(); i += static_cast<std::size_t>(jobs))
           call.insert(call.end(), {pictures[i].case_path, pictures[i].png});
-        const std::size_t fixed = 2 + 2 * context.library_folders.size();
         const Result<int> code = call.size() > fixed ? run_program(call) : Result<int>(0);
         codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
       },
@@ -160,13 +208,17 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
 
 namespace {
 
-void write_page(const ReportRequest& request, const ReportModel& model, const std::vector<Picture>& pictures,
+void write_page(const ReportRequest& request, const ReportModel& model, Media media, const Library& library,
                 Context& context) {
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
     return context.fail(made.issue(), kInternal);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);
-  if (const int code = draw(pictures, context); code != 0) {
+  tidy(request.folder + "/strips", media.pictures);
+  write_case_pages(media.cases, request.folder, library, context);
+  if (context.gl == "none") {
+    std::fprintf(stderr, "contort: --gl none: the report has no pictures\n");
+  } else if (const int code = draw(media.pictures, context); code != 0) {
     std::fprintf(stderr, "contort: some pictures are missing; the report is complete without them\n");
     context.exit_code = std::max<int>(context.exit_code, kInternal);
   }
@@ -185,13 +237,13 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
   ReportModel model;
   model.title = "Contort report";
   model.tool = CONTORT_VERSION;
-  std::vector<Picture> pictures;
-  fill_rows(*corpus, *known, model, pictures, request.folder, context);
+  Media media;
+  fill_rows(*corpus, *known, model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
   model.pairs_possible = pairs_possible(library, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)
     return context.fail(written.issue(), kInternal);
-  if (!request.folder.empty()) write_page(request, model, pictures, context);
+  if (!request.folder.empty()) write_page(request, model, std::move(media), library, context);
   const bool gates = std::ranges::any_of(model.rows, [](const ReportRow& row) { return row.gating; });
   if (request.gate && gates && context.exit_code == kClean) context.exit_code = kFindings;
 }

@@ -1,6 +1,7 @@
 #include "renders/frames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace contort {
@@ -65,6 +66,17 @@ std::vector<int> spread_frames(int frame_count, int tiles) {
   std::vector<int> frames;
   for (int i = 0; i < count; ++i) frames.push_back(static_cast<int>(std::int64_t{i} * (frame_count - 1) / (count - 1)));
   return frames;
+}
+
+Clip choose_clip(int middle, int frame_count, double rate_hz) {
+  constexpr double kHalf_s = 0.25, kPictures_hz = 30.0, kSlower = 2.0;
+  const int step = std::max(1, static_cast<int>(std::lround(rate_hz / kPictures_hz)));
+  const int half = std::max(1, static_cast<int>(std::lround(kHalf_s * rate_hz / step))) * step;
+  Clip clip;
+  for (int frame = middle - half; frame <= middle + half; frame += step)
+    if (frame >= 0 && frame < frame_count) clip.frames.push_back(frame);
+  clip.milliseconds_per_frame = static_cast<int>(std::clamp(1000.0 * kSlower * step / rate_hz, 1.0, 10000.0));
+  return clip;
 }
 
 }  // namespace contort

@@ -15,4 +15,14 @@ std::vector<int> choose_frames(int first, int worst, int last, int frame_count, 
 // Without a finding: evenly spaced, with the first and the last frame.
 std::vector<int> spread_frames(int frame_count, int tiles = 8);
 
+// A few frames to be shown one after the other, again and again.
+struct Clip {
+  std::vector<int> frames;  // ascending
+  int milliseconds_per_frame = 0;
+};
+
+// The half second around a frame, or the whole of a shorter motion: at half speed, as two looks a second cannot be
+// followed, and about 30 pictures for a second of motion. `rate_hz` is finite and > 0.
+Clip choose_clip(int middle, int frame_count, double rate_hz);
+
 }  // namespace contort

@@ -62,11 +62,4 @@ std::string html_url(std::string_view relative_path) {
   return url;
 }
 
-std::string html_id(std::string_view text) {
-  std::string id(text);
-  for (char& c : id)
-    if (!is_plain(c) && c != '_') c = '-';
-  return id;
-}
-
 }  // namespace contort

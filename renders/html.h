@@ -16,7 +16,4 @@ std::string html_lines(std::string_view text);
 // not ("../x", "/x").
 std::string html_url(std::string_view relative_path);
 
-// A name for `id` attributes and links to them: letters, digits, - and _; anything else becomes -.
-std::string html_id(std::string_view text);
-
 }  // namespace contort

@@ -28,7 +28,7 @@ Json row_json(const ReportRow& row) {
           {"spec", spec_of(row.spec_json)},
           {"replay_command", row.replay_command},
           {"strip", row.strip},
-          {"strip_worst", row.strip_worst},
+          {"clip", row.clip},
           {"first_frame", row.first_frame},
           {"worst_frame", row.worst_frame},
           {"last_frame", row.last_frame},
@@ -37,12 +37,23 @@ Json row_json(const ReportRow& row) {
           {"note", row.note}};
 }
 
+Json search_json(const SearchProgress& search) {
+  Json arms = Json::array();
+  for (const ArmProgress& arm : search.arms)
+    arms.push_back({{"name", arm.name}, {"cases", arm.cases}, {"failing", arm.failing}, {"families", arm.families}});
+  return {{"discovered", search.discovered},
+          {"met_once", search.met_once},
+          {"unseen_share", unseen_share(search)},
+          {"arms", arms}};
+}
+
 }  // namespace
 
 std::string report_json(const ReportModel& model) {
   Json json = {{"format", "contort.report/1"}, {"title", model.title},       {"cases", model.cases},
                {"frames", model.frames},       {"findings", model.findings}, {"families", model.families},
                {"buckets", model.buckets},     {"elapsed", model.elapsed},   {"rows", Json::array()},
+               {"search", search_json(model.search)},
                {"pairs_possible", model.pairs_possible},
                {"tested", Json::array()}};
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));

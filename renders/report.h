@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/search_progress.h"
 #include "generator/core/result.h"
 
 namespace contort {
@@ -20,12 +21,15 @@ struct ReportRow {
   double worst_margin = 0.0;
   std::int64_t cases_seen = 0;  // of the family: its buckets are told apart only after shrinking
   std::string bucket;           // id
+  std::string key;              // names its files: strips/<key>.png, cases/<key>.js
+  std::string character;        // that moves
+  bool has_motion = true;       // false: there is nothing for the viewer to play
   std::string state;            // "new", "open", "regressed", …
   bool gating = false;
   std::string spec_json;       // the minimal spec, laid out for reading
   std::string replay_command;  // exactly what to type
   std::string strip;           // film strip of the minimal case: a path relative to the page, "" where there is none
-  std::string strip_worst;     // of the worst case seen; may be ""
+  std::string clip;            // the failing half second of it, moving; the same
   int first_frame = 0;
   int worst_frame = 0;
   int last_frame = 0;
@@ -45,6 +49,7 @@ struct ReportModel {
   std::int64_t buckets = 0;
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
+  SearchProgress search;            // of all runs together
   std::int64_t pairs_possible = 0;  // of actions on one part, with the characters of the library
   std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often
 };

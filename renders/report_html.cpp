@@ -7,6 +7,7 @@
 #include "renders/html.h"
 #include "renders/report.h"
 #include "renders/report_page.h"
+#include "renders/search_html.h"
 #include "renders/wording.h"
 
 namespace contort {
@@ -107,7 +108,10 @@ std::string violated_text(const ReportRow& row) {
   return "frames " + std::to_string(row.first_frame) + "\xE2\x80\x93" + std::to_string(row.last_frame);
 }
 
-std::string missing_text(const ReportRow& row) { return "picture missing: " + row.replay_command; }
+std::string missing_text(const ReportRow& row) {
+  return row.has_motion ? "picture missing: " + row.replay_command
+                        : "no motion to show: the generator does not come to its end";
+}
 
 std::string picture_html(const ReportRow& row, const std::string& path, std::string_view what) {
   const std::string url = html_url(path);
@@ -132,37 +136,59 @@ std::string details_html(std::string_view summary, const std::string& body) {
   return "<details><summary>" + std::string(summary) + "</summary>\n" + body + "</details>\n";
 }
 
-std::string bucket_html(const ReportRow& row, const std::string& id) {
-  std::string out = "<section class='bucket' id='" + id + "'>\n";
+// A page stays below a megabyte with a thousand buckets: those that come later, which gate less and are less deep, have
+// no picture before they are opened.
+constexpr std::size_t kMostFullBuckets = 100;
+
+std::string open_html(const ReportRow& row) {
+  return row.has_motion && !row.key.empty() ? "<button type='button' class='open'>Look closer</button>\n" : "";
+}
+
+std::string short_bucket_html(const ReportRow& row) {
+  return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>worst " +
+         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " + row.features) +
+         "</p>\n" + open_html(row) + command_html(row.replay_command) + "</section>\n";
+}
+
+std::string bucket_html(const ReportRow& row) {
+  std::string out = "<section class='bucket'" + attribute("data-case", row.key) + ">\n";
   out += picture_html(row, row.strip, "Film strip");
+  if (const std::string clip = html_url(row.clip); !clip.empty())
+    out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
          fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
          fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
-  out += command_html(row.replay_command);
+  out += open_html(row) + command_html(row.replay_command);
   if (!row.spec_json.empty())
     out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
-  if (!row.strip_worst.empty())
-    out += details_html("Worst case seen", picture_html(row, row.strip_worst, "Film strip of the worst case"));
   return out + "</section>\n";
 }
 
-// What the filter looks at: lower-case words of every row.
-std::string search_text(const FamilyCard& card) {
+std::string joined(const std::set<std::string>& words) {
   std::string text;
-  for (const ReportRow* row : card.rows)
-    for (const std::string* words : {&row->family, &row->subject, &row->bucket, &row->features, &row->state})
-      text += *words + " ";
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
   return text;
 }
 
 std::string states_of(const FamilyCard& card) {
   std::set<std::string> states;
   for (const ReportRow* row : card.rows) states.insert(row->state);
-  std::string text;
-  for (const std::string& state : states) text += (text.empty() ? "" : " ") + state;
-  return text;
+  return joined(states);
+}
+
+// Slots that a subject names: "arm_left torso" of "human: arm_left/forearm ~ torso/chest".
+std::string parts_of(const ReportRow& row) {
+  constexpr std::string_view kBetween = " ~ ";
+  std::string_view rest = row.subject;
+  if (const std::string prefix = row.character + ": "; rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
+  std::set<std::string> parts;
+  while (!rest.empty()) {
+    const std::size_t cut = std::min(rest.find(kBetween), rest.size());
+    const std::string_view name = rest.substr(0, cut);
+    parts.emplace(name.substr(0, name.find_first_of("/ ")));
+    rest.remove_prefix(std::min(cut + kBetween.size(), rest.size()));
+  }
+  return joined(parts);
 }
 
 std::string card_head(const FamilyCard& card) {
@@ -181,17 +207,17 @@ std::string card_head(const FamilyCard& card) {
          (buckets > 1 ? ", " + html_text(counted(buckets, "bucket", "buckets")) : "") + "</span></p>\n</div>\n";
 }
 
-std::string card_html(const FamilyCard& card, std::size_t number) {
+// `full`: how many buckets may still be shown with everything.
+std::string card_html(const FamilyCard& card, std::size_t& full) {
   const ReportRow& row = *card.rows.front();
   const std::string look = card.gating() ? "card gating" : "card";
-  std::string out = "<article tabindex='-1'" + attribute("class", look) + attribute("data-text", search_text(card)) +
-                    attribute("data-check", row.check) + attribute("data-state", states_of(card)) + ">\n" +
-                    card_head(card);
+  std::string out = "<article tabindex='-1'" + attribute("class", look) + attribute("data-check", row.check) +
+                    attribute("data-character", row.character) + attribute("data-parts", parts_of(row)) +
+                    attribute("data-state", states_of(card)) + ">\n" + card_head(card);
   std::string others;
-  for (std::size_t i = 0; i < card.rows.size(); ++i) {
-    // The number keeps two buckets apart whose ids differ only in signs that an id cannot have.
-    const std::string id = "b" + std::to_string(number) + "-" + html_id(card.rows[i]->bucket);
-    (i == 0 ? out : others) += bucket_html(*card.rows[i], id);
+  for (const ReportRow* bucket : card.rows) {
+    (bucket == &row ? out : others) += full > 0 ? bucket_html(*bucket) : short_bucket_html(*bucket);
+    full -= full > 0 ? 1 : 0;
   }
   const auto more = static_cast<std::int64_t>(card.rows.size()) - 1;
   if (more > 0) out += details_html(html_text(counted(more, "more bucket", "more buckets")), others);
@@ -216,8 +242,8 @@ std::string failures_html(const ReportModel& model) {
   std::string out = "<section id='failures'>\n<h2>Failures</h2>\n";
   if (model.rows.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
   out += filter_html(model);
-  std::size_t number = 0;
-  for (const FamilyCard& card : cards_of(model)) out += card_html(card, ++number);
+  std::size_t full = kMostFullBuckets;
+  for (const FamilyCard& card : cards_of(model)) out += card_html(card, full);
   return out + "<p class='none' id='no-match' hidden>Nothing matches the filter.</p>\n</section>\n";
 }
 
@@ -282,7 +308,7 @@ std::string report_html(const ReportModel& model) {
   const Verdict verdict = verdict_of(model);
   return head_html(model, verdict, content_id(report_json(model))) +
          "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" + verdict_html(model, verdict) +
-         "<main class='page'>\n" + failures_html(model) + tested_html(model) + "</main>\n" + footer_html(model) +
+         "<main class='page'>\n" + failures_html(model) + search_html(model.search) + tested_html(model) + "</main>\n" + footer_html(model) +
          "</body>\n</html>\n";
 }
 

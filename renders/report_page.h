@@ -127,6 +127,14 @@ thead th:nth-child(2) { text-align: right; }
 .bar { display: block; width: 100%; height: .6rem; }
 .bar rect { fill: var(--bar); }
 
+.curve { margin: 1rem 0; }
+.curve figcaption { color: var(--dim); font-size: .8125rem; }
+.curve svg { display: block; width: 100%; height: 8rem; }
+.curve svg { border: solid var(--line); border-width: 0 0 1px 1px; }
+.curve path { fill: none; stroke: var(--accent); stroke-width: 2; vector-effect: non-scaling-stroke; }
+table.arms td, table.arms thead th { width: auto; padding-right: .75rem; }
+table.arms thead th:not(:first-child) { text-align: right; }
+
 footer { color: var(--dim); font-size: .875rem; padding-top: 1.5rem; padding-bottom: 2.5rem; }
 .keys { display: none; }
 .js .keys { display: inline; }

@@ -27,10 +27,13 @@ packages_of() {
     wanted { print $1 }' "$root/packages.txt"
 }
 
+# A program of the package's name that came from elsewhere (npm often does) is as good.
 missing_packages() {
-  local installed
+  local installed package
   installed=$(dpkg-query --show --showformat='${db:Status-Abbrev}|${Package}\n' | awk -F '|' '$1 ~ /^.i/ { print $2 }')
-  packages_of "$@" | grep -vxF -f <(printf '%s\n' "$installed") || true
+  packages_of "$@" | { grep -vxF -f <(printf '%s\n' "$installed") || true; } | while read -r package; do
+    command -v "$package" >/dev/null || printf '%s\n' "$package"
+  done
 }
 
 # Ends the script: we cannot install, so the user has to.

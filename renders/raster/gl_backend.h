@@ -1,9 +1,11 @@
-// Where OpenGL comes from. The renderer knows only this; Mesa has dropped OSMesa from release 25.1 on, and an EGL
-// backend will take its place behind the same four functions.
+// Where OpenGL comes from. The renderer knows only this. Mesa has dropped OSMesa from release 25.1 on; EGL without a
+// screen takes its place, with the same bytes where both come from one release.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "generator/core/result.h"
 
@@ -20,5 +22,13 @@ class GlBackend {
 
 // Software rendering by libOSMesa, OpenGL 3.3 core. Code: render.no_opengl, with the package to install.
 Result<std::unique_ptr<GlBackend>> make_osmesa_backend();
+// The same by libEGL (EGL_MESA_platform_surfaceless), always with Mesa's software driver.
+Result<std::unique_ptr<GlBackend>> make_egl_backend();
+
+enum class GlSource { any, osmesa, egl };
+std::optional<GlSource> gl_source(std::string_view name);  // "auto", "osmesa", "egl"
+
+// The one asked for; any: OSMesa, else EGL. Code: render.no_opengl.
+Result<std::unique_ptr<GlBackend>> make_gl_backend(GlSource source);
 
 }  // namespace contort

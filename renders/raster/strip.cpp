@@ -8,6 +8,7 @@
 #include "renders/raster/renderer.h"
 #include "renders/raster/rows.h"
 #include "renders/raster/sheet.h"
+#include "renders/raster/webp.h"
 #include "renders/shots.h"
 
 namespace contort {
@@ -36,13 +37,14 @@ std::vector<int> frames_of(const StripInput& input) {
 // Everything about a strip but its pixels.
 struct Plan {
   Shots shots;
+  View view;
   StripCamera camera;
   int visible_pixels = 0;
 };
 
-Plan plan_strip(const StripInput& input) {
+Plan plan_strip(const StripInput& input, const std::vector<int>& frames) {
   const Story story = story_of(input);
-  Plan plan{take_shots(story, frames_of(input)), {}, 0};
+  Plan plan{take_shots(story, frames), {}, {}, 0};
   add_scenery(story, plan.shots.outlines, plan.shots);
   return plan;
 }
@@ -59,15 +61,22 @@ Result<Done> choose_camera(Renderer& renderer, const StripInput& input, double a
   const std::size_t tile = probed_tile(input, shots.frames);
   const Result<ProbedView> view = choose_view(renderer, story_of(input), shots, tile, input.azimuth_rad);
   if (!view) return view.issue();
+  plan.view = view->view;
   plan.camera = frame_strip(shots.outlines, shots.anchors, view->view, aspect);
   plan.visible_pixels = view->visible_pixels;
   return Done{};
 }
 
-Result<Image> draw_sheet(Renderer& renderer, const StripInput& input, const Plan& plan, std::vector<Issue>& warnings) {
+// `count` of the planned frames from `first` on, in one picture.
+struct Tiles {
+  std::size_t first = 0, count = 0;
+};
+
+Result<Image> draw_tiles(Renderer& renderer, const StripInput& input, const Plan& plan, const Tiles& tiles,
+                         std::vector<Issue>& warnings) {
   const Shots& shots = plan.shots;
-  Sheet sheet(input, static_cast<int>(shots.frames.size()));
-  for (std::size_t i = 0; i < shots.frames.size(); ++i) {
+  Sheet sheet(input, static_cast<int>(tiles.count));
+  for (std::size_t i = tiles.first; i < tiles.first + tiles.count; ++i) {
     const Camera camera = plan.camera.at(shots.anchors[i]);
     const Result<Image> picture = renderer.draw(shots.lists[i], camera, sheet.picture_width(), sheet.picture_height());
     if (!picture) return picture;
@@ -75,6 +84,24 @@ Result<Image> draw_sheet(Renderer& renderer, const StripInput& input, const Plan
   }
   if (sheet.text_issue()) warnings.push_back(*sheet.text_issue());
   return std::move(sheet).image();
+}
+
+// A sheet of one tile for each frame of the half second, as they follow each other.
+Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View& view, const std::string& path) {
+  const int middle = input.finding ? input.finding->worst_frame : input.motion.frame_count / 2;
+  const Clip clip = choose_clip(middle, input.motion.frame_count, input.motion.rate_hz);
+  Plan plan = plan_strip(input, clip.frames);
+  plan.camera = frame_strip(plan.shots.outlines, plan.shots.anchors, view, Sheet::picture_aspect(input));
+  renderer.set_meshes(plan.shots.meshes);
+  std::vector<Image> images;
+  std::vector<Issue> warnings;  // those of the strip
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    Result<Image> image = draw_tiles(renderer, input, plan, {i, 1}, warnings);
+    if (!image) return image.issue();
+    images.push_back(std::move(image).value());
+  }
+  const Result<std::string> bytes = webp_bytes(images, clip.milliseconds_per_frame);
+  return bytes ? write_file(path, *bytes) : bytes.issue();
 }
 
 Result<Done> write_png(const Image& image, const std::string& comment, const std::string& path) {
@@ -92,8 +119,8 @@ StripRenderer::StripRenderer(std::unique_ptr<State> state) : state_(std::move(st
 StripRenderer::StripRenderer(StripRenderer&&) noexcept = default;
 StripRenderer::~StripRenderer() = default;
 
-Result<StripRenderer> StripRenderer::create() {
-  Result<std::unique_ptr<GlBackend>> backend = make_osmesa_backend();
+Result<StripRenderer> StripRenderer::create(GlSource source) {
+  Result<std::unique_ptr<GlBackend>> backend = make_gl_backend(source);
   if (!backend) return backend.issue();
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(std::move(backend).value());
   if (!renderer) return renderer.issue();
@@ -102,17 +129,20 @@ Result<StripRenderer> StripRenderer::create() {
 
 std::string StripRenderer::description() const { return state_->renderer->description(); }
 
-Result<StripDone> StripRenderer::render(const StripInput& input, const std::string& png_path) {
+Result<StripDone> StripRenderer::render(const StripInput& input, const std::string& png_path,
+                                        const std::string& webp_path) {
   if (Result<Done> fine = check_input(input); !fine) return fine.issue();
-  Plan plan = plan_strip(input);
+  Plan plan = plan_strip(input, frames_of(input));
   Renderer& renderer = *state_->renderer;
   renderer.set_meshes(plan.shots.meshes);
   const double aspect = Sheet::picture_aspect(input);
   if (Result<Done> chosen = choose_camera(renderer, input, aspect, plan); !chosen) return chosen.issue();
   StripDone done{plan.shots.frames, plan.visible_pixels, {}};
-  const Result<Image> image = draw_sheet(renderer, input, plan, done.warnings);
+  const Result<Image> image = draw_tiles(renderer, input, plan, {0, plan.shots.frames.size()}, done.warnings);
   if (!image) return image.issue();
   if (Result<Done> written = write_png(*image, input.replay_command, png_path); !written) return written.issue();
+  if (webp_path.empty()) return done;
+  if (Result<Done> moving = write_clip(renderer, input, plan.view, webp_path); !moving) return moving.issue();
   return done;
 }
 

@@ -12,6 +12,7 @@
 #include "generator/dynamics/dynamics_desc.h"
 #include "generator/motion/motion.h"
 #include "generator/world/environment.h"
+#include "renders/raster/gl_backend.h"
 #include "renders/shots.h"
 
 namespace contort {
@@ -62,15 +63,16 @@ struct StripDone {
 class StripRenderer {
  public:
   // Code: render.no_opengl, and others of Renderer::create.
-  static Result<StripRenderer> create();
+  static Result<StripRenderer> create(GlSource source = GlSource::any);
   StripRenderer(StripRenderer&&) noexcept;
   ~StripRenderer();
 
   // Writes one PNG: a header, and a tile per frame. All tiles have one camera, chosen to show the highlight at the
   // worst frame; it moves along only with a figure that travels. Equal input, Mesa and font version: equal bytes.
-  // Codes: render.no_frames, render.wrong_motion, render.bad_frame, render.bad_size, render.png, render.gl_error,
-  // file.unwritable.
-  Result<StripDone> render(const StripInput& input, const std::string& png_path);
+  // With a path for it, the finding's half second as an animated WebP too: one tile, from the same side, at half speed.
+  // Codes: render.no_frames, render.wrong_motion, render.bad_frame, render.bad_size, render.png, render.webp,
+  // render.gl_error, file.unwritable.
+  Result<StripDone> render(const StripInput& input, const std::string& png_path, const std::string& webp_path = "");
 
   // The same, a row for each motion without header and captions, and one camera for all of them.
   Result<StripDone> render_rows(const RowsInput& input, const std::string& png_path);

@@ -51,9 +51,12 @@ const std::vector<Door> kDoors = {
     {"tiny_gltf.h", "generator/gltf/*.cpp"},
     {"rapidcheck", "fuzz/draw*.cpp"},
     {"GL/", "renders/raster/*.cpp"},
+    {"EGL/", "renders/raster/egl_backend.cpp"},
+    {"webp/", "renders/raster/webp.cpp"},
     {"OpenImageIO/", "renders/raster/*.cpp"},
     {"xxhash.h", "generator/core/hash.cpp"},
     {"CLI/", "cli/*.cpp"},
+    {"zlib.h", "renders/gzip.cpp"},
     {"tinyxml2.h", "renders/junit.cpp"},
 };
 

@@ -27,6 +27,27 @@ bool rises(const Frames& frames) {
                                        << ", " << tiles << ") = " << ::testing::PrintToString(frames);
 }
 
+TEST(ChooseClip, IsTheHalfSecondAroundAFrameAtHalfSpeed) {
+  const Clip clip = choose_clip(100, 200, 60.0);
+  EXPECT_EQ(clip.frames.size(), 17u);
+  EXPECT_TRUE(has(clip.frames, 100)) << "the worst frame is one of them";
+  EXPECT_EQ(clip.frames.front(), 84);
+  EXPECT_EQ(clip.frames.back(), 116);
+  EXPECT_EQ(clip.milliseconds_per_frame, 66);
+}
+
+TEST(ChooseClip, StaysInsideTheMotionAtAnyRate) {
+  for (const double rate_hz : {0.5, 24.0, 60.0, 1000.0})
+    for (const int count : {1, 2, 30, 5000})
+      for (const int middle : {0, count / 2, count - 1}) {
+        const Clip clip = choose_clip(middle, count, rate_hz);
+        ASSERT_FALSE(clip.frames.empty());
+        EXPECT_TRUE(has(clip.frames, middle) && rises(clip.frames));
+        EXPECT_TRUE(clip.frames.front() >= 0 && clip.frames.back() < count) << rate_hz << " Hz, " << count;
+        EXPECT_LE(clip.frames.size(), 40u);
+      }
+}
+
 TEST(ChooseFrames, KeepsItsPromisesForEveryShortMotion) {
   for (int tiles = 1; tiles <= 9; ++tiles)
     for (int count = 1; count <= 14; ++count)

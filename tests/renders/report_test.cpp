@@ -24,6 +24,7 @@ ReportRow row_of(const std::string& check, const std::string& subject, const std
   row.worst_margin = -0.0234;
   row.cases_seen = 1280;
   row.bucket = check + "-5f0c9a17";
+  row.key = row.bucket, row.character = "human";
   row.state = state;
   row.gating = gating;
   row.spec_json = "{\n  \"character\": \"human\"\n}";
@@ -68,13 +69,24 @@ TEST(Html, KeepsUrlsBelowThePage) {
     EXPECT_EQ(html_url(bad), "") << bad;
 }
 
-TEST(Html, MakesIds) { EXPECT_EQ(html_id("joint range|\"'<\xC3\xA9-_9"), "joint-range-------_9"); }
-
 TEST(Report, NamesNewFailuresFirst) {
   const std::string html = report_html(model_of({row_of("joint_range", "a", "new", true)}));
   EXPECT_TRUE(contains(html, "<h1>1 new failure</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict bad'"));
   EXPECT_TRUE(contains(html, "In 1 family"));
+}
+
+TEST(Report, SaysHowFarTheSearchGot) {
+  ReportModel model = model_of({});
+  EXPECT_FALSE(contains(report_html(model), "How far the search got")) << "nothing ran";
+  model.search.cases = 3000, model.search.arms = {{kHostile, 3000, 0, 0}};
+  EXPECT_TRUE(contains(report_html(model), "fewer than 1 in 1\u202F000 of the cases"));
+  EXPECT_FALSE(contains(body_of(report_html(model)), "<script>"));
+  model.search.discovered = {10, 1500}, model.search.met_once = 2;
+  const std::string html = report_html(model);
+  EXPECT_TRUE(contains(html, "met after 1\u202F500 of 3\u202F000 cases"));
+  EXPECT_TRUE(contains(html, "2 were met by a single case each, so about 1 in 1\u202F500 further cases"));
+  EXPECT_TRUE(contains(html, "d='M0.0 120.0L2.0 120.0L2.0 60.0L300.0 60.0L300.0 0.0L600.0 0.0'"));
 }
 
 TEST(Report, CountsWhatGatesByState) {
@@ -98,13 +110,14 @@ TEST(Report, IsNotGreenWithoutWork) {
 
 TEST(Report, ShowsEverythingOfARow) {
   ReportRow row = row_of("self_collision", "arm_left/forearm ~ torso/chest", "new", true);
-  row.strip_worst = "strips/worst.png";
+  row.clip = "strips/moving.webp";
   const std::string html = report_html(model_of({row}));
   for (const char* wanted :
        {"self_collision</span>", "arm_left/forearm ~ torso/chest</span>", "-0.0234 m (-23.4 mm)", "frame 55, 0.917 s",
         "frames 40\u201380", "1\u202F280 cases", "reach", "self_collision-5f0c9a17", "<details>", "Minimal spec",
         "&quot;character&quot;: &quot;human&quot;", "contort replay corpus/self_collision-5f0c9a17/min.json</code>",
-        "src='strips/self_collision-5f0c9a17.png'", "src='strips/worst.png'", "loading='lazy'", "alt='Film strip",
+        "src='strips/self_collision-5f0c9a17.png'", "href='strips/moving.webp'", "data-case='self_collision-5f0c9a17'", "class='open'>Look closer",
+        "data-character='human'", "data-parts='arm_left torso'", "loading='lazy'", "alt='Film strip",
         "data-missing='picture missing: contort replay", "class='copy'"})
     EXPECT_TRUE(contains(html, wanted)) << wanted;
 }
@@ -132,6 +145,25 @@ TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
   EXPECT_LT(html.find("both</span>"), html.find("known</span>"));
 }
 
+// Names as long as those of real parts; pictures come on top.
+TEST(Report, AThousandBucketsStayBelowAMegabyte) {
+  std::vector<ReportRow> rows;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string number = std::to_string(i);
+    ReportRow row = row_of("self_collision", "human: arm_left/forearm_" + number + " ~ torso/chest", "new", true);
+    row.key = row.bucket = "self_collision-0123456789" + number;
+    row.replay_command = "contort replay contort-out/corpus/buckets/" + row.key + "/min-0123456789abcdef.json";
+    row.features = "actions=pose,reach,walk clips=2 sequences=1 swap";
+    row.clip = "strips/" + row.key + "-01234567.webp";
+    rows.push_back(std::move(row));
+  }
+  const std::string html = report_html(model_of(rows));
+  EXPECT_LT(html.size(), 1'000'000u);
+  EXPECT_EQ(count(html, "<article"), 1000u);
+  EXPECT_EQ(count(html, "class='open'"), 1000u) << "each can be looked at";
+  EXPECT_EQ(count(html, "contort replay "), 1000u + count(html, "data-missing")) << "and seen again";
+}
+
 TEST(Report, ListsWhatWasTested) {
   ReportModel model = model_of({});
   model.tested = {{"action walk", 100}, {"action recoil", 0}};
@@ -144,7 +176,7 @@ TEST(Report, ListsWhatWasTested) {
 ReportModel hostile_model() {
   ReportRow row;
   for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,
-                            &row.replay_command, &row.strip, &row.strip_worst, &row.features})
+                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character})
     *text = kHostile;
   row.worst_margin = std::nan("");
   row.rate_hz = std::nan("");

@@ -23,8 +23,8 @@ struct Scene {
   }
 };
 
-std::unique_ptr<Renderer> make_renderer() {
-  Result<std::unique_ptr<GlBackend>> backend = make_osmesa_backend();
+std::unique_ptr<Renderer> make_renderer(GlSource source = GlSource::osmesa) {
+  Result<std::unique_ptr<GlBackend>> backend = make_gl_backend(source);
   if (!backend) throw std::runtime_error(to_line(backend.issue()));
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(std::move(backend).value());
   if (!renderer) throw std::runtime_error(to_line(renderer.issue()));
@@ -60,6 +60,17 @@ int differing_pixels(const Image& a, const Image& b) {
   int count = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3) count += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
   return count;
+}
+
+// Both are Mesa's, of one release.
+TEST(Renderer, DrawsTheSameBytesWithEgl) {
+  const Scene scene;
+  const DrawList list = list_of({scene.wall, Scene::ball(0.5, 1)});
+  const Image by_osmesa = draw(list);  // done before the other begins: a thread has one current context
+  const std::unique_ptr<Renderer> egl = make_renderer(GlSource::egl);
+  egl->set_meshes(scene.meshes);
+  EXPECT_EQ(egl->draw(list, front(), kWidth, kHeight).value(), by_osmesa);
+  EXPECT_NE(egl->draw(list_of({scene.wall}), front(), kWidth, kHeight).value(), by_osmesa);
 }
 
 TEST(Renderer, SaysWhatItDrawsWith) {

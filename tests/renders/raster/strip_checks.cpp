@@ -1,14 +1,18 @@
 // Film strips of stock characters, from the finding to the file.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <webp/demux.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <set>
 
 #include "generator/character/library.h"
 #include "generator/core/files.h"
+#include "renders/frames.h"
 #include "renders/image.h"
 #include "renders/raster/picture.h"
 #include "renders/raster/strip.h"
@@ -92,6 +96,31 @@ TEST_F(Strip, IsAPngOfTheSizeOfItsTiles) {
   EXPECT_GE(image.width, 4 * 320);
   EXPECT_GE(image.height, 2 * 240);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);  // no temporary file stays
+}
+
+// Two loops of it, as any reader of WebP sees it.
+TEST_F(Strip, MovesInAClip) {
+  StripRenderer renderer = StripRenderer::create().value();
+  for (const char* name : {"a.webp", "b.webp"})
+    ASSERT_TRUE(renderer.render(input(), path("a.png"), path(name)).ok());
+  EXPECT_EQ(bytes("a.webp"), bytes("b.webp"));
+  const std::string webp = bytes("a.webp");
+  WebPData data{reinterpret_cast<const std::uint8_t*>(webp.data()), webp.size()};
+  const std::unique_ptr<WebPAnimDecoder, decltype(&WebPAnimDecoderDelete)> decoder(
+      WebPAnimDecoderNew(&data, nullptr), &WebPAnimDecoderDelete);
+  ASSERT_NE(decoder, nullptr);
+  WebPAnimInfo info;
+  ASSERT_TRUE(WebPAnimDecoderGetInfo(decoder.get(), &info));
+  const Clip clip = choose_clip(input().finding->worst_frame, input().motion.frame_count, input().motion.rate_hz);
+  EXPECT_EQ(info.loop_count, 0u) << "for ever";
+  EXPECT_GE(info.canvas_width, 320u);
+  std::set<std::string> pictures;
+  int frames = 0, time_ms = 0;
+  for (std::uint8_t* pixels = nullptr; WebPAnimDecoderGetNext(decoder.get(), &pixels, &time_ms); ++frames)
+    pictures.emplace(reinterpret_cast<char*>(pixels), std::size_t{4} * info.canvas_width * info.canvas_height);
+  EXPECT_EQ(static_cast<std::size_t>(frames), clip.frames.size());
+  EXPECT_EQ(pictures.size(), clip.frames.size()) << "each frame has its number";
+  EXPECT_EQ(time_ms, frames * clip.milliseconds_per_frame);
 }
 
 TEST_F(Strip, HasTheSameBytesAgain) {

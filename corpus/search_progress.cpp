@@ -1,0 +1,71 @@
+#include "corpus/search_progress.h"
+
+#include <algorithm>
+#include <map>
+
+namespace contort {
+
+namespace {
+
+// Of one run, in whatever order its shards come.
+struct Shards {
+  std::vector<RunRecord> records;
+
+  // After how many of the run's cases one of them ran. Where shards are missing the indices have gaps.
+  std::int64_t place_of(std::int64_t index, const RunRecord& sum) const {
+    const auto present = static_cast<double>(records.size()) / records.front().shards;
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(static_cast<double>(index) * present) + 1, 1,
+                                    std::max<std::int64_t>(1, sum.cases));
+  }
+};
+
+std::vector<Shards> by_run(std::span<const RunRecord> runs) {
+  std::vector<Shards> all;
+  std::map<std::string, std::size_t> at;
+  for (const RunRecord& run : runs) {
+    const auto [place, is_new] = at.try_emplace(run.name, all.size());
+    if (is_new) all.emplace_back();
+    all[place->second].records.push_back(run);
+  }
+  return all;
+}
+
+struct Family {
+  std::int64_t cases = 0;
+  std::int64_t first = 0;  // of all cases
+  std::string first_arm;
+};
+
+}  // namespace
+
+SearchProgress progress_of(std::span<const RunRecord> runs) {
+  SearchProgress all;
+  std::map<std::string, Family> families;
+  std::map<std::string, ArmProgress> arms;
+  for (const Shards& shards : by_run(runs)) {
+    const RunRecord run = added_up(shards.records);
+    for (const auto& [name, count] : run.families) {
+      const std::int64_t index = count.first_indices.empty() ? run.cases : count.first_indices.front();
+      const Family met{0, all.cases + shards.place_of(index, run), count.first_arm};
+      families.try_emplace(name, met).first->second.cases += count.cases;
+    }
+    for (const auto& [name, count] : run.arms) arms[name].cases += count.cases, arms[name].failing += count.failing;
+    all.cases += run.cases, all.failing += run.failing;
+  }
+  for (const auto& [name, family] : families) {
+    all.discovered.push_back(family.first);
+    all.met_once += family.cases == 1;
+    ++arms[family.first_arm].families;
+  }
+  std::ranges::sort(all.discovered);
+  for (auto& [name, arm] : arms) arm.name = name, all.arms.push_back(arm);
+  return all;
+}
+
+double unseen_share(const SearchProgress& progress) {
+  if (progress.cases == 0) return 1.0;
+  const double events = progress.met_once > 0 ? static_cast<double>(progress.met_once) : 3.0;
+  return std::min(1.0, events / static_cast<double>(progress.cases));
+}
+
+}  // namespace contort

@@ -1,0 +1,32 @@
+// What the viewer shows of a failure: its motions with everything that happened in them, contort.report_case/1
+// (docs/report.md).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "checks/settings.h"
+#include "corpus/case.h"
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+// One of the motions that show the failure.
+struct ShownCase {
+  std::string role;  // "minimal", "original", "worst"
+  const Case& stored;
+};
+
+// Margins over time that are kept of a motion: the failure's, and those that came nearest to their limits.
+inline constexpr std::size_t kMostCurves = 16;
+
+// JSON in one line, safe inside of a <script>. The first of `shown` is what the failure is told by. Codes of
+// build_stage and write_glb: the library may have changed since.
+Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
+                              const CheckSettings& settings);
+
+// The same as the file that a page loads.
+std::string case_script(const std::string& key, const std::string& data);
+
+}  // namespace contort

@@ -1,0 +1,79 @@
+#include "renders/search_html.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "renders/html.h"
+#include "renders/wording.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kWide = 600.0, kHigh = 120.0;  // of the curve, in its own units
+
+// "1 in 2 500"
+std::string one_in(double share) {
+  return "1 in " + count_text(share > 0.0 ? static_cast<std::int64_t>(std::floor(1.0 / share)) : 0);
+}
+
+// What a reader wants to know: would going on show more?
+std::string outlook(const SearchProgress& search) {
+  const std::string odds = one_in(unseen_share(search));
+  if (search.discovered.empty())
+    return "No case failed: with 95 % confidence, fewer than " + odds + " of the cases that can be drawn would.";
+  const auto families = static_cast<std::int64_t>(search.discovered.size());
+  const std::string last = "The last of " + counted(families, "family", "families") + " was met after " +
+                           count_text(search.discovered.back()) + " of " + counted(search.cases, "case", "cases") + ". ";
+  if (search.met_once == 0)
+    return last + "Each was met by two cases or more: fewer than " + odds + " further cases should show another one.";
+  return last + counted(search.met_once, "was met by a single case", "were met by a single case each") +
+         ", so about " + odds + " further cases should show one that is not listed here.";
+}
+
+void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s%.1f %.1f", move, kWide * cases / static_cast<double>(search.cases),
+                kHigh * (1.0 - families / static_cast<double>(search.discovered.size())));
+  path += text;
+}
+
+// Families met over cases run, as steps.
+std::string curve_html(const SearchProgress& search) {
+  if (search.discovered.empty()) return "";
+  std::string path;
+  add_point(path, "M", 0.0, 0.0, search);
+  for (std::size_t i = 0; i < search.discovered.size(); ++i) {
+    const auto at = static_cast<double>(search.discovered[i]);
+    add_point(path, "L", at, static_cast<double>(i), search);
+    add_point(path, "L", at, static_cast<double>(i + 1), search);
+  }
+  add_point(path, "L", static_cast<double>(search.cases), static_cast<double>(search.discovered.size()), search);
+  return "<figure class='curve'><figcaption>Families met, up to " +
+         html_text(count_text(static_cast<std::int64_t>(search.discovered.size()))) + ", over " +
+         html_text(counted(search.cases, "case", "cases")) +
+         "</figcaption><svg viewBox='0 -4 600 128' preserveAspectRatio='none' aria-hidden='true'><path d='" + path +
+         "'/></svg></figure>\n";
+}
+
+std::string cell(std::int64_t count) { return "<td>" + html_text(count_text(count)) + "</td>"; }
+
+std::string arms_html(const SearchProgress& search) {
+  std::string out =
+      "<table class='arms'>\n<thead><tr><th scope='col'>way of drawing</th><th scope='col'>cases</th>"
+      "<th scope='col'>failing</th><th scope='col'>families it met first</th></tr></thead>\n<tbody>\n";
+  for (const ArmProgress& arm : search.arms)
+    out += "<tr><th scope='row'>" + html_text(arm.name) + "</th>" + cell(arm.cases) + cell(arm.failing) +
+           cell(arm.families) + "</tr>\n";
+  return out + "</tbody>\n</table>\n";
+}
+
+}  // namespace
+
+std::string search_html(const SearchProgress& search) {
+  if (search.cases == 0) return "";
+  return "<section id='search'>\n<h2>How far the search got</h2>\n<p>" + html_text(outlook(search)) + "</p>\n" +
+         curve_html(search) + arms_html(search) + "</section>\n";
+}
+
+}  // namespace contort
