@@ -1,5 +1,4 @@
 // Film strips of stock characters, from the finding to the file.
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <webp/demux.h>
 
@@ -16,6 +15,7 @@
 #include "renders/image.h"
 #include "renders/raster/picture.h"
 #include "renders/raster/strip.h"
+#include "tests/renders/raster/png.h"
 
 namespace contort {
 namespace {
@@ -60,20 +60,6 @@ class Strip : public testing::Test {
   Motion motion_ = bending(120);
   Finding finding_ = collision();
 };
-
-struct Png {
-  Image image;
-  std::string comment;
-};
-
-Png read_png(const std::string& path) {
-  const auto file = OIIO::ImageInput::open(path);
-  if (!file) throw std::runtime_error(OIIO::geterror());
-  Png png{Image(file->spec().width, file->spec().height), file->spec().get_string_attribute("Comment")};
-  EXPECT_EQ(file->spec().nchannels, 3);
-  file->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, png.image.rgb.data());
-  return png;
-}
 
 // Saturated red between the header and the captions, which are red themselves.
 int red_pixels(const Image& image, const StripInput& input) {
