@@ -258,7 +258,7 @@ void run(const Options& options, Context& context) {
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.record.discarded));
   if (!options.report.empty() || options.outputs.wanted())
-    make_report({options.corpus, options.report, !options.json, options.outputs}, *library, context);
+    make_report({options.corpus, options.report, "", !options.json, options.outputs}, *library, context);
   if (!options.json) print_result(result);
 }
 

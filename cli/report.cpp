@@ -12,6 +12,7 @@
 #include "cli/input.h"
 #include "cli/print.h"
 #include "cli/render.h"
+#include "cli/single_file.h"
 #include "cli/variants.h"
 #include "corpus/baseline.h"
 #include "corpus/corpus.h"
@@ -222,6 +223,9 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
     std::fprintf(stderr, "contort: some pictures are missing; the report is complete without them\n");
     context.exit_code = std::max<int>(context.exit_code, kInternal);
   }
+  if (!request.single_file.empty())
+    if (const Result<Done> written = write_single_file(model, request.folder, request.single_file); !written)
+      return context.fail(written.issue(), kInternal);
   if (!request.announce) return;
   std::printf("report: %s/index.html (%zu buckets, %lld families)\n", request.folder.c_str(), model.rows.size(),
               static_cast<long long>(model.families));
@@ -252,7 +256,10 @@ void add_report(CLI::App& app, Context& context) {
   auto request = std::make_shared<ReportRequest>();
   CLI::App* command = app.add_subcommand("report", "Report a corpus: HTML with film strips, or what CI reads");
   command->add_option("CORPUS", request->corpus, "Corpus folder")->required();
-  command->add_option("-o,--output", request->folder, "Folder of the page");
+  CLI::Option* folder = command->add_option("-o,--output", request->folder, "Folder of the page");
+  command->add_option("--single-file", request->single_file, "The page and all that belongs to it as one file, for mail")
+      ->type_name("FILE")
+      ->needs(folder);
   add_output_options(*command, request->outputs);
   command->add_flag("--gate", request->gate, "Exit with 1 where something gates");
   command->footer(

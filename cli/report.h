@@ -11,6 +11,7 @@ namespace contort::cli {
 struct ReportRequest {
   std::string corpus;
   std::string folder;       // of the page; "" for none
+  std::string single_file;  // the page with all that lies beside it, in one file; "" for none
   bool announce = true;     // print where it is
   OutputRequest outputs{};  // for CI
   bool gate = false;        // exit with 1 where something gates

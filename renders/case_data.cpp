@@ -281,4 +281,12 @@ std::string case_script(const std::string& key, const std::string& data) {
   return "contortCase(" + name + ", " + data + ");\n";
 }
 
+std::string data_of_script(const std::string& key, const std::string& script) {
+  constexpr std::string_view kEnd = ");\n";
+  const std::string bare = case_script(key, "");
+  const std::string begin = bare.substr(0, bare.size() - kEnd.size());
+  if (script.size() < bare.size() || !script.starts_with(begin) || !script.ends_with(kEnd)) return "";
+  return script.substr(begin.size(), script.size() - bare.size());
+}
+
 }  // namespace contort

@@ -26,7 +26,8 @@ inline constexpr std::size_t kMostCurves = 16;
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
                               const CheckSettings& settings);
 
-// The same as the file that a page loads.
+// The same as the file that a page loads; and back, "" where the text is no such file.
 std::string case_script(const std::string& key, const std::string& data);
+std::string data_of_script(const std::string& key, const std::string& script);
 
 }  // namespace contort

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,8 +55,12 @@ struct ReportModel {
   std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often
 };
 
+// For a page that has everything inside: its files by their paths from it ("viewer/viewer.js", "strips/x.png"), and of
+// each case the data alone, as "cases/<key>.json".
+using PageFiles = std::map<std::string, std::string>;
+
 // Equal models give equal pages. Families that gate come first; else the order of the rows is kept.
-std::string report_html(const ReportModel& model);
+std::string report_html(const ReportModel& model, const PageFiles& inside = {});
 std::string report_json(const ReportModel& model);
 
 // index.html and report.json in `folder`, which is made if need be. Code: file.unwritable.

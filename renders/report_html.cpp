@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "generator/core/hash.h"
+#include "generator/core/base64.h"
 #include "renders/html.h"
+#include "renders/page_files.h"
 #include "renders/report.h"
-#include "renders/report_page.h"
 #include "renders/search_html.h"
 #include "renders/wording.h"
 
@@ -113,12 +115,21 @@ std::string missing_text(const ReportRow& row) {
                         : "no motion to show: the generator does not come to its end";
 }
 
-std::string picture_html(const ReportRow& row, const std::string& path, std::string_view what) {
-  const std::string url = html_url(path);
+// Where the page finds a picture: beside it, or in itself.
+std::string picture_url(const std::string& path, const PageFiles& inside) {
+  const auto file = inside.find(path);
+  if (file == inside.end()) return html_url(path);
+  return "data:image/png;base64," + to_base64(std::as_bytes(std::span(file->second)));
+}
+
+std::string picture_html(const ReportRow& row, const std::string& path, std::string_view what,
+                         const PageFiles& inside) {
+  const std::string url = picture_url(path, inside);
   if (url.empty()) return "<p class='missing'>" + html_text(missing_text(row)) + "</p>\n";
   const std::string about = std::string(what) + ": " + row.check + ", " + row.subject + ", worst at " + worst_text(row);
-  return "<div class='strip'><a href='" + url + "'><img src='" + url + "' loading='lazy'" + attribute("alt", about) +
-         attribute("data-missing", missing_text(row)) + "></a></div>\n";
+  const std::string image = "<img src='" + url + "' loading='lazy'" + attribute("alt", about) +
+                            attribute("data-missing", missing_text(row)) + ">";
+  return "<div class='strip'>" + (inside.empty() ? "<a href='" + url + "'>" + image + "</a>" : image) + "</div>\n";
 }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -138,7 +149,7 @@ std::string details_html(std::string_view summary, const std::string& body) {
 
 // A page stays below a megabyte with a thousand buckets: those that come later, which gate less and are less deep, have
 // no picture before they are opened.
-constexpr std::size_t kMostFullBuckets = 100;
+constexpr std::size_t kMostFullBuckets = 80;
 
 std::string open_html(const ReportRow& row) {
   return row.has_motion && !row.key.empty() ? "<button type='button' class='open'>Look closer</button>\n" : "";
@@ -150,10 +161,10 @@ std::string short_bucket_html(const ReportRow& row) {
          "</p>\n" + open_html(row) + command_html(row.replay_command) + "</section>\n";
 }
 
-std::string bucket_html(const ReportRow& row) {
+std::string bucket_html(const ReportRow& row, const PageFiles& inside) {
   std::string out = "<section class='bucket'" + attribute("data-case", row.key) + ">\n";
-  out += picture_html(row, row.strip, "Film strip");
-  if (const std::string clip = html_url(row.clip); !clip.empty())
+  out += picture_html(row, row.strip, "Film strip", inside);
+  if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
          fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
@@ -208,7 +219,7 @@ std::string card_head(const FamilyCard& card) {
 }
 
 // `full`: how many buckets may still be shown with everything.
-std::string card_html(const FamilyCard& card, std::size_t& full) {
+std::string card_html(const FamilyCard& card, std::size_t& full, const PageFiles& inside) {
   const ReportRow& row = *card.rows.front();
   const std::string look = card.gating() ? "card gating" : "card";
   std::string out = "<article tabindex='-1'" + attribute("class", look) + attribute("data-check", row.check) +
@@ -216,7 +227,7 @@ std::string card_html(const FamilyCard& card, std::size_t& full) {
                     attribute("data-state", states_of(card)) + ">\n" + card_head(card);
   std::string others;
   for (const ReportRow* bucket : card.rows) {
-    (bucket == &row ? out : others) += full > 0 ? bucket_html(*bucket) : short_bucket_html(*bucket);
+    (bucket == &row ? out : others) += full > 0 ? bucket_html(*bucket, inside) : short_bucket_html(*bucket);
     full -= full > 0 ? 1 : 0;
   }
   const auto more = static_cast<std::int64_t>(card.rows.size()) - 1;
@@ -226,24 +237,23 @@ std::string card_html(const FamilyCard& card, std::size_t& full) {
 
 // ---- the rest of the page
 
-std::string filter_html(const ReportModel& model) {
-  std::set<std::string> checks;
-  for (const ReportRow& row : model.rows) checks.insert(row.check);
-  std::string options = "<option value=''>all checks</option>\n";
-  for (const std::string& check : checks)
-    options += "<option" + attribute("value", check) + ">" + html_text(check) + "</option>\n";
-  return "<form class='filter' role='search'>\n<label class='words'><span>Filter</span><input type='search' "
-         "id='words' autocomplete='off' spellcheck='false' placeholder='elbow, state:new, walk'></label>\n"
-         "<label><span>Check</span><select id='check'>\n" +
-         options + "</select></label>\n<output id='shown' aria-live='polite'></output>\n</form>\n";
+// page.js fills the choices from the cards.
+std::string filter_html() {
+  std::string out =
+      "<form class='filter' role='search'>\n<label class='words'><span>Filter</span><input type='search' id='words' "
+      "autocomplete='off' spellcheck='false' placeholder='elbow, state:new, walk'></label>\n";
+  for (const auto& [id, name] : {std::pair("check", "Check"), std::pair("character", "Character"),
+                                 std::pair("part", "Part"), std::pair("state", "State")})
+    out += "<label><span>" + std::string(name) + "</span><select id='" + id + "'></select></label>\n";
+  return out + "<output id='shown' aria-live='polite'></output>\n</form>\n";
 }
 
-std::string failures_html(const ReportModel& model) {
+std::string failures_html(const ReportModel& model, const PageFiles& inside) {
   std::string out = "<section id='failures'>\n<h2>Failures</h2>\n";
   if (model.rows.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
-  out += filter_html(model);
+  out += filter_html();
   std::size_t full = kMostFullBuckets;
-  for (const FamilyCard& card : cards_of(model)) out += card_html(card, full);
+  for (const FamilyCard& card : cards_of(model)) out += card_html(card, full, inside);
   return out + "<p class='none' id='no-match' hidden>Nothing matches the filter.</p>\n</section>\n";
 }
 
@@ -279,11 +289,18 @@ std::string tested_html(const ReportModel& model) {
   return out + "</tbody>\n</table>\n</section>\n";
 }
 
-std::string footer_html(const ReportModel& model) {
+std::string footer_html(const ReportModel& model, bool alone) {
   static constexpr char kKeys[] =
       " <span class='keys'>Keys: <kbd>/</kbd> filter, <kbd>j</kbd> <kbd>k</kbd> next and previous failure.</span>";
-  return "<footer class='page'><p>Made by contort; the same numbers are in <a href='report.json'>report.json</a>." +
+  const std::string json = alone ? "." : "; the same numbers are in <a href='report.json'>report.json</a>.";
+  return "<footer class='page'><p>Made by contort" + json +
          std::string(model.rows.empty() ? "" : kKeys) + "</p></footer>\n";
+}
+
+std::string text_of(std::string_view name) {
+  for (const StockFile& file : page_files())
+    if (file.name == name) return std::string(file.text);
+  return "";
 }
 
 std::string head_html(const ReportModel& model, const Verdict& verdict, const std::string& nonce) {
@@ -298,18 +315,34 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
          "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
          "<meta name='color-scheme' content='light dark'>\n<meta name='referrer' content='no-referrer'>\n<title>" +
          html_text(verdict.text + " \xE2\x80\x93 " + model.title) + "</title>\n<link rel='icon' href='data:,'>\n" +
-         "<style" + here + ">\n" + page::kStyle + "</style>\n" + "<script" + here + ">\n" + page::kScript +
+         "<style" + here + ">\n" + text_of("page.css") + "</style>\n" + "<script" + here + ">\n" + text_of("page.js") +
          "</script>\n</head>\n";
+}
+
+// The viewer and the cases, for page.js to find them.
+std::string inside_html(const PageFiles& inside, const std::string& nonce) {
+  const std::string here = attribute("nonce", nonce);
+  std::string out;
+  for (const auto& [path, text] : inside) {
+    const std::filesystem::path name(path);
+    if (name.extension() == ".css") out += "<style" + here + ">\n" + text + "</style>\n";
+    if (name.extension() == ".js") out += "<script" + here + ">\n" + text + "</script>\n";
+    if (name.extension() == ".json")
+      out += "<script type='application/json'" + attribute("id", "case-" + name.stem().string()) + here + ">" + text +
+             "</script>\n";
+  }
+  return out;
 }
 
 }  // namespace
 
-std::string report_html(const ReportModel& model) {
+std::string report_html(const ReportModel& model, const PageFiles& inside) {
   const Verdict verdict = verdict_of(model);
-  return head_html(model, verdict, content_id(report_json(model))) +
+  const std::string nonce = content_id(report_json(model));
+  return head_html(model, verdict, nonce) +
          "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" + verdict_html(model, verdict) +
-         "<main class='page'>\n" + failures_html(model) + search_html(model.search) + tested_html(model) + "</main>\n" + footer_html(model) +
-         "</body>\n</html>\n";
+         "<main class='page'>\n" + failures_html(model, inside) + search_html(model.search) + tested_html(model) +
+         "</main>\n" + footer_html(model, !inside.empty()) + inside_html(inside, nonce) + "</body>\n</html>\n";
 }
 
 }  // namespace contort

@@ -107,6 +107,12 @@ TEST(CaseData, AKeyStaysAString) {
   EXPECT_EQ(case_script("a\"</script>\xE2\x80\xA8", "{}"), "contortCase(\"a\\\"\\u003c/script>\\u2028\", {});\n");
 }
 
+TEST(CaseData, IsFoundAgainInItsScript) {
+  for (const char* key : {"a", "a\"b"}) EXPECT_EQ(data_of_script(key, case_script(key, "{\"x\": 1}")), "{\"x\": 1}");
+  EXPECT_EQ(data_of_script("a", case_script("b", "{}")), "");
+  EXPECT_EQ(data_of_script("a", ""), "");
+}
+
 TEST(CaseData, ALibraryWithoutTheCharacterIsAnIssue) {
   const Case stored = made_up(spec_of({}, "nobody"), "joint_range", "x");
   const std::vector<ShownCase> shown = {{"minimal", stored}};

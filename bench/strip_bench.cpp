@@ -1,0 +1,113 @@
+// What a film strip costs, and where the time goes: one thread, one context, six tiles of 320 x 240.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+
+#include "generator/generate.h"
+#include "generator/stage.h"
+#include "renders/case_data.h"
+#include "renders/frames.h"
+#include "renders/raster/auto_camera.h"
+#include "renders/raster/picture.h"
+#include "renders/raster/renderer.h"
+#include "renders/raster/strip.h"
+#include "renders/raster/webp.h"
+#include "tests/scenes.h"
+
+namespace contort {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240, kTiles = 6;
+
+// A scene, and a finding on it as the fuzzer would make one.
+struct Subject {
+  Stage stage = build_stage(scene("human_overlaps"), stock_library()).value();
+  Motion motion = generate(stage);
+  Finding finding{"self_collision", "arm_left/forearm ~ torso/chest", "m", 20, 30, 40, -0.02, 1.0};
+  StripInput input{*stage.character, motion, &finding};
+  Story story{*stage.character, motion, &finding, nullptr, &stage.environment, nullptr};
+  Shots shots = take_shots(story, choose_frames(20, 30, 40, motion.frame_count, kTiles));
+  std::unique_ptr<Renderer> renderer = Renderer::create(make_gl_backend(GlSource::any).value()).value();
+  Camera camera = frame_points(shots.outlines[0], probe_views().front(), static_cast<double>(kWidth) / kHeight);
+  Subject() {
+    input.tiles = kTiles, input.columns = 3;
+    add_scenery(story, shots.outlines, shots);
+    renderer->set_meshes(shots.meshes);
+  }
+  Image tile() { return renderer->draw(shots.lists[0], camera, kWidth, kHeight).value(); }
+};
+
+std::string scratch(const char* name) { return (std::filesystem::temp_directory_path() / name).string(); }
+
+void strip(benchmark::State& state) {
+  const Subject subject;
+  StripRenderer renderer = StripRenderer::create().value();
+  for (auto _ : state) benchmark::DoNotOptimize(renderer.render(subject.input, scratch("contort_bench.png")).ok());
+  state.counters["strips/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void strip_and_clip(benchmark::State& state) {
+  const Subject subject;
+  StripRenderer renderer = StripRenderer::create().value();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        renderer.render(subject.input, scratch("contort_bench.png"), scratch("contort_bench.webp")).ok());
+}
+
+void choose_the_view(benchmark::State& state) {
+  Subject subject;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(choose_view(*subject.renderer, subject.story, subject.shots, 0, std::nullopt).ok());
+}
+
+void draw_and_read_one_tile(benchmark::State& state) {
+  Subject subject;
+  for (auto _ : state) benchmark::DoNotOptimize(subject.tile());
+}
+
+// Oversampled pixels to those of the picture.
+void halve_one_tile(benchmark::State& state) {
+  const std::vector<std::uint8_t> rgba(std::size_t{4} * 4 * kWidth * kHeight, 128);
+  for (auto _ : state) benchmark::DoNotOptimize(halve_and_flip(rgba, 2 * kWidth, 2 * kHeight));
+}
+
+void write_a_caption(benchmark::State& state) {
+  Image image(kWidth, kHeight);
+  const Face face{kStripFont};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(write_text(image, 12, 200, "frame 55  0.917 s", 13, {240, 240, 240}, face).ok());
+}
+
+void png_of_a_tile(benchmark::State& state) {
+  Subject subject;
+  const Image image = subject.tile();
+  for (auto _ : state) benchmark::DoNotOptimize(png_bytes(image, "contort replay x").value());
+}
+
+void webp_of_a_tile(benchmark::State& state) {
+  Subject subject;
+  const std::vector<Image> images(1, subject.tile());
+  for (auto _ : state) benchmark::DoNotOptimize(webp_bytes(images, 66).value());
+}
+
+void case_data_of_one_motion(benchmark::State& state) {
+  Case stored;
+  stored.spec = scene("human_overlaps"), stored.expect.check = "self_collision";
+  const std::vector<ShownCase> shown = {{"minimal", stored}};
+  for (auto _ : state) benchmark::DoNotOptimize(case_data("k", shown, stock_library(), {}).value());
+}
+
+BENCHMARK(strip)->Unit(benchmark::kMillisecond);
+BENCHMARK(strip_and_clip)->Unit(benchmark::kMillisecond);
+BENCHMARK(choose_the_view)->Unit(benchmark::kMillisecond);
+BENCHMARK(draw_and_read_one_tile)->Unit(benchmark::kMillisecond);
+BENCHMARK(halve_one_tile)->Unit(benchmark::kMillisecond);
+BENCHMARK(write_a_caption)->Unit(benchmark::kMillisecond);
+BENCHMARK(png_of_a_tile)->Unit(benchmark::kMillisecond);
+BENCHMARK(webp_of_a_tile)->Unit(benchmark::kMillisecond);
+BENCHMARK(case_data_of_one_motion)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace contort
+
+BENCHMARK_MAIN();

@@ -1,0 +1,14 @@
+// The report as one file, for mail.
+#pragma once
+
+#include <string>
+
+#include "generator/core/result.h"
+#include "renders/report.h"
+
+namespace contort::cli {
+
+// The page of the model, with everything inside that write_page put into `folder`. What is not there is left out.
+Result<Done> write_single_file(const ReportModel& model, const std::string& folder, const std::string& path);
+
+}  // namespace contort::cli

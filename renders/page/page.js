@@ -1,0 +1,369 @@
+// The report's own script: filter, keys, copying, opening a case. Without it the page is complete but for these.
+// It runs in the head, before the body is there. Texts are set with textContent only.
+(() => {
+  'use strict';
+  const nonce = document.currentScript.nonce;
+  const root = document.documentElement;
+  root.classList.add('js');
+
+  // ---- pictures that are missing
+
+  // In the head, so that it is listening before the first picture can fail.
+  document.addEventListener('error', (event) => {
+    const text = event.target.dataset && event.target.dataset.missing;
+    if (!text) return;
+    const note = document.createElement('p');
+    note.className = 'missing';
+    note.textContent = text;
+    event.target.closest('.strip').replaceWith(note);
+  }, true);
+
+  // ---- copying: the text before a button of class "copy"
+
+  const copyOldWay = (text) => {
+    const area = document.createElement('textarea');
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand('copy');
+    area.remove();
+    return done;
+  };
+  const copy = async (text) => {
+    try {
+      await navigator.clipboard.writeText(text);
+      return true;
+    } catch {
+      return copyOldWay(text);
+    }
+  };
+  document.addEventListener('click', async (event) => {
+    const button = event.target.closest('.copy');
+    if (!button) return;
+    const done = await copy(button.previousElementSibling.textContent);
+    button.focus();
+    button.textContent = done ? 'Copied' : 'Selected';
+    if (!done) getSelection().selectAllChildren(button.previousElementSibling);
+    setTimeout(() => { button.textContent = 'Copy'; }, 1600);
+  });
+
+  // ---- the address: #case=KEY&frame=N&q=WORDS&check=...
+
+  const address = {
+    read: () => new URLSearchParams(location.hash.slice(1)),
+    // Empty values are left out. Some browsers refuse this on pages from a disk, or when it is done too often: then the
+    // address only does not keep what is shown.
+    write(values) {
+      const state = new URLSearchParams();
+      for (const [name, value] of Object.entries(values)) if (value !== '' && value !== null) state.set(name, value);
+      const text = state.toString();
+      if (text === location.hash.slice(1)) return;
+      try {
+        history.replaceState(null, '', `${location.pathname}${location.search}${text ? `#${text}` : ''}`);
+      } catch { /* See above. */ }
+    },
+  };
+
+  // ---- filter
+
+  // Name in the address and in words: element, attribute of the cards.
+  const kSelects = ['check', 'character', 'part', 'state'];
+  const kWord = /^(check|character|part|slot|state):(.*)$/;
+
+  const attributeOf = (card, name) =>
+    (name === 'part' || name === 'slot' ? card.dataset.parts : card.dataset[name]) || '';
+  // Checks have no spaces; the other attributes are words with spaces between.
+  const valuesOf = (card, name) => attributeOf(card, name).split(' ').filter(Boolean);
+
+  const list = { cards: [], words: null, selects: new Map() };
+
+  const fillSelect = (name, select) => {
+    const given = new Set([...select.options].map((option) => option.value));
+    const values = new Set(list.cards.flatMap((card) => valuesOf(card, name)));
+    if (!given.has('')) select.append(new Option(`all ${name}s`, ''));
+    for (const value of [...values].sort()) if (!given.has(value)) select.append(new Option(value, value));
+    // A choice of one is none.
+    if (values.size < 2 && select.closest('label')) select.closest('label').hidden = true;
+  };
+
+  const matches = (card, word) => {
+    const [, name, value] = kWord.exec(word) || [];
+    return name ? attributeOf(card, name).toLowerCase().includes(value) : (card.dataset.text || '').includes(word);
+  };
+
+  const apply = () => {
+    const words = list.words.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const card of list.cards) {
+      let fits = words.every((word) => matches(card, word));
+      for (const [name, select] of list.selects)
+        fits = fits && (!select.value || valuesOf(card, name).includes(select.value));
+      if (card.hidden === fits) card.hidden = !fits;
+      shown += fits ? 1 : 0;
+    }
+    document.getElementById('shown').textContent = `${shown} of ${list.cards.length} shown`;
+    document.getElementById('no-match').hidden = shown > 0;
+  };
+
+  const filterState = () => {
+    const state = { q: list.words ? list.words.value : '' };
+    for (const [name, select] of list.selects) state[name] = select.value;
+    return state;
+  };
+
+  const readFilter = () => {
+    const state = address.read();
+    list.words.value = state.get('q') || '';
+    for (const [name, select] of list.selects) {
+      select.value = state.get(name) || '';
+      if (select.selectedIndex < 0) select.value = '';
+    }
+    apply();
+  };
+
+  const startFilter = () => {
+    list.words = document.getElementById('words');
+    if (!list.words) return;
+    for (const name of kSelects) {
+      const select = document.getElementById(name);
+      if (!select) continue;
+      list.selects.set(name, select);
+      fillSelect(name, select);
+    }
+    const change = () => { apply(); address.write(filterState()); };
+    list.words.addEventListener('input', change);
+    for (const select of list.selects.values()) select.addEventListener('change', change);
+    list.words.form.addEventListener('submit', (event) => event.preventDefault());
+    list.words.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') { list.words.value = ''; change(); list.words.blur(); }
+    });
+    readFilter();
+  };
+
+  // ---- loading a case
+
+  const load = (tag, attributes) => new Promise((done, failed) => {
+    const element = document.createElement(tag);
+    element.nonce = nonce;
+    Object.assign(element, attributes);
+    element.onload = () => done(element);
+    element.onerror = () => { element.remove(); failed(new Error('missing')); };
+    document.head.append(element);
+  });
+
+  let viewerLoading = null;
+  const viewer = async () => {
+    if (window.contortViewer) return window.contortViewer;
+    viewerLoading = viewerLoading || Promise.all([
+      load('link', { rel: 'stylesheet', href: 'viewer/viewer.css' }), load('script', { src: 'viewer/viewer.js' })]);
+    try {
+      await viewerLoading;
+    } catch {
+      viewerLoading = null;
+    }
+    if (!window.contortViewer)
+      throw new Error('The viewer cannot be loaded: the folder viewer next to this page is missing or damaged.');
+    return window.contortViewer;
+  };
+
+  // The file of a case calls this. What nobody waits for is dropped.
+  const waiting = new Map();
+  window.contortCase = (key, data) => { if (waiting.has(key)) waiting.set(key, data); };
+
+  const caseFromPage = (element, key) => {
+    try {
+      return JSON.parse(element.textContent);
+    } catch {
+      throw new Error(`The data of case ${key} in this page is damaged.`);
+    }
+  };
+
+  const caseFromFile = async (key) => {
+    const file = `cases/${encodeURIComponent(key)}.js`;
+    waiting.set(key, null);
+    try {
+      (await load('script', { src: file })).remove();
+    } catch {
+      throw new Error(`The file ${file} is missing: it has to be next to this page.`);
+    }
+    const data = waiting.get(key);
+    waiting.delete(key);
+    if (!data) throw new Error(`The file ${file} is damaged.`);
+    return data;
+  };
+
+  const caseData = (key) => {
+    const element = document.getElementById(`case-${key}`);
+    return element ? caseFromPage(element, key) : caseFromFile(key);
+  };
+
+  // ---- the open case
+
+  const shown = { key: '', view: null, panel: null, ticket: null, addressTimer: 0, title: '' };
+  const buckets = () => [...document.querySelectorAll('.bucket[data-case]')];
+  const bucketOf = (key) => buckets().find((bucket) => bucket.dataset.case === key);
+  const isListed = (bucket) => !bucket.closest('.card') || !bucket.closest('.card').hidden;
+
+  // A sentence where the reader asked: in the bucket, or above the list.
+  const say = (place, text) => {
+    const old = place.querySelector(':scope > .problem');
+    if (old) old.remove();
+    if (!text) return;
+    const note = document.createElement('p');
+    note.className = 'problem';
+    note.setAttribute('role', 'alert');
+    note.textContent = text;
+    place.prepend(note);
+    note.scrollIntoView({ block: 'nearest' });
+  };
+
+  const rememberFrame = (key, frame) => {
+    clearTimeout(shown.addressTimer);
+    // Not at each step of a drag: browsers limit how often an address may change.
+    shown.addressTimer = setTimeout(() => {
+      if (shown.key === key) address.write({ case: key, frame, ...filterState() });
+    }, 150);
+  };
+
+  const reveal = (element) => {
+    for (let at = element.closest('details'); at; at = at.parentElement.closest('details')) at.open = true;
+  };
+
+  const showList = (key) => {
+    clearTimeout(shown.addressTimer);
+    root.classList.remove('case-open');
+    if (shown.panel) shown.panel.hidden = true;
+    if (shown.title) document.title = shown.title;
+    Object.assign(shown, { key: '', view: null, ticket: null });
+    address.write(filterState());
+    const bucket = bucketOf(key);
+    if (!bucket) return;
+    reveal(bucket);
+    const button = bucket.querySelector('.open');
+    (button || bucket.closest('.card')).focus({ preventScroll: true });
+    (button || bucket).scrollIntoView({ block: 'center' });
+  };
+
+  const closeCase = () => {
+    if (!shown.key) return;
+    if (window.contortViewer) window.contortViewer.close();
+    showList(shown.key);
+  };
+
+  const panel = () => {
+    if (shown.panel) return shown.panel;
+    shown.panel = document.createElement('main');
+    shown.panel.id = 'case';
+    shown.panel.className = 'case-view';
+    document.body.prepend(shown.panel);
+    return shown.panel;
+  };
+
+  const optionsFor = (key, bucket, frame) => {
+    const ways = buckets().filter((other) => other === bucket || isListed(other));
+    const at = ways.indexOf(bucket);
+    const go = (other) => (other ? () => openCase(other.dataset.case, null) : null);
+    const image = bucket.querySelector('.strip img');
+    const command = bucket.querySelector('.command code');
+    return {
+      frame: frame === null ? undefined : frame,
+      onFrame: (now) => rememberFrame(key, now),
+      onClose: () => showList(key),
+      onPrevious: go(ways[at - 1]), onNext: go(ways[at + 1]),
+      position: `${at + 1} of ${ways.length}`,
+      picture: image ? { src: image.currentSrc || image.src, alt: image.alt } : null,
+      command: command ? command.textContent : '',
+    };
+  };
+
+  const failed = (key, bucket, text) => {
+    if (window.contortViewer) window.contortViewer.close();
+    const wasOpen = shown.key;
+    if (wasOpen) showList(key);
+    reveal(bucket);
+    say(bucket, text);
+  };
+
+  const present = (key, bucket, frame, api, data) => {
+    shown.key = key;
+    panel().hidden = false;
+    root.classList.add('case-open');
+    try {
+      shown.view = api.open(shown.panel, data, optionsFor(key, bucket, frame));
+    } catch (error) {
+      throw new Error(`Case ${key} cannot be shown: ${error.message}.`);
+    }
+    shown.title = shown.title || document.title;
+    document.title = `${data.check} ${data.subject} \u2013 ${shown.title}`;
+    scrollTo(0, 0);
+  };
+
+  const openCase = async (key, frame) => {
+    const bucket = bucketOf(key);
+    const failures = document.getElementById('failures') || document.body;
+    if (!bucket) {
+      if (shown.key) closeCase();
+      say(failures, `This report has no case ${key}.`);
+      return;
+    }
+    say(failures, '');
+    say(bucket, '');
+    const ticket = shown.ticket = {};
+    const button = bucket.querySelector('.open');
+    if (button) button.setAttribute('aria-busy', 'true');
+    try {
+      const [api, data] = await Promise.all([viewer(), caseData(key)]);
+      if (shown.ticket === ticket) present(key, bucket, frame, api, data);  // Else another one was opened meanwhile.
+    } catch (error) {
+      if (shown.ticket === ticket) failed(key, bucket, error.message);
+    } finally {
+      if (button) button.removeAttribute('aria-busy');
+    }
+  };
+
+  const readAddress = () => {
+    const state = address.read();
+    const key = state.get('case');
+    const frame = /^\d{1,9}$/.test(state.get('frame') || '') ? Number(state.get('frame')) : null;
+    if (!key) closeCase();
+    else if (key !== shown.key) openCase(key, frame);
+    else if (frame !== null && shown.view) shown.view.player.seek(frame);
+  };
+
+  // ---- keys of the list; an open case has its own
+
+  const moveFocus = (way) => {
+    const visible = list.cards.filter((card) => !card.hidden);
+    const at = visible.indexOf(document.activeElement.closest('.card'));
+    const next = visible[way > 0 ? at + 1 : Math.max(0, at - 1)];
+    if (next) { next.focus({ preventScroll: true }); next.scrollIntoView(); }
+  };
+
+  const listKey = (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (root.classList.contains('case-open') || event.target.matches('input, select, textarea')) return;
+    if (event.key === '/' && list.words) { event.preventDefault(); list.words.focus(); list.words.select(); }
+    if (event.key === 'j') moveFocus(1);
+    if (event.key === 'k') moveFocus(-1);
+    if (event.key !== 'Enter' || !event.target.matches('.card')) return;
+    const bucket = event.target.querySelector('.bucket[data-case]');
+    if (bucket) openCase(bucket.dataset.case, null);
+  };
+
+  document.addEventListener('DOMContentLoaded', () => {
+    list.cards = [...document.querySelectorAll('.card')];
+    startFilter();
+    document.addEventListener('keydown', listKey);
+    document.addEventListener('click', (event) => {
+      const button = event.target.closest('.open');
+      const bucket = button && button.closest('.bucket[data-case]');
+      if (bucket) openCase(bucket.dataset.case, null);
+    });
+    window.addEventListener('hashchange', () => {
+      if (location.hash && !location.hash.includes('=')) return;  // A place in the page, such as #failures.
+      if (list.words) readFilter();
+      readAddress();
+    });
+    if (address.read().get('case')) readAddress();
+  });
+})();

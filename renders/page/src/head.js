@@ -1,0 +1,29 @@
+// The top of a case: what fails, how badly, and the ways out.
+import { el, textButton } from './dom.js';
+import { interval, margin, seconds } from './format.js';
+
+function fact(name, value) {
+  return value ? el('div', {}, el('dt', { text: name }), el('dd', { text: value })) : null;
+}
+
+export function factsElement(data, motion) {
+  const worst = motion.worst >= 0 ? `frame ${motion.worst}, ${seconds(motion.worst, motion.rate)}` :
+    'this motion does not show it';
+  const length = `${motion.frameCount} at ${motion.rate} Hz, ${seconds(motion.frameCount - 1, motion.rate)}`;
+  return el('dl', { class: 'case-facts' },
+    fact(motion.role === 'worst' ? 'worst margin (minimal case)' : 'worst margin', margin(data.worstMargin, data.unit)),
+    fact('worst at', worst), fact('violated in', motion.worst >= 0 ? interval(motion.first, motion.last) : ''),
+    fact('frames', length));
+}
+
+// calls: close, previous, next; the last two may be missing at the ends of the list
+export function headElement(data, position, calls) {
+  const title = el('h1', { tabindex: '-1', class: 'case-title' },
+    el('span', { class: 'check', text: data.check }), ' ', el('span', { class: 'subject', text: data.subject }));
+  const element = el('div', { class: 'case-head' },
+    textButton('\u2190 All failures', 'Escape', calls.close, { class: 'close' }), title,
+    el('span', { class: 'case-position dim', text: position || '' }),
+    textButton('Previous', 'k', calls.previous, { class: 'previous', disabled: !calls.previous }),
+    textButton('Next', 'j', calls.next, { class: 'next', disabled: !calls.next }));
+  return { element, title };
+}

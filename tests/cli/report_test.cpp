@@ -1,0 +1,107 @@
+// contort report: the folder that people open.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "corpus/isolate.h"
+#include "tests/cli/program.h"
+#include "tests/corpus/sample_corpus.h"
+
+namespace contort {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReportOfCorpus : public testing::Test {
+ protected:
+  ReportOfCorpus() : corpus_(create(folder_)) {
+    add(failing_case(bent_elbow(158), "joint_range", kElbow), failing_case(bent_elbow(165), "joint_range", kElbow));
+  }
+  void add(const Case& minimal, const Case& original) {
+    EXPECT_TRUE(corpus_.add({.minimal = minimal, .original = original, .run = "seed_1"}));
+  }
+  // The code, with what was printed.
+  Ran report(std::vector<std::string> options = {}, const std::string& gl = "none") {
+    std::vector<std::string> call = {"--gl", gl, "report", corpus_.folder(), "-o", folder_ / "out"};
+    call.insert(call.end(), options.begin(), options.end());
+    return contort_program(call);
+  }
+  std::vector<std::string> files(const std::string& below) const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / ("out/" + below)))
+      names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+  }
+  std::string key() const {
+    std::vector<Issue> damaged;
+    return folder_name(corpus_.buckets(damaged).front());
+  }
+
+  TempFolder folder_;
+  Corpus corpus_;
+};
+
+TEST_F(ReportOfCorpus, HasWhatTheViewerShowsOfEachBucket) {
+  const Ran ran = report();
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(files("cases"), std::vector<std::string>{key() + ".js"});
+  const std::string script = slurp(folder_ / ("out/cases/" + key() + ".js"));
+  EXPECT_TRUE(script.starts_with("contortCase(\"" + key() + "\", {"));
+  EXPECT_NE(script.find("\"role\":\"minimal\""), std::string::npos);
+  EXPECT_NE(script.find("\"role\":\"original\""), std::string::npos);
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("data-case='" + key() + "'"), std::string::npos);
+}
+
+// To play it would end whoever plays it.
+TEST_F(ReportOfCorpus, HasNoMotionOfACaseThatEndsTheGenerator) {
+  const Case crash = ending_case(bent_elbow(20), {Ending::Kind::crash, "SIGSEGV", ""});
+  add(crash, crash);
+  const Ran ran = report({}, "auto");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(files("cases").size(), 1U);
+  EXPECT_EQ(files("strips").size(), 2U) << "one still, one moving";
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("no motion to show"), std::string::npos);
+}
+
+TEST_F(ReportOfCorpus, DrawsEachPictureOnceAndKeepsNoOldOnes) {
+  ASSERT_EQ(report({}, "auto").code, 0);
+  const std::vector<std::string> pictures = files("strips");
+  ASSERT_EQ(pictures.size(), 2U);
+  const auto drawn = fs::last_write_time(folder_ / ("out/strips/" + pictures[0]));
+  add(failing_case(bent_elbow(152), "joint_range", kElbow), failing_case(bent_elbow(152), "joint_range", kElbow));
+  ASSERT_EQ(report({}, "auto").code, 0);
+  EXPECT_EQ(files("strips").size(), 2U) << "the bucket has another minimal case, and so other pictures";
+  EXPECT_NE(files("strips"), pictures);
+  const auto again = fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0]));
+  EXPECT_GT(again, drawn);
+  ASSERT_EQ(report({}, "auto").code, 0);
+  EXPECT_EQ(fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0])), again);
+}
+
+TEST_F(ReportOfCorpus, IsOneFileForMail) {
+  EXPECT_EQ(report({"--single-file", folder_ / "mail.html"}, "auto").code, 0);
+  const std::string page = slurp(folder_ / "mail.html");
+  EXPECT_NE(page.find("id='case-" + key() + "'"), std::string::npos);
+  EXPECT_NE(page.find("src='data:image/png;base64,iVBOR"), std::string::npos);
+  for (const char* outside : {"src='strips", "href='strips", "href='report.json'"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  const Ran alone = contort_program({"report", corpus_.folder(), "--single-file", folder_ / "x.html"});
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_EQ(lines_of(alone.err).size(), 1U) << alone.err;
+}
+
+TEST_F(ReportOfCorpus, WithoutAnyoneWhoDrawsIsCompleteButForPictures) {
+  const Ran ran = report();
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_NE(ran.err.find("no pictures"), std::string::npos);
+  EXPECT_TRUE(files("strips").empty());
+  const Ran refused = report({}, "vulkan");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(lines_of(refused.err).size(), 1U);
+}
+
+}  // namespace
+
+}  // namespace contort

@@ -1,0 +1,11 @@
+// All tests, in one process: they share the browser.
+import { after } from 'node:test';
+import { closeAll } from './support.mjs';
+import './source.test.mjs';
+import './list.test.mjs';
+import './case.test.mjs';
+import './failures.test.mjs';
+import './access.test.mjs';
+import './speed.test.mjs';
+
+after(closeAll);
