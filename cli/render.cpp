@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "corpus/corpus.h"
 
 namespace contort::cli {
 
@@ -43,6 +45,47 @@ Result<int> run_program(const std::vector<std::string>& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(kInternal);
 }
 
+namespace {
+
+// Of a folder that is a corpus, the minimal cases, deepest first; those without a motion are left out.
+Result<std::vector<std::string>> cases_of(const std::string& folder) {
+  const Result<Corpus> corpus = Corpus::open(folder);
+  if (!corpus) return corpus.issue();
+  std::vector<Issue> damaged;
+  std::vector<std::pair<double, std::string>> cases;
+  for (const Bucket& bucket : corpus->buckets(damaged)) {
+    const std::string path = corpus->folder_of(bucket) + "/" + bucket.min;
+    const Result<Case> stored = read_case(path);
+    if (!stored) damaged.push_back(stored.issue());
+    if (stored && !is_ending(stored->expect)) cases.emplace_back(-stored->expect.depth, path);
+  }
+  for (const Issue& issue : damaged) std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
+  if (cases.empty()) return Issue{"corpus.no_case", "", folder + " has no case to draw"};
+  std::stable_sort(cases.begin(), cases.end(), [](const auto& l, const auto& r) { return l.first < r.first; });
+  std::vector<std::string> paths;
+  for (auto& [depth, path] : cases) paths.push_back(std::move(path));
+  return paths;
+}
+
+// Folders become the cases that they hold.
+Result<Done> take_cases(std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(input, error)) {
+      files.push_back(input);
+      continue;
+    }
+    const Result<std::vector<std::string>> cases = cases_of(input);
+    if (!cases) return cases.issue();
+    files.insert(files.end(), cases->begin(), cases->end());
+  }
+  inputs = std::move(files);
+  return Done{};
+}
+
+}  // namespace
+
 void add_render(CLI::App& app, Context& context) {
   struct Options {
     std::vector<std::string> inputs;
@@ -53,10 +96,11 @@ void add_render(CLI::App& app, Context& context) {
     std::string clip;
     int tiles = 8;
     bool rows = false;
+    bool sheet = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Draw a case or spec as a film strip (PNG)");
-  command->add_option("FILE", options->inputs, "Case or spec file; several with --rows")->required();
+  command->add_option("FILE", options->inputs, "Case or spec file; several with --rows or --sheet")->required();
   command->add_option("-o,--output", options->output, "The picture")->required();
   command->add_option("--tiles", options->tiles, "Frames on the strip")
       ->check(CLI::Range(1, 64))
@@ -67,6 +111,7 @@ void add_render(CLI::App& app, Context& context) {
   command->add_option("--clip", options->clip, "The failing half second as a moving picture, too (WebP)")
       ->type_name("FILE");
   command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
+  command->add_flag("--sheet", options->sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
   command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
       ->allow_extra_args(false);
   command->footer("Example: contort render docs/examples/reach_hand.json -o strip.png");
@@ -75,6 +120,10 @@ void add_render(CLI::App& app, Context& context) {
     std::vector<std::string> call = renderer_call(context);
     call.insert(call.end(), {"-o", options->output, "--tiles", std::to_string(options->tiles)});
     if (options->rows) call.push_back("--rows");
+    if (options->sheet) {
+      call.push_back("--sheet");
+      if (const Result<Done> found = take_cases(options->inputs); !found) return context.fail(found.issue());
+    }
     if (!options->frames.empty()) call.insert(call.end(), {"--frames", options->frames});
     if (!options->azimuth_deg.empty()) call.insert(call.end(), {"--azimuth", options->azimuth_deg});
     for (const std::string& label : options->labels) call.insert(call.end(), {"--label", label});

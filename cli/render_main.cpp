@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "checks/evaluate.h"
@@ -31,6 +32,7 @@ struct Options {
   bool clips = false;  // with `many`: beside each strip
   bool many = false;
   bool rows = false;
+  bool sheet = false;
   int tiles = 8;
   std::optional<double> azimuth_rad() const {
     if (azimuth_deg.empty()) return std::nullopt;
@@ -51,25 +53,43 @@ std::string clip_of(const Options& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
-Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
-                       const std::string& png) {
-  const Result<SpecInput> input = read_spec_input(file);
-  if (!input) return input.issue();
-  const Result<Stage> stage = build_stage(input->spec, library);
-  if (!stage) return stage.issue();
+// What a file shows, and what has to live as long as its pictures are drawn.
+struct Shown {
+  SpecInput input;
+  Stage stage;
   Evaluator evaluator;
-  const Evaluation evaluation = evaluator.run(*stage);
-  StripInput strip{*stage->character, evaluator.motion()};
-  strip.finding = subject_of(*input, evaluation.findings);
+  Evaluation evaluation;
+};
+
+Result<std::unique_ptr<Shown>> evaluate(const Library& library, const std::string& file) {
+  Result<SpecInput> input = read_spec_input(file);
+  if (!input) return input.issue();
+  Result<Stage> stage = build_stage(input->spec, library);
+  if (!stage) return stage.issue();
+  auto shown = std::make_unique<Shown>(Shown{std::move(input).value(), std::move(stage).value(), Evaluator(), {}});
+  shown->evaluation = shown->evaluator.run(shown->stage);
+  return shown;
+}
+
+StripInput strip_of(const Shown& shown, const Options& options, const std::string& file) {
+  StripInput strip{*shown.stage.character, shown.evaluator.motion()};
+  strip.finding = subject_of(shown.input, shown.evaluation.findings);
   strip.replay_command =
-      input->stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
+      shown.input.stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
-  strip.environment = &stage->environment;
-  strip.dynamics = &input->spec.dynamics;
+  strip.environment = &shown.stage.environment;
+  strip.dynamics = &shown.input.spec.dynamics;
   strip.frames = options.frames;
   strip.azimuth_rad = options.azimuth_rad();
   if (!options.labels.empty()) strip.title = options.labels.front();
-  return renderer.render(strip, png, clip_of(options, png));
+  return strip;
+}
+
+Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
+                       const std::string& png) {
+  const Result<std::unique_ptr<Shown>> shown = evaluate(library, file);
+  if (!shown) return shown.issue();
+  return renderer.render(strip_of(**shown, options, file), png, clip_of(options, png));
 }
 
 // A file of several, and what it makes.
@@ -131,6 +151,32 @@ Result<StripDone> draw_all(StripRenderer& renderer, const Library& library, cons
   return renderer.render_rows(input, options.output);
 }
 
+constexpr int kSheetColumns = 5;
+
+// In a narrow tile the end of the title is cut: the joint comes first.
+Result<Image> draw_tile(StripRenderer& renderer, const Shown& shown, const Options& options, const std::string& file) {
+  StripInput strip = strip_of(shown, options, file);
+  if (strip.finding != nullptr) strip.title = strip.finding->subject + "  " + strip.finding->check;
+  return renderer.render_tile(strip);
+}
+
+// A tile for each file; those that cannot be shown are left out, and `warnings` says so.
+Result<StripDone> draw_sheet(StripRenderer& renderer, const Library& library, const Options& options) {
+  StripDone done;
+  std::vector<Image> tiles;
+  for (const std::string& file : options.files) {
+    const Result<std::unique_ptr<Shown>> shown = evaluate(library, file);
+    Result<Image> tile = shown ? draw_tile(renderer, **shown, options, file) : Result<Image>(shown.issue());
+    if (tile)
+      tiles.push_back(std::move(tile).value());
+    else
+      done.warnings.push_back({tile.issue().code, tile.issue().pointer, file + ": " + tile.issue().text});
+  }
+  if (tiles.empty() && !done.warnings.empty()) return done.warnings.front();
+  const Result<Done> written = write_sheet(tiles, kSheetColumns, options.output);
+  return written ? Result<StripDone>(done) : written.issue();
+}
+
 int fail(const Issue& issue, int code) {
   std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
   return code;
@@ -156,6 +202,7 @@ int run(const Options& options) {
   if (!renderer) return fail(renderer.issue(), kInternal);
   StripRenderer drawing = std::move(renderer).value();
   if (options.rows) return report(draw_all(drawing, *library, options));
+  if (options.sheet) return report(draw_sheet(drawing, *library, options));
   if (!options.many) return report(draw(drawing, *library, options, options.files.front(), options.output));
   int code = kClean;
   for (std::size_t i = 0; i < options.files.size(); i += 2)
@@ -167,14 +214,16 @@ int run(const Options& options) {
 // Why the arguments do not fit together, "" where they do.
 std::string misfit(const Options& options) {
   const std::size_t files = options.files.size();
-  if (options.many && options.rows) return "--many and --rows exclude each other";
+  if (options.many + options.rows + options.sheet > 1) return "--many, --rows and --sheet exclude each other";
+  if (options.sheet && !options.frames.empty()) return "--sheet shows the worst frame of each FILE";
   if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
   if (options.clips && !options.many) return "--clips needs --many";
-  if (!options.clip.empty() && (options.many || options.rows)) return "--clip is of one FILE";
+  if (!options.clip.empty() && (options.many || options.rows || options.sheet)) return "--clip is of one FILE";
   if (!options.many && options.output.empty()) return "expected -o PNG";
-  if (!options.many && !options.rows && files > 1)
-    return "found " + std::to_string(files) + " files: with --rows they become the rows of one picture";
-  if (!options.labels.empty() && (options.many || options.labels.size() != files))
+  if (!options.many && !options.rows && !options.sheet && files > 1)
+    return "found " + std::to_string(files) +
+           " files: with --rows they become the rows of one picture, with --sheet its tiles";
+  if (!options.labels.empty() && (options.many || options.sheet || options.labels.size() != files))
     return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(files) +
            " files, expected one for each";
   return "";
@@ -197,6 +246,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
   app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
   app.add_flag("--rows", options.rows, "A row for each FILE");
+  app.add_flag("--sheet", options.sheet, "A tile for each FILE");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");
   try {
     app.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include "generator/core/files.h"
 #include "renders/frames.h"
 #include "renders/raster/auto_camera.h"
+#include "renders/raster/picture.h"
 #include "renders/raster/renderer.h"
 #include "renders/raster/rows.h"
 #include "renders/raster/sheet.h"
@@ -146,6 +147,18 @@ Result<StripDone> StripRenderer::render(const StripInput& input, const std::stri
   return done;
 }
 
+Result<Image> StripRenderer::render_tile(const StripInput& whole) {
+  StripInput input = whole;
+  input.frames = {input.finding ? input.finding->worst_frame : input.motion.frame_count / 2};
+  if (Result<Done> fine = check_input(input); !fine) return fine.issue();
+  Plan plan = plan_strip(input, input.frames);
+  state_->renderer->set_meshes(plan.shots.meshes);
+  if (Result<Done> chosen = choose_camera(*state_->renderer, input, Sheet::picture_aspect(input), plan); !chosen)
+    return chosen.issue();
+  std::vector<Issue> warnings;
+  return draw_tiles(*state_->renderer, input, plan, {0, 1}, warnings);
+}
+
 Result<StripDone> StripRenderer::render_rows(const RowsInput& input, const std::string& png_path) {
   if (Result<Done> fine = check_rows(input); !fine) return fine.issue();
   StripDone done{input.frames, 0, {}};
@@ -153,6 +166,20 @@ Result<StripDone> StripRenderer::render_rows(const RowsInput& input, const std::
   if (!image) return image.issue();
   if (Result<Done> written = write_png(*image, input.replay_command, png_path); !written) return written.issue();
   return done;
+}
+
+Result<Done> write_sheet(std::span<const Image> tiles, int columns, const std::string& png_path) {
+  constexpr std::size_t kMostTiles = 1000;
+  if (tiles.empty() || tiles.size() > kMostTiles || columns < 1)
+    return Issue{"render.bad_size", "", "A contact sheet has 1 to 1000 pictures."};
+  const int wide = std::min(columns, static_cast<int>(tiles.size()));
+  const int high = (static_cast<int>(tiles.size()) + wide - 1) / wide;
+  Image sheet(wide * tiles.front().width, high * tiles.front().height);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const int at = static_cast<int>(i);
+    paste(sheet, tiles[i], at % wide * tiles.front().width, at / wide * tiles.front().height);
+  }
+  return write_png(sheet, "", png_path);
 }
 
 Result<StripDone> render_strip(const StripInput& input, const std::string& png_path) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "generator/dynamics/dynamics_desc.h"
 #include "generator/motion/motion.h"
 #include "generator/world/environment.h"
+#include "renders/image.h"
 #include "renders/raster/gl_backend.h"
 #include "renders/shots.h"
 
@@ -74,7 +76,10 @@ class StripRenderer {
   // render.gl_error, file.unwritable.
   Result<StripDone> render(const StripInput& input, const std::string& png_path, const std::string& webp_path = "");
 
-  // The same, a row for each motion without header and captions, and one camera for all of them.
+  // The finding's worst frame alone, as a strip of one tile: a tile of a contact sheet. The same codes.
+  Result<Image> render_tile(const StripInput& input);
+
+  // Strips, a row for each motion without header and captions, and one camera for all of them.
   Result<StripDone> render_rows(const RowsInput& input, const std::string& png_path);
 
   std::string description() const;  // OpenGL version and driver.
@@ -85,7 +90,11 @@ class StripRenderer {
   std::unique_ptr<State> state_;
 };
 
-// The same with a context of its own.
+// Pictures of one size beside and below one another, as one PNG. Codes: render.bad_size (none, or more than 1,000),
+// render.png, file.unwritable.
+Result<Done> write_sheet(std::span<const Image> tiles, int columns, const std::string& png_path);
+
+// The same as StripRenderer::render with a context of its own.
 Result<StripDone> render_strip(const StripInput& input, const std::string& png_path);
 
 }  // namespace contort

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
-#include "tests/corpus/sample_cases.h"
+#include "tests/corpus/sample_corpus.h"
 
 namespace contort {
 
@@ -54,6 +54,37 @@ TEST_F(Render, DrawsARowForEachFile) {
 TEST_F(Render, DrawsTheFramesThatAreAskedFor) {
   EXPECT_EQ(refusal({c_, "--frames", "4,8", "--azimuth", "-90", "--label", "carries 8 kg"}), "");
   EXPECT_EQ(size().first, 2 * 322 + 2);
+}
+
+// A tile is as large as a strip of one frame.
+TEST_F(Render, DrawsAContactSheet) {
+  EXPECT_EQ(refusal({a_, "--sheet"}), "");
+  const auto [width, height] = size();
+  EXPECT_EQ(refusal({a_, c_, a_, c_, a_, c_, "--sheet"}), "");
+  EXPECT_EQ(size(), std::make_pair(5 * width, 2 * height));
+  EXPECT_NE(refusal({a_, "--sheet", "--rows"}).find("exclude"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--sheet", "--frames", "1"}).find("worst"), std::string::npos);
+}
+
+TEST_F(Render, DrawsAContactSheetOfACorpus) {
+  const Corpus corpus = create(folder_);
+  EXPECT_NE(refusal({corpus.folder(), "--sheet"}).find("corpus.no_case"), std::string::npos);
+  EXPECT_TRUE(corpus.add(found(160, 30, 1)));
+  Found other = found(160, 30, 1);
+  other.minimal.expect.subject = other.original.expect.subject = "arm_right/elbow max";
+  EXPECT_TRUE(corpus.add(other));
+  EXPECT_EQ(refusal({corpus.folder(), "--sheet"}), "");
+  const int two = size().first;
+  EXPECT_EQ(refusal({corpus.folder(), a_, "--sheet"}), "");
+  EXPECT_EQ(2 * size().first, 3 * two);
+  EXPECT_NE(refusal({folder_ / "nowhere", "--sheet"}), "");
+}
+
+TEST_F(Render, DrawsWhatMoves) {
+  EXPECT_EQ(refusal({a_, "--clip", folder_ / "a.webp"}), "");
+  EXPECT_TRUE(slurp(folder_ / "a.webp").starts_with("RIFF"));
+  EXPECT_NE(refusal({a_, c_, "--rows", "--clip", folder_ / "b.webp"}), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "b.webp"));
 }
 
 TEST_F(Render, SaysWhatDoesNotFitTogether) {
