@@ -291,7 +291,8 @@ std::string tested_html(const ReportModel& model) {
 
 std::string footer_html(const ReportModel& model, bool alone) {
   static constexpr char kKeys[] =
-      " <span class='keys'>Keys: <kbd>/</kbd> filter, <kbd>j</kbd> <kbd>k</kbd> next and previous failure.</span>";
+      " <span class='keys'>Keys: <kbd>/</kbd> filter, <kbd>j</kbd> <kbd>k</kbd> next and previous failure, "
+      "<kbd>Enter</kbd> look closer.</span>";
   const std::string json = alone ? "." : "; the same numbers are in <a href='report.json'>report.json</a>.";
   return "<footer class='page'><p>Made by contort" + json +
          std::string(model.rows.empty() ? "" : kKeys) + "</p></footer>\n";
@@ -319,6 +320,14 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
          "</script>\n</head>\n";
 }
 
+// A script without what an HTML parser would see in it; in JavaScript's strings both spellings are the same.
+std::string inline_script(std::string text) {
+  for (const auto& [seen, written] : {std::pair("</script", "<\\/script"), std::pair("<!--", "<\\!--")})
+    for (std::size_t at = text.find(seen); at != text.npos; at = text.find(seen, at))
+      text.replace(at, std::string_view(seen).size(), written);
+  return text;
+}
+
 // The viewer and the cases, for page.js to find them.
 std::string inside_html(const PageFiles& inside, const std::string& nonce) {
   const std::string here = attribute("nonce", nonce);
@@ -326,7 +335,7 @@ std::string inside_html(const PageFiles& inside, const std::string& nonce) {
   for (const auto& [path, text] : inside) {
     const std::filesystem::path name(path);
     if (name.extension() == ".css") out += "<style" + here + ">\n" + text + "</style>\n";
-    if (name.extension() == ".js") out += "<script" + here + ">\n" + text + "</script>\n";
+    if (name.extension() == ".js") out += "<script" + here + ">\n" + inline_script(text) + "</script>\n";
     if (name.extension() == ".json")
       out += "<script type='application/json'" + attribute("id", "case-" + name.stem().string()) + here + ">" + text +
              "</script>\n";

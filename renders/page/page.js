@@ -86,9 +86,16 @@
     if (values.size < 2 && select.closest('label')) select.closest('label').hidden = true;
   };
 
+  // As it stands on the page, once for each card.
+  const texts = new WeakMap();
+  const textOf = (card) => {
+    if (!texts.has(card)) texts.set(card, card.textContent.toLowerCase());
+    return texts.get(card);
+  };
+
   const matches = (card, word) => {
     const [, name, value] = kWord.exec(word) || [];
-    return name ? attributeOf(card, name).toLowerCase().includes(value) : (card.dataset.text || '').includes(word);
+    return name ? attributeOf(card, name).toLowerCase().includes(value) : textOf(card).includes(word);
   };
 
   const apply = () => {

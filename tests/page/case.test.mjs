@@ -8,15 +8,18 @@ import {
 
 const cases = readCases(options.report);
 const any = findCase(cases, () => true);
-// Nothing but the character moves here, and it has somewhere to go.
+// Nothing but the character moves here, and it had time to get away from where it began. It may be back at the end.
 const moving = findCase(cases, ({ motions: [motion] }) =>
   motion.marks.length + motion.balance.length === 0 && motion.ghost_glb === '' &&
+  motion.worst_frame >= 5 && motion.worst_frame < motion.frame_count - 1 &&
   !/[<>]/.test(motion.curves[0]?.subject));
 const withOriginal = findCase(cases, (data) => data.motions.some((motion) => motion.role === 'original'));
 const withGhost = findCase(cases, (data) => data.motions[0].ghost_glb !== '');
 const withColliders = findCase(cases, (data) => data.motions[0].colliders.length > 0);
 const withCurves = findCase(cases, (data) => data.motions[0].curves.length > 2);
-const withBlow = findCase(cases, (data) => data.motions[0].marks.some((mark) => mark.impulse));
+const firstBlow = ({ motions: [motion] }) =>
+  motion.marks.filter((mark) => mark.impulse).sort((one, other) => one.frame - other.frame)[0];
+const withBlow = findCase(cases, (data) => firstBlow(data)?.frame > 0);
 const withFree = findCase(cases, (data) => data.motions[0].free_fields.length > 0);
 const need = (key, what) => ({ skip: key === undefined ? `the report has no case with ${what}` : false });
 const wantedFrame = (key) => cases.get(key).motions[0].worst_frame;
@@ -106,10 +109,8 @@ for (const way of ['file', 'http']) {
     const last = cases.get(moving).motions[0].frame_count - 1;
     await page.locator('.scrub').fill(String(last));
     assert.equal(await shownFrame(page), last);
-    const end = await picture(page);
-    assert.ok(!first.equals(end), 'another frame is another picture');
     await page.locator('.scrub').fill(String(wantedFrame(moving)));
-    assert.ok(!end.equals(await picture(page)));
+    assert.ok(!first.equals(await picture(page)), 'another frame is another picture');
     await page.locator('.case-title').focus();
     await page.keyboard.press('Home');
     assert.ok(first.equals(await picture(page)), 'the same frame is the same picture');
@@ -229,8 +230,8 @@ for (const way of ['file', 'http']) {
 
   test(`${way}: blows have an arrow for a while`, need(withBlow, 'a blow'), async () => {
     const { page, wrong, close } = await openCase(await start(), withBlow);
-    const { marks, balance } = cases.get(withBlow).motions[0];
-    const { frame } = marks.find((mark) => mark.impulse);
+    const { balance } = cases.get(withBlow).motions[0];
+    const { frame } = firstBlow(cases.get(withBlow));
     const has = async (at, colour) => {
       await page.locator('.scrub').fill(String(at));
       return countColour(page, await picture(page), colour);

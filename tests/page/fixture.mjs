@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync, copyFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { deflateSync } from 'node:zlib';
+import { deflateSync, gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, '..', '..');
@@ -52,7 +52,7 @@ function generated(contort, work, name) {
   execFileSync(contort, ['generate', spec, '-o', out.replace(/glb$/, 'json')], { stdio: 'ignore' });
   const numbers = JSON.parse(readFileSync(out.replace(/glb$/, 'json'), 'utf8'));
   return {
-    spec: JSON.parse(readFileSync(spec, 'utf8')), glb: readFileSync(out).toString('base64'),
+    spec: JSON.parse(readFileSync(spec, 'utf8')), glb: gzipSync(readFileSync(out)).toString('base64'),
     rate_hz: numbers.rate_hz, frame_count: numbers.frames.length,
   };
 }
@@ -200,7 +200,7 @@ const kNonce = 'c0ffee0123456789';
 function card(one, state) {
   const { check, subject } = one.failure;
   const parts = [...new Set(subject.split(/[ ~]+/).filter(Boolean).map((word) => word.split('/')[0]))].join(' ');
-  return `<article tabindex='-1' class='card gating' data-text='${html(`${check} ${subject} ${one.key} ${state}`.toLowerCase())}' data-check='${html(check.replaceAll(' ', '_'))}' data-state='${state}' data-character='${html(one.character)}' data-parts='${html(parts)}'>
+  return `<article tabindex='-1' class='card gating' data-check='${html(check.replaceAll(' ', '_'))}' data-state='${state}' data-character='${html(one.character)}' data-parts='${html(parts)}'>
 <div class='head'>
 <h3><span class='check'>${html(check)}</span> <span class='subject'>${html(subject)}</span></h3>
 <p class='summary'><span class='chip state-${state}'>${state}<span class='unseen'> (gating)</span></span> <span>12 cases</span></p>

@@ -2,11 +2,13 @@
 import { AnimationMixer, Box3, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
-function bytesOf(base64) {
-  const binary = atob(base64);
+// Out of base64 and gzip.
+function bytesOf(text) {
+  const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes.buffer;
+  const whole = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(whole).arrayBuffer();
 }
 
 export class Figure {
@@ -82,8 +84,8 @@ export class Figure {
   }
 }
 
-export async function loadFigure(base64, rate) {
-  const gltf = await new GLTFLoader().parseAsync(bytesOf(base64), '');
+export async function loadFigure(glb, rate) {
+  const gltf = await new GLTFLoader().parseAsync(await bytesOf(glb), '');
   return new Figure(gltf, rate);
 }
 

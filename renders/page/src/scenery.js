@@ -1,7 +1,7 @@
 // Ground, obstacles and light.
 import {
-  BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, HemisphereLight, Mesh, MeshLambertMaterial,
-  PlaneGeometry,
+  BufferGeometry, Color, DirectionalLight, EdgesGeometry, Float32BufferAttribute, Group, HemisphereLight,
+  LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, PlaneGeometry,
 } from 'three';
 import { shapeMesh } from './shapes.js';
 
@@ -49,6 +49,8 @@ export function groundMesh(ground, colours, middle) {
   if (ground.positions) {
     mesh = new Mesh(groundShape(ground), material);
     material.side = 2;
+    // Edges of steps: without them stairs seen from the front are one surface.
+    mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, 20), new LineBasicMaterial({ color: colours.majorLine })));
   } else {
     mesh = new Mesh(new PlaneGeometry(400, 400).rotateX(-Math.PI / 2), material);
     mesh.position.y = ground.level;

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# page_test.sh PROJECT BINARIES: the report's page in a browser. First a made-up report that has everything, then one of
+# real failures as contort writes it, then that one as a single file.
+set -euo pipefail
+
+project=$1
+binaries=$2
+chromium=${CHROMIUM:-/usr/bin/chromium}
+for needed in npm node "$chromium"; do
+  command -v "$needed" >/dev/null || { echo "skipped: there is no $needed"; exit 77; }
+done
+
+modules=$binaries/page_test_modules
+mkdir -p "$modules"
+cp "$project"/tests/page/package*.json "$modules/"
+(cd "$modules" && npm ci --include=dev --ignore-scripts --no-audit --no-fund)
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+browse() { node "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
+
+browse --contort "$binaries/contort" --viewer "$binaries/page"
+
+# Seed 3 of the profile smoke: about twenty families of the human in two cases, dynamics among them.
+"$binaries/contort" fuzz --profile smoke --character human --seed 3 --cases 2 --shrink-evaluations 30 \
+  --corpus "$scratch/corpus" >/dev/null || [ $? -eq 1 ]
+"$binaries/contort" report "$scratch/corpus" -o "$scratch/report" --single-file "$scratch/report.html"
+browse --report "$scratch/report" --single "$scratch/report.html"
