@@ -157,7 +157,7 @@ std::string open_html(const ReportRow& row) {
 
 std::string short_bucket_html(const ReportRow& row) {
   return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>worst " +
-         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " + row.features) +
+         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " + needs_text(row.features)) +
          "</p>\n" + open_html(row) + command_html(row.replay_command) + "</section>\n";
 }
 
@@ -167,7 +167,7 @@ std::string bucket_html(const ReportRow& row, const PageFiles& inside) {
   if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
   out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
-         fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", row.features) +
+         fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", needs_text(row.features)) +
          fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row) + command_html(row.replay_command);
   if (!row.spec_json.empty())

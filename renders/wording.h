@@ -20,6 +20,10 @@ std::string count_text(std::int64_t count);
 // "1 case", "3 cases".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
 
+// What a minimal spec needs in order to fail, out of features_of: "crouch + pose, 2 clips, a swapped part". What is one of
+// its kind goes without saying; words that are not known stay as they are.
+std::string needs_text(std::string_view features);
+
 // One line of valid UTF-8: control characters and broken sequences become a replacement character; where there are more
 // than max_chars characters the last one is an ellipsis. Text drawing and JSON refuse or misread anything else.
 std::string one_line(std::string_view text, std::size_t max_chars = static_cast<std::size_t>(-1));
