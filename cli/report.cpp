@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "checks/check.h"
 #include "cli/case_pages.h"
 #include "cli/input.h"
 #include "cli/print.h"
@@ -74,6 +75,8 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
   row.features = bucket.features;
+  for (const CheckDef& check : all_checks())
+    if (check.name == bucket.check) row.meaning = check.help;
   return row;
 }
 

@@ -261,6 +261,7 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
                {"check", expect.check},
                {"subject", expect.subject},
                {"unit", expect.unit},
+               {"meaning", find_check(expect.check).help},
                {"worst_margin", number(expect.worst_margin)},
                {"first_frame", expect.first_frame},
                {"worst_frame", expect.worst_frame},

@@ -37,6 +37,7 @@ struct ReportRow {
   double rate_hz = 60.0;
   std::string features;   // what survived shrinking: "walk + aim_at, interrupt"
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
+  std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // what people know about it: "ana, ticket 12"
 };
 

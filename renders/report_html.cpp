@@ -166,7 +166,7 @@ std::string bucket_html(const ReportRow& row, const PageFiles& inside) {
   out += picture_html(row, row.strip, "Film strip", inside);
   if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
-  out += "<dl class='facts'>\n" + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
+  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
          fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", needs_text(row.features)) +
          fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row) + command_html(row.replay_command);

@@ -176,7 +176,7 @@ TEST(Report, ListsWhatWasTested) {
 ReportModel hostile_model() {
   ReportRow row;
   for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,
-                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character})
+                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character, &row.meaning})
     *text = kHostile;
   row.worst_margin = std::nan("");
   row.rate_hz = std::nan("");

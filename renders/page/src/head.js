@@ -24,6 +24,7 @@ export function headElement(data, position, calls) {
     textButton('\u2190 All failures', 'Escape', calls.close, { class: 'close' }), title,
     el('span', { class: 'case-position dim', text: position || '' }),
     textButton('Previous', 'k', calls.previous, { class: 'previous', disabled: !calls.previous }),
-    textButton('Next', 'j', calls.next, { class: 'next', disabled: !calls.next }));
+    textButton('Next', 'j', calls.next, { class: 'next', disabled: !calls.next }),
+    data.meaning ? el('p', { class: 'case-meaning dim', text: data.meaning }) : null);
   return { element, title };
 }
