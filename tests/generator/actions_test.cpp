@@ -124,6 +124,39 @@ TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
 }
 
 // The rifle points at a fixed place while the body walks and turns under it.
+// There are many postures that face a direction. One joint after another took one that tilts the head by 40 degrees.
+TEST(Actions, ADirectionTakesTheSmallestAngles) {
+  Played played({}, {use("direction", "head", 0, 40, {{"azimuth_deg", 30.0}, {"elevation_deg", 15.0}})});
+  double tilt_rad = 0.0, all_rad = 0.0;
+  for (const char* joint : {"neck_flex", "neck_lat", "neck_rot"}) {
+    const double angle = std::fabs(played.coord("head/" + std::string(joint), 40));
+    all_rad += angle;
+    if (std::string_view(joint).ends_with("_lat")) tilt_rad += angle;
+  }
+  EXPECT_LT(tilt_rad, 8 * kRadPerDeg);
+  EXPECT_LT(all_rad, 65 * kRadPerDeg);
+  EXPECT_GT(all_rad, 40 * kRadPerDeg) << "it turns by 30 and rises by 15";
+}
+
+// Hips behind the feet are where a lean leaves them; the walk once began half a metre beside the figure.
+TEST(Actions, AWalkAfterALeanBeginsWhereTheFigureStands) {
+  ActionUse walk = use("walk", "waist", 0, 120, {{"speed_m_s", 0.6}});
+  walk.blend_in_frames = 25;
+  Spec spec;
+  spec.sequences = {sequence({use("crouch", "waist", 0, 40, {{"share", 0.3}, {"lean_deg", 40.0}, {"back_m", 0.2}})}),
+                    sequence({walk})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  Evaluator evaluator;
+  for (const Finding& finding : evaluator.run(*stage).findings)
+    EXPECT_FALSE(finding.check == "foot_slide" || finding.check == "pop") << finding.subject << finding.first_frame;
+  const Motion& motion = evaluator.motion();
+  for (std::size_t f = 1; f < motion.root.size(); ++f) {
+    const Vec3 step = motion.root[f].p_m - motion.root[f - 1].p_m;
+    EXPECT_LT(std::hypot(step.x, step.z), 0.03) << "frame " << f;
+  }
+}
+
 TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
   const Vec3 target_m(-1.0, 1.4, 8.0);
   Played played(kRifleman, {use("walk", "waist", 0, 200, {{"speed_m_s", 1.0}}),
