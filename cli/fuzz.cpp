@@ -1,7 +1,6 @@
 // contort fuzz: compose, generate, check, shrink, store.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include "cli/input.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
+#include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/seeds.h"
 #include "corpus/lifecycle.h"
@@ -46,30 +46,26 @@ struct Options {
   bool json = false;
 };
 
-// One line on standard error, rewritten in place; only on a terminal.
-class ProgressLine {
+// Ten times a second at most.
+class RunLine {
  public:
-  explicit ProgressLine(const RunConfig& config) : config_(config), shown_(::isatty(STDERR_FILENO) == 1) {}
+  explicit RunLine(const RunConfig& config) : config_(config) {}
   void show(const RunProgress& p) {
-    if (!shown_ || p.elapsed_s < next_s_) return;
+    if (p.elapsed_s < next_s_) return;
     next_s_ = p.elapsed_s + 0.1;
     const double share = config_.cases > 0      ? static_cast<double>(p.cases) / static_cast<double>(config_.cases)
                          : config_.time_s > 0.0 ? p.elapsed_s / config_.time_s
                                                 : 0.0;
-    const int filled = static_cast<int>(24 * std::min(1.0, share));
-    std::fprintf(stderr, "\r[%.*s%*s] %lld cases, %lld failing, %d families, %d new buckets%s, %.0f s ", filled,
-                 "########################", 24 - filled, "", static_cast<long long>(p.cases),
-                 static_cast<long long>(p.failing), p.families, p.buckets_new,
-                 p.shrinking > 0 ? (", shrinking " + std::to_string(p.shrinking)).c_str() : "", p.elapsed_s);
-    std::fflush(stderr);
+    std::string text = std::to_string(p.cases) + " cases, " + std::to_string(p.failing) + " failing, " +
+                       std::to_string(p.families) + " families, " + std::to_string(p.buckets_new) + " new buckets, ";
+    if (p.shrinking > 0) text += "shrinking " + std::to_string(p.shrinking) + ", ";
+    line_.show(share, text + std::to_string(std::lround(p.elapsed_s)) + " s");
   }
-  void clear() {
-    if (shown_) std::fprintf(stderr, "\r%100s\r", "");
-  }
+  void clear() const { line_.clear(); }
 
  private:
   const RunConfig& config_;
-  bool shown_;
+  ProgressLine line_;
   double next_s_ = 0.0;
 };
 
@@ -244,7 +240,7 @@ void run(const Options& options, Context& context) {
     if (const Result<std::string> text = read_file(context.settings_file)) config.settings = *text;
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
-  ProgressLine line(config);
+  RunLine line(config);
   const RunResult result = run_fuzz(
       config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
   line.clear();

@@ -12,6 +12,7 @@
 #include "cli/case_pages.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "cli/progress_line.h"
 #include "cli/render.h"
 #include "cli/single_file.h"
 #include "cli/variants.h"
@@ -177,8 +178,19 @@ void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   });
 }
 
+void show_drawn(const std::vector<Picture>& pictures, const ProgressLine& line) {
+  if (!line.wanted()) return;
+  std::error_code error;
+  const auto drawn = std::ranges::count_if(pictures, [&](const Picture& picture) {
+    return std::filesystem::exists(std::filesystem::path(picture.png).replace_extension(".webp"), error);
+  });
+  line.show(static_cast<double>(drawn) / static_cast<double>(pictures.size()),
+            std::to_string(drawn) + " of " + std::to_string(pictures.size()) + " failures drawn");
+}
+
 // Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
+  const ProgressLine line;
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<int> codes(static_cast<std::size_t>(jobs), 0);
   parallel_for(
@@ -192,7 +204,8 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
         const Result<int> code = call.size() > fixed ? run_program(call) : Result<int>(0);
         codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
       },
-      [] {});
+      [&] { show_drawn(pictures, line); });
+  line.clear();
   return *std::max_element(codes.begin(), codes.end());
 }
 
