@@ -56,14 +56,19 @@ double farthest(const Camera& camera, std::span<const std::vector<Vec3>> frames)
 
 }  // namespace
 
+Vec3 towards_eye(const View& view) {
+  const det::SinCos azimuth = det::sincos(view.azimuth_rad), elevation = det::sincos(view.elevation_rad);
+  return {azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos};
+}
+
 Camera frame_points(std::span<const Vec3> points, const View& view, double aspect) {
   static constexpr Vec3 kNothing[] = {{-1, 0, -1}, {1, 2, 1}};
   if (points.empty()) points = kNothing;
-  const det::SinCos azimuth = det::sincos(view.azimuth_rad), elevation = det::sincos(view.elevation_rad);
+  const det::SinCos azimuth = det::sincos(view.azimuth_rad);
   Camera camera;
   camera.tan_half_height = kTanHalfHeight;
   camera.right = Vec3(azimuth.cos, 0.0, -azimuth.sin);
-  camera.back = Vec3(azimuth.sin * elevation.cos, elevation.sin, azimuth.cos * elevation.cos);
+  camera.back = towards_eye(view);
   camera.up = glm::cross(camera.back, camera.right);
 
   const double tan_y = kTanHalfHeight / kMargin, tan_x = tan_y * aspect;

@@ -24,6 +24,9 @@ struct View {
   double elevation_rad = 0.0;
 };
 
+// Unit, from what is looked at.
+Vec3 towards_eye(const View& view);
+
 // The nearest camera in this direction that has all points in its picture, with a margin. `aspect` is width / height.
 // Without points: two metres around the origin.
 Camera frame_points(std::span<const Vec3> points, const View& view, double aspect);

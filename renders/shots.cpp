@@ -1,10 +1,12 @@
 #include "renders/shots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "renders/range_marks.h"
 #include "renders/response_marks.h"
 #include "renders/scenery.h"
 
@@ -38,8 +40,9 @@ Result<Done> check_motion(const Character& character, const Motion& motion) {
 // Draws frame by frame.
 class Photographer {
  public:
-  Photographer(const Story& story, const Figure& figure)
+  Photographer(const Story& story, const Figure& figure, const Highlight& highlight)
       : story_(story), figure_(figure), world_(story.character.joints().size()) {
+    if (story.finding && story.finding->check == "joint_range") ranged_ = highlight.joints;
     if (has_response(story.motion)) physics_ = build_figure(story.character, find_legs(story.character), {});
   }
 
@@ -49,6 +52,8 @@ class Photographer {
     if (haunted) add_figure(list, figure_, world_, Look::ghost);
     place_figure(story_.motion.root[at(frame)], story_.motion.row(frame));
     add_figure(list, figure_, world_, haunted ? Look::pale : Look::solid);
+    for (const int joint : ranged_)
+      add_range_mark(story_.character, joint, world_, story_.motion.row(frame), list, meshes);
     if (!physics_) return list;
     const ResponseFrame of{story_.character, *physics_, story_.motion, frame, world_};
     if (story_.dynamics) add_loads(story_.dynamics->loads, story_.character, world_, list, meshes);
@@ -80,6 +85,7 @@ class Photographer {
   const Story& story_;
   const Figure& figure_;
   std::vector<Rigid> world_;
+  std::vector<int> ranged_;  // joints whose range is shown
   std::optional<DynamicFigure> physics_;  // of a motion with a response
 };
 
@@ -103,11 +109,28 @@ Result<Done> check_story(const Story& story, std::span<const int> frames) {
   return story.ghost ? check_motion(story.character, *story.ghost) : Done{};
 }
 
+std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View> views) {
+  const bool ranged = story.finding && story.finding->check == "joint_range";
+  const Highlight highlight = ranged ? highlighted(story.character, *story.finding) : Highlight{};
+  if (highlight.joints.size() != 1) return views;
+  const Joint& joint = story.character.joints()[at(highlight.joints.front())];
+  if (joint.kind != JointKind::hinge) return views;
+  std::vector<Rigid> world(story.character.joints().size());
+  forward_kinematics(story.character, story.motion.root[at(frame)], story.motion.row(frame), world);
+  const Vec3 axis = world[at(highlight.joints.front())].q * joint.axis;
+  const auto along = [&](const View& view) { return std::fabs(glm::dot(towards_eye(view), axis)); };
+  double most = 0.0;
+  for (const View& view : views) most = std::max(most, along(view));
+  constexpr double kGoodEnough = 0.75;  // 40 degrees off the axis; a view from the front is understood sooner
+  std::erase_if(views, [&](const View& view) { return along(view) < kGoodEnough * most; });
+  return views;
+}
+
 Shots take_shots(const Story& story, std::span<const int> frames) {
   const Environment environment = environment_of(story);
   const Highlight highlight = story.finding ? highlighted(story.character, *story.finding) : Highlight{};
   const Figure figure = make_figure(story.character, highlight);
-  Photographer photographer(story, figure);
+  Photographer photographer(story, figure, highlight);
   Shots shots;
   shots.meshes = figure.meshes;
   for (const int frame : frames) {

@@ -8,6 +8,7 @@
 #include "generator/dynamics/dynamics_desc.h"
 #include "generator/motion/motion.h"
 #include "generator/world/environment.h"
+#include "renders/camera.h"
 #include "renders/draw_list.h"
 
 namespace contort {
@@ -41,5 +42,9 @@ Shots take_shots(const Story& story, std::span<const int> frames);
 void add_scenery(const Story& story, std::span<const std::vector<Vec3>> outlines, Shots& shots);
 
 Environment environment_of(const Story& story);
+
+// Of these views those from which the story's angle is seen: where a hinge left its range, along its axis, in which the
+// sector of its range is not a line. All of them for everything else.
+std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View> views);
 
 }  // namespace contort

@@ -79,7 +79,8 @@ Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span
 
 Result<ProbedView> choose_view(Renderer& renderer, const Story& story, const Shots& shots, std::size_t tile,
                                std::optional<double> azimuth_rad) {
-  std::vector<View> views = views_of(environment_of(story), shots.anchors[tile], kAroundFigure_m);
+  std::vector<View> views = views_of_angle(story, shots.frames[tile],
+                                           views_of(environment_of(story), shots.anchors[tile], kAroundFigure_m));
   if (azimuth_rad) views = {view_from(*azimuth_rad)};
   return best_view(renderer, shots.lists[tile], shots.meshes, views);
 }
