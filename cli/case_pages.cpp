@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <thread>
 
+#include "cli/children.h"
+#include "cli/progress_line.h"
 #include "cli/render.h"
+#include "cli/report_folder.h"
 #include "corpus/corpus.h"
-#include "fuzz/parallel.h"
 #include "generator/core/files.h"
 #include "renders/case_data.h"
 
@@ -18,6 +19,8 @@ namespace contort::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kMostSeconds = 60;  // for the motions of one bucket
 
 // The files of a bucket that are cases of their own.
 Result<std::string> data_of(const CasePage& page, const Library& library, const CheckSettings& settings) {
@@ -36,14 +39,26 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
   return case_data(page.key, shown, library, settings);
 }
 
-Result<Done> write_one(const CasePage& page, const std::string& folder, const Library& library,
-                       const CheckSettings& settings) {
-  const std::string path = folder + "/cases/" + page.key + ".js";
+Result<Done> write_case(const std::string& folder, const std::string& key, const std::string& data) {
+  return write_file(folder + "/cases/" + key + ".js", case_script(key, data));
+}
+
+void warn(const std::string& what, const Issue& issue) {
+  std::fprintf(stderr, "contort: %s: %s\n", what.c_str(), to_line(issue).c_str());
+}
+
+// What cannot be shown says why, here and in its file.
+void write_problem(const std::string& folder, const std::string& key, const Issue& issue) {
+  warn("the report cannot show " + key, issue);
+  if (const Result<Done> written = write_case(folder, key, case_problem(key, issue.text)); !written)
+    warn(key, written.issue());
+}
+
+void write_one(const CasePage& page, const std::string& folder, const Library& library, const CheckSettings& settings) {
   const Result<std::string> data = data_of(page, library, settings);
-  if (data) return write_file(path, case_script(page.key, *data));
-  std::error_code ignored;
-  fs::remove(path, ignored);  // of an earlier report
-  return data.issue();
+  const Result<Done> written = data ? write_case(folder, page.key, *data) : Done{};
+  if (!data) write_problem(folder, page.key, data.issue());
+  if (!written) warn(page.key, written.issue());
 }
 
 // viewer.js and viewer.css lie in page/, beside the program.
@@ -58,20 +73,20 @@ Result<Done> copy_viewer(const std::string& folder) {
   return Done{};
 }
 
-// Of buckets that an earlier report had.
-void remove_others(const std::string& folder, const std::vector<CasePage>& pages) {
-  std::set<std::string> wanted;
-  for (const CasePage& page : pages) wanted.insert(page.key + ".js");
-  std::error_code error;
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".js" && !wanted.contains(entry.path().filename().string()))
-      old.push_back(entry.path());
-  for (const fs::path& path : old) fs::remove(path, error);
-}
-
-void warn(const std::string& what, const Issue& issue) {
-  std::fprintf(stderr, "contort: %s: %s\n", what.c_str(), to_line(issue).c_str());
+// In processes: a case that crashes this build, or never ends in it, is not worth the report.
+void write_all(const std::vector<CasePage>& pages, const std::string& folder, const Library& library,
+               const CheckSettings& settings) {
+  const ProgressLine line;
+  const int count = static_cast<int>(pages.size());
+  const auto write = [&](int i) { write_one(pages[static_cast<std::size_t>(i)], folder, library, settings); };
+  const auto show = [&](int done) {
+    line.show(static_cast<double>(done) / std::max(1, count), std::to_string(done) + " cases made ready to look at");
+  };
+  const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  for (const int i : in_children(jobs, count, kMostSeconds, write, show))
+    write_problem(folder, pages[static_cast<std::size_t>(i)].key,
+                  {"report.case_lost", "", "playing it ended the program, or took more than a minute"});
+  line.clear();
 }
 
 }  // namespace
@@ -83,18 +98,10 @@ void write_case_pages(const std::vector<CasePage>& pages, const std::string& fol
   if (const Result<Done> copied = copy_viewer(folder + "/viewer"); !copied)
     warn("the report has no viewer", copied.issue());
   if (const Result<Done> made = make_folder(folder + "/cases"); !made) return context.fail(made.issue(), kInternal);
-  remove_others(folder + "/cases", pages);
-  std::vector<std::optional<Issue>> missing(pages.size());
-  parallel_for(
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency())), static_cast<int>(pages.size()),
-      [&](int, int i) {
-        const auto at = static_cast<std::size_t>(i);
-        const Result<Done> written = write_one(pages[at], folder, library, *settings);
-        if (!written) missing[at] = written.issue();
-      },
-      [] {});
-  for (std::size_t i = 0; i < pages.size(); ++i)
-    if (missing[i]) warn("the report cannot show " + pages[i].key, *missing[i]);
+  std::set<std::string> wanted;
+  for (const CasePage& page : pages) wanted.insert(page.key + ".js");
+  remove_old(folder + "/cases", is_case_file, wanted);
+  write_all(pages, folder, library, *settings);
 }
 
 }  // namespace contort::cli

@@ -7,6 +7,7 @@
 
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
+#include "generator/core/json_fields.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
 
@@ -32,6 +33,15 @@ Result<Library> load_libraries(const std::vector<std::string>& folders) {
   }
   if (const Result<Done> fit = check_actions(library); !fit) return fit.issue();
   return library;
+}
+
+Result<CheckSettings> load_settings_file(const std::string& path) {
+  if (path.empty()) return CheckSettings{};
+  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  if (!text) return text.issue();
+  Result<CheckSettings> parsed = parse_settings(*text);
+  if (!parsed) return Issue{parsed.issue().code, parsed.issue().pointer, path + ": " + parsed.issue().text};
+  return parsed;
 }
 
 Result<SpecInput> read_spec_input(const std::string& path) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/settings.h"
 #include "corpus/case.h"
 #include "generator/character/library.h"
 #include "generator/core/result.h"
@@ -14,6 +15,9 @@ namespace contort::cli {
 
 // The stock library with everything of these folders.
 Result<Library> load_libraries(const std::vector<std::string>& folders);
+
+// Limits and waivers of a file; the defaults for "".
+Result<CheckSettings> load_settings_file(const std::string& path);
 
 // A spec, or the spec of a case; told apart by "format".
 struct SpecInput {

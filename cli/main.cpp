@@ -39,16 +39,11 @@ const Library* Context::load_library() {
 }
 
 Result<CheckSettings> Context::load_settings() const {
-  CheckSettings settings;
-  if (!settings_file.empty()) {
-    const Result<std::string> text = read_regular_file(settings_file, json_fields::kMaxDocumentBytes);
-    if (!text) return text.issue();
-    Result<CheckSettings> parsed = parse_settings(*text);
-    if (!parsed) return Issue{parsed.issue().code, parsed.issue().pointer, settings_file + ": " + parsed.issue().text};
-    settings = std::move(parsed).value();
-  }
-  settings.today = day();
-  return settings;
+  Result<CheckSettings> settings = load_settings_file(settings_file);
+  if (!settings) return settings;
+  CheckSettings dated = std::move(settings).value();
+  dated.today = day();
+  return dated;
 }
 
 Result<CheckSettings> Context::load_settings_without_waivers() const {

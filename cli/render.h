@@ -12,7 +12,7 @@ namespace contort::cli {
 // Path of contort-render, beside the running program.
 std::string renderer_path();
 
-// The start of every call of it: its path, --gl and --library.
+// The start of every call of it: its path, --gl, --library and --settings.
 std::vector<std::string> renderer_call(const Context& context);
 
 // Runs a program to its end; its exit code, or kInternal where a signal ended it. Code render.no_process.

@@ -29,6 +29,8 @@ struct Options {
   std::string azimuth_deg;  // as it was written; "": none is given
   std::string clip;         // where the moving picture of one file goes; "": there is none
   std::string gl = "auto";
+  std::string settings_file;
+  CheckSettings settings{};
   bool clips = false;  // with `many`: beside each strip
   bool many = false;
   bool rows = false;
@@ -61,12 +63,12 @@ struct Shown {
   Evaluation evaluation;
 };
 
-Result<std::unique_ptr<Shown>> evaluate(const Library& library, const std::string& file) {
+Result<std::unique_ptr<Shown>> evaluate(const Library& library, const CheckSettings& settings, const std::string& file) {
   Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
   Result<Stage> stage = build_stage(input->spec, library);
   if (!stage) return stage.issue();
-  auto shown = std::make_unique<Shown>(Shown{std::move(input).value(), std::move(stage).value(), Evaluator(), {}});
+  auto shown = std::make_unique<Shown>(Shown{std::move(input).value(), std::move(stage).value(), Evaluator(settings), {}});
   shown->evaluation = shown->evaluator.run(shown->stage);
   return shown;
 }
@@ -87,7 +89,7 @@ StripInput strip_of(const Shown& shown, const Options& options, const std::strin
 
 Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
                        const std::string& png) {
-  const Result<std::unique_ptr<Shown>> shown = evaluate(library, file);
+  const Result<std::unique_ptr<Shown>> shown = evaluate(library, options.settings, file);
   if (!shown) return shown.issue();
   return renderer.render(strip_of(**shown, options, file), png, clip_of(options, png));
 }
@@ -152,6 +154,7 @@ Result<StripDone> draw_all(StripRenderer& renderer, const Library& library, cons
 }
 
 constexpr int kSheetColumns = 5;
+constexpr std::size_t kMostSheetTiles = 1000;
 
 // In a narrow tile the end of the title is cut: the joint comes first.
 Result<Image> draw_tile(StripRenderer& renderer, const Shown& shown, const Options& options, const std::string& file) {
@@ -165,7 +168,12 @@ Result<StripDone> draw_sheet(StripRenderer& renderer, const Library& library, co
   StripDone done;
   std::vector<Image> tiles;
   for (const std::string& file : options.files) {
-    const Result<std::unique_ptr<Shown>> shown = evaluate(library, file);
+    if (tiles.size() == kMostSheetTiles) {
+      done.warnings.push_back({"render.too_many", "", "the sheet has the first " + std::to_string(tiles.size()) + " of " +
+                                                          std::to_string(options.files.size()) + " pictures"});
+      break;
+    }
+    const Result<std::unique_ptr<Shown>> shown = evaluate(library, options.settings, file);
     Result<Image> tile = shown ? draw_tile(renderer, **shown, options, file) : Result<Image>(shown.issue());
     if (tile)
       tiles.push_back(std::move(tile).value());
@@ -195,9 +203,13 @@ int report(const Result<StripDone>& done) {
   return kClean;
 }
 
-int run(const Options& options) {
+int run(Options options) {
   const Result<Library> library = load_libraries(options.libraries);
   if (!library) return fail(library.issue(), kBadInput);
+  Result<CheckSettings> settings = load_settings_file(options.settings_file);
+  if (!settings) return fail(settings.issue(), kBadInput);
+  options.settings = std::move(settings).value();
+  options.settings.waivers.clear();  // what is waived is still there to be seen
   Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
   StripRenderer drawing = std::move(renderer).value();
@@ -215,6 +227,8 @@ int run(const Options& options) {
 std::string misfit(const Options& options) {
   const std::size_t files = options.files.size();
   if (options.many + options.rows + options.sheet > 1) return "--many, --rows and --sheet exclude each other";
+  if (options.sheet && !options.labels.empty()) return "--sheet takes no --label";
+  if (!options.clip.empty() && options.clip == options.output) return "--clip and -o are the same file";
   if (options.sheet && !options.frames.empty()) return "--sheet shows the worst frame of each FILE";
   if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
   if (options.clips && !options.many) return "--clips needs --many";
@@ -223,7 +237,7 @@ std::string misfit(const Options& options) {
   if (!options.many && !options.rows && !options.sheet && files > 1)
     return "found " + std::to_string(files) +
            " files: with --rows they become the rows of one picture, with --sheet its tiles";
-  if (!options.labels.empty() && (options.many || options.sheet || options.labels.size() != files))
+  if (!options.labels.empty() && (options.many || options.labels.size() != files))
     return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(files) +
            " files, expected one for each";
   return "";
@@ -244,6 +258,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--label", options.labels, "Title of the strip, or of the rows in turn")->allow_extra_args(false);
   app.add_option("--clip", options.clip, "A moving picture, too");
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
+  app.add_option("--settings", options.settings_file, "Limits that are not the default ones");
   app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
   app.add_flag("--rows", options.rows, "A row for each FILE");
   app.add_flag("--sheet", options.sheet, "A tile for each FILE");

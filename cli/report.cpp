@@ -14,6 +14,7 @@
 #include "cli/print.h"
 #include "cli/progress_line.h"
 #include "cli/render.h"
+#include "cli/report_folder.h"
 #include "cli/single_file.h"
 #include "cli/variants.h"
 #include "corpus/baseline.h"
@@ -23,6 +24,7 @@
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/json_fields.h"
 #include "renders/report.h"
 
 namespace contort::cli {
@@ -48,10 +50,12 @@ std::string location_of(const Bucket& bucket, const std::string& path) {
   return is_below ? here : "buckets/" + folder_name(bucket) + "/" + bucket.min;
 }
 
-// Another picture has another name, so that one that is there already is right.
-std::string picture_name(const std::string& key, const Case& stored) {
-  const std::string shown = print_spec(stored.spec) + stored.expect.motion_hash + CONTORT_VERSION;
-  return "strips/" + key + "-" + content_id(shown).substr(0, 8);
+// Another picture has another name, so that one that is there already is right: what moves, what is written in it, and by
+// which limits it is judged.
+std::string picture_name(const ReportRow& row, const Case& stored, const std::string& settings) {
+  const std::string shown = print_spec(stored.spec) + stored.expect.motion_hash + row.replay_command + settings +
+                            CONTORT_VERSION;
+  return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
@@ -69,7 +73,8 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, context.library_folders);
   if (row.has_motion && context.gl != "none") {
-    const std::string name = picture_name(row.key, stored);
+    const Result<std::string> settings = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
+    const std::string name = picture_name(row, stored, settings ? *settings : "");
     row.strip = name + ".png", row.clip = name + ".webp";
   }
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
@@ -153,28 +158,20 @@ std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
   return static_cast<std::int64_t>(pairs.size());
 }
 
+std::string clip_of(const Picture& picture) {
+  return std::filesystem::path(picture.png).replace_extension(".webp").string();
+}
+
 // Pictures that are there already stay; those that no row shows any more go.
 void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   std::set<std::string> wanted;
   for (const Picture& picture : pictures)
-    for (const char* ending : {".png", ".webp"})
-      wanted.insert(std::filesystem::path(picture.png).replace_extension(ending).filename().string());
+    for (const std::string& path : {picture.png, clip_of(picture)})
+      wanted.insert(std::filesystem::path(path).filename().string());
+  remove_old(folder, is_picture_file, wanted);
   std::error_code error;
-  std::set<std::string> present;
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::string ending = entry.path().extension().string();
-    if (wanted.contains(name))
-      present.insert(name);
-    else if (ending == ".png" || ending == ".webp")
-      old.push_back(entry.path());
-  }
-  for (const std::filesystem::path& path : old) std::filesystem::remove(path, error);
   std::erase_if(pictures, [&](const Picture& picture) {
-    const std::filesystem::path png(picture.png);
-    return present.contains(png.filename().string()) &&
-           present.contains(std::filesystem::path(png).replace_extension(".webp").filename().string());
+    return std::filesystem::exists(picture.png, error) && std::filesystem::exists(clip_of(picture), error);
   });
 }
 
@@ -182,13 +179,13 @@ void show_drawn(const std::vector<Picture>& pictures, const ProgressLine& line) 
   if (!line.wanted()) return;
   std::error_code error;
   const auto drawn = std::ranges::count_if(pictures, [&](const Picture& picture) {
-    return std::filesystem::exists(std::filesystem::path(picture.png).replace_extension(".webp"), error);
+    return std::filesystem::exists(clip_of(picture), error);
   });
   line.show(static_cast<double>(drawn) / static_cast<double>(pictures.size()),
             std::to_string(drawn) + " of " + std::to_string(pictures.size()) + " failures drawn");
 }
 
-// Each process draws a share of the pictures; Mesa renders in one thread of each (docs/rendering.md).
+// Each process draws a share of the pictures; Mesa renders in one thread of each (renders/raster/renderer.h).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
   const ProgressLine line;
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -231,7 +228,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
     return context.fail(made.issue(), kInternal);
   if (const Result<Done> written = write_report(model, request.folder); !written)
     return context.fail(written.issue(), kInternal);
-  tidy(request.folder + "/strips", media.pictures);
+  if (context.gl != "none") tidy(request.folder + "/strips", media.pictures);
   write_case_pages(media.cases, request.folder, library, context);
   if (context.gl == "none") {
     std::fprintf(stderr, "contort: --gl none: the report has no pictures\n");
@@ -272,16 +269,17 @@ void add_report(CLI::App& app, Context& context) {
   auto request = std::make_shared<ReportRequest>();
   CLI::App* command = app.add_subcommand("report", "Report a corpus: HTML with film strips, or what CI reads");
   command->add_option("CORPUS", request->corpus, "Corpus folder")->required();
-  CLI::Option* folder = command->add_option("-o,--output", request->folder, "Folder of the page");
-  command->add_option("--single-file", request->single_file, "The page and all that belongs to it as one file, for mail")
-      ->type_name("FILE")
-      ->needs(folder);
+  command->add_option("-o,--output", request->folder, "Folder of the page");
+  command->add_option("--single-file", request->single_file, "The page and what belongs to it as one file, for mail")
+      ->type_name("FILE");
   add_output_options(*command, request->outputs);
   command->add_flag("--gate", request->gate, "Exit with 1 where something gates");
   command->footer(
       "Example: contort report contort-out/corpus -o contort-out/report\n"
       "         contort report contort-out/corpus --junit contort.xml --github --baseline main/corpus --gate");
   command->callback([request, &context] {
+    if (request->folder.empty() && !request->single_file.empty())
+      return context.fail({"usage", "", "--single-file needs the folder of the page: -o DIR"});
     if (request->folder.empty() && !request->outputs.wanted() && !request->gate)
       return context.fail({"usage", "", "nothing to write: give -o, --junit, --sarif, --markdown, --github or --gate"});
     if (const Library* library = context.load_library()) make_report(*request, *library, context);

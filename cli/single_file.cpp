@@ -1,5 +1,7 @@
 #include "cli/single_file.h"
 
+#include <cstdio>
+
 #include "generator/core/files.h"
 #include "renders/case_data.h"
 
@@ -7,24 +9,33 @@ namespace contort::cli {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 26;  // of one file
+// What mail takes: attachments above 25 MB are refused by most, and base64 adds a third on the way.
+constexpr std::size_t kMostBytes = 18'000'000;
 
 }  // namespace
 
 Result<Done> write_single_file(const ReportModel& model, const std::string& folder, const std::string& path) {
   PageFiles inside;
+  std::size_t room = kMostBytes;
+  int left_out = 0;
   const auto text_of = [&](const std::string& name) {
     const Result<std::string> text = read_file(folder + "/" + name, kMostBytes);
     return text ? *text : std::string();
   };
   const auto add = [&](const std::string& name, const std::string& text) {
-    if (!text.empty()) inside[name] = text;
+    if (text.size() > room) ++left_out;
+    if (text.empty() || text.size() > room) return;
+    room -= text.size();
+    inside[name] = text;
   };
   for (const char* name : {"viewer/viewer.css", "viewer/viewer.js"}) add(name, text_of(name));
   for (const ReportRow& row : model.rows) {
     if (!row.strip.empty()) add(row.strip, text_of(row.strip));
     if (row.has_motion) add("cases/" + row.key + ".json", data_of_script(row.key, text_of("cases/" + row.key + ".js")));
   }
+  if (left_out > 0)
+    std::fprintf(stderr, "contort: %s is as large as mail may be; %d motions and pictures are only in %s\n", path.c_str(),
+                 left_out, folder.c_str());
   return write_file(path, report_html(model, inside));
 }
 

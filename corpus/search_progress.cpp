@@ -1,7 +1,10 @@
 #include "corpus/search_progress.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace contort {
 
@@ -34,6 +37,7 @@ struct Family {
   std::int64_t cases = 0;
   std::int64_t first = 0;  // of all cases
   std::string first_arm;
+  std::pair<std::string, std::int64_t> first_case;  // run and index
 };
 
 }  // namespace
@@ -46,17 +50,19 @@ SearchProgress progress_of(std::span<const RunRecord> runs) {
     const RunRecord run = added_up(shards.records);
     for (const auto& [name, count] : run.families) {
       const std::int64_t index = count.first_indices.empty() ? run.cases : count.first_indices.front();
-      const Family met{0, all.cases + shards.place_of(index, run), count.first_arm};
+      const Family met{0, all.cases + shards.place_of(index, run), count.first_arm, {run.name, index}};
       families.try_emplace(name, met).first->second.cases += count.cases;
     }
     for (const auto& [name, count] : run.arms) arms[name].cases += count.cases, arms[name].failing += count.failing;
     all.cases += run.cases, all.failing += run.failing;
   }
+  std::set<std::pair<std::string, std::int64_t>> lone;
   for (const auto& [name, family] : families) {
     all.discovered.push_back(family.first);
-    all.met_once += family.cases == 1;
-    ++arms[family.first_arm].families;
+    if (family.cases == 1) ++all.met_once, lone.insert(family.first_case);
+    if (const auto arm = arms.find(family.first_arm); arm != arms.end()) ++arm->second.families;
   }
+  all.lone_cases = std::ssize(lone);
   std::ranges::sort(all.discovered);
   for (auto& [name, arm] : arms) arm.name = name, all.arms.push_back(arm);
   return all;
@@ -64,7 +70,7 @@ SearchProgress progress_of(std::span<const RunRecord> runs) {
 
 double unseen_share(const SearchProgress& progress) {
   if (progress.cases == 0) return 1.0;
-  const double events = progress.met_once > 0 ? static_cast<double>(progress.met_once) : 3.0;
+  const double events = progress.lone_cases > 0 ? static_cast<double>(progress.lone_cases) : 3.0;
   return std::min(1.0, events / static_cast<double>(progress.cases));
 }
 

@@ -66,8 +66,8 @@ Result<Done> check_blend(const DrawRule& rule, const std::string& pointer) {
     return frames >= kBlend.low && frames <= kBlend.high && std::floor(frames) == frames;
   };
   if (rule.low.size() == 1 && good(rule.low[0]) && good(rule.high[0])) return Done{};
-  return Issue{"profile.bad_rule", pointer + "/low", rule.param + " is one whole number, from 0 to " +
-                                                        json_fields::Json(kBlend.high).dump()};
+  return Issue{"profile.bad_rule", pointer + "/low",
+               rule.param + " is one whole number, from 0 to " + std::to_string(static_cast<int>(kBlend.high))};
 }
 
 // Whether a parameter can have a value that the rule allows.
@@ -101,7 +101,12 @@ Result<Done> check_param(const DrawRule& rule, const Known& known, const std::st
 
 Result<Done> check_rule(const DrawRule& rule, const Known& known, const std::string& pointer) {
   if (const Result<Done> all = check_known(rule.slots, known.slots, pointer + "/slots", "slots"); !all) return all;
-  if (const Result<Done> all = check_known(rule.actions, known.actions, pointer + "/actions", "actions"); !all) return all;
+  if (const Result<Done> all = check_known(rule.actions, known.actions, pointer + "/actions", "actions"); !all)
+    return all;
+  const bool speaks = std::ranges::any_of(
+      known.movements, [&](const Movement& movement) { return rule.speaks_of(movement.slot, movement.action); });
+  if (!speaks)
+    return Issue{"profile.unknown_name", pointer + "/actions", "no part in these slots has one of these actions"};
   return rule.param.empty() ? Result<Done>(Done{}) : check_param(rule, known, pointer);
 }
 

@@ -1,5 +1,6 @@
 #include "renders/case_data.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -188,10 +189,10 @@ Json curves_json(const std::vector<MarginCurve>& curves) {
   return all;
 }
 
-Result<std::string> glb_text(const Character& character, const Motion& motion) {
+// "" for what no .glb can hold, such as a motion that is not finite: its margins are shown all the same.
+std::string glb_text(const Character& character, const Motion& motion) {
   const Result<std::vector<std::byte>> glb = write_glb(character, motion, {});
-  if (!glb) return glb.issue();
-  return to_base64(gzipped(*glb));
+  return glb ? to_base64(gzipped(*glb)) : "";
 }
 
 // The motion that dynamics was to follow; without frames where there was none.
@@ -213,12 +214,7 @@ Result<Json> motion_json(const ShownCase& shown, const Library& library, const C
   about.check = shown.stored.expect.check, about.subject = shown.stored.expect.subject;
   about.first_frame = about.worst_frame = about.last_frame = -1;
   if (const Finding* found = deepest(evaluation.findings, about.check, about.subject)) about = *found;
-  const Result<std::string> glb = glb_text(*stage->character, motion);
-  if (!glb) return glb.issue();
   const Motion target = target_of(motion);
-  const Result<std::string> ghost =
-      target.frame_count > 0 ? glb_text(*stage->character, target) : Result<std::string>(std::string());
-  if (!ghost) return ghost.issue();
   return Json{{"role", shown.role},
               {"rate_hz", motion.rate_hz},
               {"frame_count", motion.frame_count},
@@ -227,8 +223,8 @@ Result<Json> motion_json(const ShownCase& shown, const Library& library, const C
               {"last_frame", about.last_frame},
               {"spec", *json_fields::parse_document(print_spec(shown.stored.spec))},
               {"free_fields", shown.stored.free_fields},
-              {"glb", *glb},
-              {"ghost_glb", *ghost},
+              {"glb", glb_text(*stage->character, motion)},
+              {"ghost_glb", target.frame_count > 0 ? glb_text(*stage->character, target) : ""},
               {"colliders", colliders_json(*stage->character)},
               {"highlight", highlight_json(*stage->character, highlighted(*stage->character, about))},
               {"ground", ground_json(*stage, motion)},
@@ -256,12 +252,13 @@ std::string without_markup(const std::string& json) {
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
                               const CheckSettings& settings) {
   const Expectation& expect = shown.front().stored.expect;
+  const auto check = std::ranges::find(all_checks(), expect.check, &CheckDef::name);
   Json json = {{"format", "contort.report_case/1"},
                {"key", key},
                {"check", expect.check},
                {"subject", expect.subject},
                {"unit", expect.unit},
-               {"meaning", find_check(expect.check).help},
+               {"meaning", check == all_checks().end() ? "" : check->help},
                {"worst_margin", number(expect.worst_margin)},
                {"first_frame", expect.first_frame},
                {"worst_frame", expect.worst_frame},
@@ -274,6 +271,11 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
     else if (&one == &shown.front())
       return motion.issue();
   }
+  return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string case_problem(const std::string& key, const std::string& why) {
+  const Json json = {{"format", "contort.report_case/1"}, {"key", key}, {"problem", why}};
   return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -22,9 +22,12 @@ struct ShownCase {
 inline constexpr std::size_t kMostCurves = 16;
 
 // JSON in one line, safe inside of a <script>. The first of `shown` is what the failure is told by. Codes of
-// build_stage and write_glb: the library may have changed since.
+// build_stage: the library may have changed since.
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
                               const CheckSettings& settings);
+
+// What the viewer gets where the case cannot be shown: a sentence that says why.
+std::string case_problem(const std::string& key, const std::string& why);
 
 // The same as the file that a page loads; and back, "" where the text is no such file.
 std::string case_script(const std::string& key, const std::string& data);

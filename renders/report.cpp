@@ -43,6 +43,7 @@ Json search_json(const SearchProgress& search) {
     arms.push_back({{"name", arm.name}, {"cases", arm.cases}, {"failing", arm.failing}, {"families", arm.families}});
   return {{"discovered", search.discovered},
           {"met_once", search.met_once},
+          {"lone_cases", search.lone_cases},
           {"unseen_share", unseen_share(search)},
           {"arms", arms}};
 }

@@ -22,7 +22,7 @@ struct ReportRow {
   double worst_margin = 0.0;
   std::int64_t cases_seen = 0;  // of the family: its buckets are told apart only after shrinking
   std::string bucket;           // id
-  std::string key;              // names its files: strips/<key>.png, cases/<key>.js
+  std::string key;              // names its files: strips/<key>-*.png, cases/<key>.js
   std::string character;        // that moves
   bool has_motion = true;       // false: there is nothing for the viewer to play
   std::string state;            // "new", "open", "regressed", …

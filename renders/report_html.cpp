@@ -148,30 +148,37 @@ std::string details_html(std::string_view summary, const std::string& body) {
 }
 
 // A page stays below a megabyte with a thousand buckets: those that come later, which gate less and are less deep, have
-// no picture before they are opened.
-constexpr std::size_t kMostFullBuckets = 80;
+// no picture before they are opened, and specs are left to the viewer.
+struct Room {
+  explicit Room(std::size_t rows) : spec_bytes(rows <= 250 ? 400'000 : 0) {}
+  std::size_t buckets = 80;  // that may still be shown with everything
+  std::size_t spec_bytes;    // that they may still write out
+};
 
-std::string open_html(const ReportRow& row) {
-  return row.has_motion && !row.key.empty() ? "<button type='button' class='open'>Look closer</button>\n" : "";
+std::string open_html(const ReportRow& row, const PageFiles& inside) {
+  const bool there = row.has_motion && (inside.empty() || inside.contains("cases/" + row.key + ".json"));
+  return there && !row.key.empty() ? "<button type='button' class='open'>Look closer</button>\n" : "";
 }
 
-std::string short_bucket_html(const ReportRow& row) {
+std::string short_bucket_html(const ReportRow& row, const PageFiles& inside) {
   return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>worst " +
-         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " + needs_text(row.features)) +
-         "</p>\n" + open_html(row) + command_html(row.replay_command) + "</section>\n";
+         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " +
+                   needs_text(row.features)) +
+         "</p>\n" + open_html(row, inside) + command_html(row.replay_command) + "</section>\n";
 }
 
-std::string bucket_html(const ReportRow& row, const PageFiles& inside) {
+std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& inside) {
   std::string out = "<section class='bucket'" + attribute("data-case", row.key) + ">\n";
   out += picture_html(row, row.strip, "Film strip", inside);
   if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
-  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) + fact("worst margin", margin_text(row.worst_margin, row.unit)) +
-         fact("worst at", worst_text(row)) + fact("violated in", violated_text(row)) + fact("needs", needs_text(row.features)) +
-         fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
-  out += open_html(row) + command_html(row.replay_command);
-  if (!row.spec_json.empty())
-    out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
+  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
+         fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
+         fact("violated in", violated_text(row)) + fact("needs", needs_text(row.features)) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
+  out += open_html(row, inside) + command_html(row.replay_command);
+  if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
+  room.spec_bytes -= row.spec_json.size();
+  out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
   return out + "</section>\n";
 }
 
@@ -218,8 +225,7 @@ std::string card_head(const FamilyCard& card) {
          (buckets > 1 ? ", " + html_text(counted(buckets, "bucket", "buckets")) : "") + "</span></p>\n</div>\n";
 }
 
-// `full`: how many buckets may still be shown with everything.
-std::string card_html(const FamilyCard& card, std::size_t& full, const PageFiles& inside) {
+std::string card_html(const FamilyCard& card, Room& room, const PageFiles& inside) {
   const ReportRow& row = *card.rows.front();
   const std::string look = card.gating() ? "card gating" : "card";
   std::string out = "<article tabindex='-1'" + attribute("class", look) + attribute("data-check", row.check) +
@@ -227,8 +233,9 @@ std::string card_html(const FamilyCard& card, std::size_t& full, const PageFiles
                     attribute("data-state", states_of(card)) + ">\n" + card_head(card);
   std::string others;
   for (const ReportRow* bucket : card.rows) {
-    (bucket == &row ? out : others) += full > 0 ? bucket_html(*bucket, inside) : short_bucket_html(*bucket);
-    full -= full > 0 ? 1 : 0;
+    (bucket == &row ? out : others) +=
+        room.buckets > 0 ? bucket_html(*bucket, room, inside) : short_bucket_html(*bucket, inside);
+    room.buckets -= room.buckets > 0 ? 1 : 0;
   }
   const auto more = static_cast<std::int64_t>(card.rows.size()) - 1;
   if (more > 0) out += details_html(html_text(counted(more, "more bucket", "more buckets")), others);
@@ -252,8 +259,8 @@ std::string failures_html(const ReportModel& model, const PageFiles& inside) {
   std::string out = "<section id='failures'>\n<h2>Failures</h2>\n";
   if (model.rows.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
   out += filter_html();
-  std::size_t full = kMostFullBuckets;
-  for (const FamilyCard& card : cards_of(model)) out += card_html(card, full, inside);
+  Room room(model.rows.size());
+  for (const FamilyCard& card : cards_of(model)) out += card_html(card, room, inside);
   return out + "<p class='none' id='no-match' hidden>Nothing matches the filter.</p>\n</section>\n";
 }
 

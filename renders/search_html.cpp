@@ -1,5 +1,6 @@
 #include "renders/search_html.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -17,18 +18,32 @@ std::string one_in(double share) {
   return "1 in " + count_text(share > 0.0 ? static_cast<std::int64_t>(std::floor(1.0 / share)) : 0);
 }
 
+constexpr std::int64_t kFewCases = 30;  // of which nothing can be said about the rest
+
+std::string what_is_left(const SearchProgress& search) {
+  const std::string odds = one_in(unseen_share(search));
+  if (search.cases < kFewCases) return "These are too few cases to say what is left.";
+  if (search.failing == 0)
+    return "With 95 % confidence, fewer than " + odds + " of the cases that this run draws would.";
+  if (search.lone_cases == 0)
+    return "Each was met by two cases or more, so probably fewer than " + odds + " further cases would show another one.";
+  return counted(search.lone_cases, "case", "cases") + " showed what no other did, so about " + odds +
+         " further cases should show a family that is not listed here.";
+}
+
 // What a reader wants to know: would going on show more?
 std::string outlook(const SearchProgress& search) {
-  const std::string odds = one_in(unseen_share(search));
-  if (search.discovered.empty())
-    return "No case failed: with 95 % confidence, fewer than " + odds + " of the cases that can be drawn would.";
   const auto families = static_cast<std::int64_t>(search.discovered.size());
-  const std::string last = "The last of " + counted(families, "family", "families") + " was met after " +
-                           count_text(search.discovered.back()) + " of " + counted(search.cases, "case", "cases") + ". ";
-  if (search.met_once == 0)
-    return last + "Each was met by two cases or more: fewer than " + odds + " further cases should show another one.";
-  return last + counted(search.met_once, "was met by a single case", "were met by a single case each") +
-         ", so about " + odds + " further cases should show one that is not listed here.";
+  const std::string met = families == 0
+                              ? "No case failed."
+                              : "The last of " + counted(families, "family", "families") + " was met after " +
+                                    count_text(search.discovered.back()) + " of " +
+                                    counted(search.cases, "case", "cases") + ".";
+  const bool guided = std::ranges::any_of(search.arms, [](const ArmProgress& arm) {
+    return arm.name == "guided" && arm.cases > 0;
+  });
+  return met + " " + what_is_left(search) +
+         (guided ? " Guided cases follow others, which makes this an estimate." : "");
 }
 
 void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {

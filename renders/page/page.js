@@ -15,6 +15,8 @@
     const note = document.createElement('p');
     note.className = 'missing';
     note.textContent = text;
+    const moving = event.target.closest('.bucket')?.querySelector('.moving');
+    if (moving) moving.remove();  // It is drawn together with the strip.
     event.target.closest('.strip').replaceWith(note);
   }, true);
 

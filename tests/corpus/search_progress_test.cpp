@@ -27,6 +27,21 @@ TEST(SearchProgress, FamiliesAreDiscoveredOnceWhereTheyWereMetFirst) {
   EXPECT_DOUBLE_EQ(unseen_share(all), 1.0 / 150);
 }
 
+// Three families that one case alone showed are one surprise, not three.
+TEST(SearchProgress, ACaseThatShowsSeveralFamiliesCountsOnce) {
+  RunRecord one = run("a", 100);
+  one.families = {{"x", {1, {7}, "uniform"}}, {"y", {1, {7}, "uniform"}}, {"z", {1, {7}, "uniform"}},
+                  {"w", {1, {8}, "of an older version"}}, {"v", {9, {7, 8}, "uniform"}}};
+  const SearchProgress all = progress_of(std::vector{one});
+  EXPECT_EQ(all.met_once, 4);
+  EXPECT_EQ(all.lone_cases, 2);
+  EXPECT_DOUBLE_EQ(unseen_share(all), 0.02);
+  EXPECT_EQ(all.arms.size(), 2u) << "no row for a way that drew nothing";
+  RunRecord other = run("b", 100);
+  other.families = {{"u", {1, {7}, "uniform"}}};
+  EXPECT_EQ(progress_of(std::vector{one, other}).lone_cases, 3) << "another run's case 7 is another case";
+}
+
 TEST(SearchProgress, ShardsOfOneRunCountAsOne) {
   std::vector<RunRecord> shards;
   for (int k = 0; k < 4; ++k) {

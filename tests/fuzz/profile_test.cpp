@@ -105,6 +105,9 @@ TEST(Profile, RulesThatWouldTestNothingAreRefused) {
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[900],"high":[950]}])"), "profile.no_range at /rules/0/low/0");
   EXPECT_EQ(refused(R"("rules":[{"slots":["head"],"param":"speed_m_s","low":[1],"high":[1]}])"),
             "profile.unknown_name at /rules/0/param");
+  for (const char* rule : {R"("never":true)", R"("param":"blend_in_frames","low":[1],"high":[2])"})
+    EXPECT_EQ(refused(R"("rules":[{"slots":["head"],"actions":["walk"],)" + std::string(rule) + "}]"),
+              "profile.unknown_name at /rules/0/actions");
   for (const char* frames : {"-5", "601", "2.5"})
     EXPECT_EQ(refused(R"("rules":[{"param":"blend_in_frames","low":[)" + std::string(frames) + R"(],"high":[800]}])"),
               "profile.bad_rule at /rules/0/low");

@@ -123,7 +123,6 @@ TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
   }
 }
 
-// The rifle points at a fixed place while the body walks and turns under it.
 // There are many postures that face a direction. One joint after another took one that tilts the head by 40 degrees.
 TEST(Actions, ADirectionTakesTheSmallestAngles) {
   Played played({}, {use("direction", "head", 0, 40, {{"azimuth_deg", 30.0}, {"elevation_deg", 15.0}})});
@@ -157,6 +156,7 @@ TEST(Actions, AWalkAfterALeanBeginsWhereTheFigureStands) {
   }
 }
 
+// The rifle points at a fixed place while the body walks and turns under it.
 TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
   const Vec3 target_m(-1.0, 1.4, 8.0);
   Played played(kRifleman, {use("walk", "waist", 0, 200, {{"speed_m_s", 1.0}}),

@@ -272,6 +272,7 @@ for (const way of ['file', 'http']) {
     await page.locator('.play').click();
     await page.waitForFunction(() => Number(document.querySelector('.scrub').value) >= 5);
     await page.locator('.play').click();
+    await settle(page);
     assert.deepEqual(await frames(), expected(await shownFrame(page)));
     assert.ok(!before.equals(await picture(page)));
     await page.locator('[data-motion=original]').click();

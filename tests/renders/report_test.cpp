@@ -80,12 +80,19 @@ TEST(Report, SaysHowFarTheSearchGot) {
   ReportModel model = model_of({});
   EXPECT_FALSE(contains(report_html(model), "How far the search got")) << "nothing ran";
   model.search.cases = 3000, model.search.arms = {{kHostile, 3000, 0, 0}};
-  EXPECT_TRUE(contains(report_html(model), "fewer than 1 in 1\u202F000 of the cases"));
+  EXPECT_TRUE(contains(report_html(model), "No case failed. With 95 % confidence, fewer than 1 in 1\u202F000 of"));
   EXPECT_FALSE(contains(body_of(report_html(model)), "<script>"));
-  model.search.discovered = {10, 1500}, model.search.met_once = 2;
+  model.search.discovered = {10, 1500}, model.search.failing = 2;
+  EXPECT_TRUE(contains(report_html(model), "so probably fewer than 1 in 1\u202F000 further cases"));
+  model.search.met_once = 7, model.search.lone_cases = 2;
   const std::string html = report_html(model);
   EXPECT_TRUE(contains(html, "met after 1\u202F500 of 3\u202F000 cases"));
-  EXPECT_TRUE(contains(html, "2 were met by a single case each, so about 1 in 1\u202F500 further cases"));
+  EXPECT_TRUE(contains(html, "2 cases showed what no other did, so about 1 in 1\u202F500 further cases"));
+  EXPECT_FALSE(contains(html, "Guided"));
+  model.search.arms = {{"guided", 5, 0, 0}};
+  EXPECT_TRUE(contains(report_html(model), "Guided cases follow others"));
+  model.search.cases = 20;
+  EXPECT_TRUE(contains(report_html(model), "too few cases to say"));
   EXPECT_TRUE(contains(html, "d='M0.0 120.0L2.0 120.0L2.0 60.0L300.0 60.0L300.0 0.0L600.0 0.0'"));
 }
 
@@ -155,6 +162,7 @@ TEST(Report, AThousandBucketsStayBelowAMegabyte) {
     row.replay_command = "contort replay contort-out/corpus/buckets/" + row.key + "/min-0123456789abcdef.json";
     row.features = "actions=pose,reach,walk clips=2 sequences=1 swap";
     row.clip = "strips/" + row.key + "-01234567.webp";
+    row.spec_json = std::string(11'000, 'x');  // of a failure that was not shrunk
     rows.push_back(std::move(row));
   }
   const std::string html = report_html(model_of(rows));

@@ -78,6 +78,7 @@ function readMotion(motion) {
 export function readCase(data) {
   if (!data || typeof data !== 'object') throw new Damaged('it holds no case');
   if (data.format !== kFormat) throw new Damaged(`its format is not ${kFormat}`);
+  if (text(data.problem)) throw new Damaged(shown(data.problem));
   const motions = list(data.motions).map(readMotion);
   if (motions.length === 0) throw new Damaged('it holds no motion');
   return {

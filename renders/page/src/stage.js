@@ -8,7 +8,7 @@ import { Pane } from './pane.js';
 import { onThemeChange, theme } from './theme.js';
 
 const kNoWebgl = 'This browser cannot draw in 3-D (WebGL is switched off or missing), so the motion is drawn flat.';
-const kDamaged = 'The 3-D model of this motion is damaged and cannot be shown. The numbers below are complete.';
+const kDamaged = 'The 3-D model of this motion is missing or damaged and cannot be shown. The numbers below are complete.';
 const kLost = 'The browser took the 3-D picture away. Close this case and open it again.';
 
 export class Stage {
