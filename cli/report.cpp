@@ -249,6 +249,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
 void make_report(const ReportRequest& request, const Library& library, Context& context) {
   const Result<Corpus> corpus = Corpus::open(request.corpus);
   if (!corpus) return context.fail(corpus.issue());
+  if (const Result<CheckSettings> settings = context.load_settings(); !settings) return context.fail(settings.issue());
   const Result<Baseline> known = load_baseline(request.outputs.baseline);
   if (!known) return context.fail(known.issue());
   ReportModel model;

@@ -80,6 +80,63 @@ TEST_F(ReportOfCorpus, DrawsEachPictureOnceAndKeepsNoOldOnes) {
   EXPECT_EQ(fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0])), again);
 }
 
+// A folder of a project may have cases and strips of its own.
+TEST_F(ReportOfCorpus, LeavesOtherPeoplesFilesAlone) {
+  const std::string kOld = "joint_range-0123456789ab";
+  for (const char* below : {"cases", "strips"}) fs::create_directories(folder_ / ("out/" + std::string(below)));
+  const std::string theirs[] = {"cases/login.js", "cases/a-b.js", "strips/art.png", "strips/joint_range-0123.webp"};
+  const std::string ours[] = {"cases/" + kOld + ".js", "strips/" + kOld + "-01234567.png"};
+  for (const std::string& name : theirs) std::ofstream(folder_ / ("out/" + name)) << name;
+  for (const std::string& name : ours) std::ofstream(folder_ / ("out/" + name)) << name;
+  ASSERT_EQ(report({}, "auto").code, 0);
+  for (const std::string& name : theirs) EXPECT_TRUE(fs::exists(folder_ / ("out/" + name))) << name;
+  for (const std::string& name : ours) EXPECT_FALSE(fs::exists(folder_ / ("out/" + name))) << name;
+}
+
+TEST_F(ReportOfCorpus, ACheckThatThisBuildDoesNotHaveIsShownAllTheSame) {
+  Case other = failing_case(bent_elbow(158), "joint_range", kElbow);
+  other.expect.check = "of_tomorrow";
+  add(other, other);
+  const Ran ran = report();
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(files("cases").size(), 2U);
+}
+
+TEST_F(ReportOfCorpus, WhatCannotBeShownSaysWhy) {
+  Case other = failing_case(bent_elbow(158), "joint_range", kElbow);
+  other.spec.character.name = "of_tomorrow";
+  add(other, other);
+  const Ran ran = report();
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  ASSERT_EQ(files("cases").size(), 2U);
+  int problems = 0;
+  for (const std::string& name : files("cases"))
+    problems += slurp(folder_ / ("out/cases/" + name)).find("\"problem\"") != std::string::npos;
+  EXPECT_EQ(problems, 1);
+  EXPECT_NE(ran.err.find("the report cannot show"), std::string::npos);
+}
+
+TEST_F(ReportOfCorpus, PicturesAreOfTheLimitsThatAreGiven) {
+  ASSERT_EQ(report({}, "auto").code, 0);
+  const std::vector<std::string> pictures = files("strips");
+  const std::string before = slurp(folder_ / ("out/strips/" + pictures[0]));
+  ASSERT_EQ(report().code, 0);
+  EXPECT_EQ(files("strips"), pictures) << "--gl none draws nothing and removes nothing";
+  std::ofstream(folder_ / "limits.json") << R"({"format":"contort.settings/1","limits":[
+    {"check":"joint_range","tolerance":0.5,"reason":"a test"}]})";
+  const Ran ran =
+      contort_program({"--settings", folder_ / "limits.json", "report", corpus_.folder(), "-o", folder_ / "out"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  ASSERT_EQ(files("strips").size(), 2U);
+  EXPECT_NE(files("strips"), pictures);
+  EXPECT_NE(slurp(folder_ / ("out/strips/" + files("strips")[0])), before) << "nothing is violated by these limits";
+  std::ofstream(folder_ / "limits.json") << "{";
+  const Ran bad = contort_program({"--settings", folder_ / "limits.json", "report", corpus_.folder(), "-o", folder_ / "o"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_EQ(lines_of(bad.err).size(), 1U) << bad.err;
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
+}
+
 TEST_F(ReportOfCorpus, IsOneFileForMail) {
   EXPECT_EQ(report({"--single-file", folder_ / "mail.html"}, "auto").code, 0);
   const std::string page = slurp(folder_ / "mail.html");

@@ -103,6 +103,14 @@ TEST(CaseData, GroundThatIsNotLevelIsAMesh) {
   for (const json& index : ground["indices"]) EXPECT_LT(index.get<std::size_t>() * 3, ground["positions"].size());
 }
 
+TEST(CaseData, SaysWhyWhereACaseCannotBeShown) {
+  EXPECT_EQ(json::parse(case_problem("k", "no </script>"))["problem"], "no </script>");
+  EXPECT_EQ(case_problem("k", "no </script>").find('<'), std::string::npos);
+  Case unknown = failing_case(bent_elbow(158), "joint_range", kElbow);
+  unknown.expect.check = "of_tomorrow";
+  EXPECT_EQ(data_of({{"minimal", unknown}})["meaning"], "");
+}
+
 TEST(CaseData, AKeyStaysAString) {
   EXPECT_EQ(case_script("a\"</script>\xE2\x80\xA8", "{}"), "contortCase(\"a\\\"\\u003c/script>\\u2028\", {});\n");
 }
