@@ -63,12 +63,14 @@ struct Shown {
   Evaluation evaluation;
 };
 
-Result<std::unique_ptr<Shown>> evaluate(const Library& library, const CheckSettings& settings, const std::string& file) {
+Result<std::unique_ptr<Shown>> evaluate(const Library& library, const CheckSettings& settings,
+                                        const std::string& file) {
   Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
   Result<Stage> stage = build_stage(input->spec, library);
   if (!stage) return stage.issue();
-  auto shown = std::make_unique<Shown>(Shown{std::move(input).value(), std::move(stage).value(), Evaluator(settings), {}});
+  auto shown = std::make_unique<Shown>(
+      Shown{std::move(input).value(), std::move(stage).value(), Evaluator(settings), {}});
   shown->evaluation = shown->evaluator.run(shown->stage);
   return shown;
 }
@@ -169,8 +171,9 @@ Result<StripDone> draw_sheet(StripRenderer& renderer, const Library& library, co
   std::vector<Image> tiles;
   for (const std::string& file : options.files) {
     if (tiles.size() == kMostSheetTiles) {
-      done.warnings.push_back({"render.too_many", "", "the sheet has the first " + std::to_string(tiles.size()) + " of " +
-                                                          std::to_string(options.files.size()) + " pictures"});
+      const std::string all = std::to_string(options.files.size());
+      done.warnings.push_back(
+          {"render.too_many", "", "the sheet has the first " + std::to_string(tiles.size()) + " of " + all + " pictures"});
       break;
     }
     const Result<std::unique_ptr<Shown>> shown = evaluate(library, options.settings, file);

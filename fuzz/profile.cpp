@@ -24,7 +24,8 @@ void fields(V& v, const DrawRule*) {
   v.field("never", &DrawRule::never, {}, "They are not drawn.");
   v.field("param", &DrawRule::param, {.may_be_empty = true},
           "A number or vector among the parameters, blend_in_frames or blend_out_frames: drawn from low to high only.");
-  v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3}, "One number, or three of a vector; one counts for all three.");
+  v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3},
+          "One number, or three of a vector; one counts for all three.");
   v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
 }
 

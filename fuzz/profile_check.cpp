@@ -42,7 +42,8 @@ Known known_of(const Library& library) {
     add_movements({name, {}, {}}, library, known.movements);
     for (const SlotDesc& slot : desc.slots) {
       known.slots.insert(slot.name);
-      for (const std::string& part : slot.parts) add_movements({name, {{slot.name, part}}, {}}, library, known.movements);
+      for (const std::string& part : slot.parts)
+        add_movements({name, {{slot.name, part}}, {}}, library, known.movements);
     }
   }
   for (const ActionDef& action : all_actions()) known.actions.insert(std::string(action.name));
@@ -74,7 +75,8 @@ Result<Done> check_blend(const DrawRule& rule, const std::string& pointer) {
 Result<Done> check_range(const DrawRule& rule, const ParamDef& def, const Movement& of, const std::string& pointer) {
   const std::string whose = "of " + of.action + " in slot " + of.slot + " of " + of.character;
   if (def.type != ParamType::number && def.type != ParamType::vector)
-    return Issue{"profile.bad_rule", pointer + "/param", quoted(def.name) + " " + whose + " is no number and no vector"};
+    return Issue{"profile.bad_rule", pointer + "/param",
+                 quoted(def.name) + " " + whose + " is no number and no vector"};
   if (def.type == ParamType::number && rule.low.size() != 1)
     return Issue{"profile.bad_rule", pointer + "/low", quoted(def.name) + " " + whose + " is one number"};
   for (std::size_t i = 0; i < rule.low.size(); ++i)
@@ -133,11 +135,11 @@ Result<Done> validate(const Profile& profile, const std::vector<std::string>& ch
                                                  std::tuple(&profile.slots, &known.slots, "slots"),
                                                  std::tuple(&profile.actions, &known.actions, "actions")})
     if (const Result<Done> all = check_known(*names, *of_library, std::string("/") + field, field); !all) return all;
-  if (const Result<Done> all = check_known(profile.grounds, {"plane", "slope", "steps", "heights"}, "/grounds", "grounds");
-      !all)
-    return all;
+  const std::set<std::string> grounds = {"plane", "slope", "steps", "heights"};
+  if (const Result<Done> all = check_known(profile.grounds, grounds, "/grounds", "grounds"); !all) return all;
   for (std::size_t i = 0; i < profile.rules.size(); ++i)
-    if (const Result<Done> good = check_rule(profile.rules[i], known, "/rules/" + std::to_string(i)); !good) return good;
+    if (const Result<Done> good = check_rule(profile.rules[i], known, "/rules/" + std::to_string(i)); !good)
+      return good;
   return check_moves(profile, characters, known);
 }
 

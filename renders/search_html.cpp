@@ -26,7 +26,8 @@ std::string what_is_left(const SearchProgress& search) {
   if (search.failing == 0)
     return "With 95 % confidence, fewer than " + odds + " of the cases that this run draws would.";
   if (search.lone_cases == 0)
-    return "Each was met by two cases or more, so probably fewer than " + odds + " further cases would show another one.";
+    return "Each was met by two cases or more, so probably fewer than " + odds +
+           " further cases would show another one.";
   return counted(search.lone_cases, "case", "cases") + " showed what no other did, so about " + odds +
          " further cases should show a family that is not listed here.";
 }

@@ -131,7 +131,8 @@ TEST_F(ReportOfCorpus, PicturesAreOfTheLimitsThatAreGiven) {
   EXPECT_NE(files("strips"), pictures);
   EXPECT_NE(slurp(folder_ / ("out/strips/" + files("strips")[0])), before) << "nothing is violated by these limits";
   std::ofstream(folder_ / "limits.json") << "{";
-  const Ran bad = contort_program({"--settings", folder_ / "limits.json", "report", corpus_.folder(), "-o", folder_ / "o"});
+  const Ran bad =
+      contort_program({"--settings", folder_ / "limits.json", "report", corpus_.folder(), "-o", folder_ / "o"});
   EXPECT_EQ(bad.code, 2);
   EXPECT_EQ(lines_of(bad.err).size(), 1U) << bad.err;
   EXPECT_FALSE(fs::exists(folder_ / "o"));

@@ -123,7 +123,8 @@ TEST(Report, ShowsEverythingOfARow) {
        {"self_collision</span>", "arm_left/forearm ~ torso/chest</span>", "-0.0234 m (-23.4 mm)", "frame 55, 0.917 s",
         "frames 40\u201380", "1\u202F280 cases", "reach", "self_collision-5f0c9a17", "<details>", "Minimal spec",
         "&quot;character&quot;: &quot;human&quot;", "contort replay corpus/self_collision-5f0c9a17/min.json</code>",
-        "src='strips/self_collision-5f0c9a17.png'", "href='strips/moving.webp'", "data-case='self_collision-5f0c9a17'", "class='open'>Look closer",
+        "src='strips/self_collision-5f0c9a17.png'", "href='strips/moving.webp'", "data-case='self_collision-5f0c9a17'",
+        "class='open'>Look closer",
         "data-character='human'", "data-parts='arm_left torso'", "loading='lazy'", "alt='Film strip",
         "data-missing='picture missing: contort replay", "class='copy'"})
     EXPECT_TRUE(contains(html, wanted)) << wanted;
