@@ -2,6 +2,7 @@
 import { after } from 'node:test';
 import { closeAll } from './support.mjs';
 import './source.test.mjs';
+import './model.test.mjs';
 import './list.test.mjs';
 import './case.test.mjs';
 import './failures.test.mjs';

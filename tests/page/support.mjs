@@ -11,6 +11,7 @@ import vm from 'node:vm';
 export const options = JSON.parse(process.env.CONTORT_PAGE_TEST ?? '{}');
 const require = createRequire(join(resolve(options.modules ?? 'node_modules'), 'x.js'));
 export const axePath = () => require.resolve('axe-core/axe.min.js');
+export const validator = () => require('gltf-validator');
 
 const kCommon = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync'];
