@@ -58,8 +58,9 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
+// `settings`: the text of --settings.
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
-                 const Context& context) {
+                 const std::string& settings, const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
   row.family = bucket.family, row.check = bucket.check,
@@ -73,8 +74,7 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, context.library_folders);
   if (row.has_motion && context.gl != "none") {
-    const Result<std::string> settings = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
-    const std::string name = picture_name(row, stored, settings ? *settings : "");
+    const std::string name = picture_name(row, stored, settings);
     row.strip = name + ".png", row.clip = name + ".webp";
   }
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
@@ -91,6 +91,8 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
                Context& context) {
   std::vector<Issue> damaged;
   std::vector<std::pair<double, ReportRow>> rows;
+  const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
+  const std::string settings = read ? *read : "";  // they were read before; without --settings there is no file
   for (const Bucket& bucket : corpus.buckets(damaged)) {
     const std::string folder = corpus.folder_of(bucket);
     const Result<Case> stored = read_case(folder + "/" + bucket.min);
@@ -98,7 +100,7 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
       damaged.push_back(stored.issue());
       continue;
     }
-    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, known, context));
+    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, known, settings, context));
     const ReportRow& row = rows.back().second;
     if (!row.has_motion) continue;  // to draw it would end the renderer, too
     if (!row.strip.empty()) media.pictures.push_back({folder + "/" + bucket.min, out + "/" + row.strip});
