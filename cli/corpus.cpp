@@ -24,7 +24,7 @@ struct Options {
   std::vector<std::string> buckets;
   std::vector<std::string> states;
   std::string check, character;
-  std::string owner, ticket, reason, expires;
+  std::string owner, ticket, reason, expires, text;
   bool json = false;
 };
 
@@ -113,6 +113,7 @@ void show(const Options& options, Context& context) {
   line("bucket", folder_name(*bucket));
   line("state", std::string(state_name(bucket->state)) + (is_gating(*bucket, context.day()) ? ", gates" : ""));
   line("known", known_text(*bucket, context.day()));
+  line("note", bucket->note);
   line("family", bucket->family);
   line("features", bucket->features);
   for (const std::string& build : bucket->passed_in) line("passed in", build);
@@ -151,6 +152,10 @@ void put_in_quarantine(const Options& options, Context& context) {
   change_all(options, context, [&](const Bucket& bucket) {
     return quarantine(bucket, options.owner, options.reason, options.expires, context.day());
   });
+}
+
+void note(const Options& options, Context& context) {
+  change_all(options, context, [&](const Bucket& bucket) { return Result<Bucket>(annotate(bucket, options.text)); });
 }
 
 CLI::App* add(CLI::App& corpus, const std::string& name, const char* help, const std::shared_ptr<Options>& options,
@@ -194,6 +199,14 @@ void add_ack(CLI::App& corpus, Context& context) {
   command->footer("Example: contort corpus ack contort-out/corpus 0123 --owner ana --ticket 12");
 }
 
+void add_note(CLI::App& corpus, Context& context) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = add(corpus, "note", "Write down what is known about failures", options, context, note);
+  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  command->add_option("--text", options->text, "The note; \"\" takes it away")->required();
+  command->footer("Example: contort corpus note contort-out/corpus 0123 --text 'only with the heavy torso'");
+}
+
 void add_quarantine(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -219,6 +232,7 @@ void add_corpus(CLI::App& app, Context& context) {
   add_listing(*corpus, context);
   add_showing(*corpus, context);
   add_ack(*corpus, context);
+  add_note(*corpus, context);
   add_quarantine(*corpus, context);
   add_upkeep(*corpus, context);
 }

@@ -53,6 +53,7 @@ void fields(V& v, const Bucket*) {
   v.field("ticket", &Bucket::ticket, kLabel, "Where that is written down.");
   v.field("reason", &Bucket::reason, kProse, "Why it is quarantined.");
   v.field("expires", &Bucket::expires, kLabel, "Last day of the quarantine, YYYY-MM-DD.");
+  v.field("note", &Bucket::note, {.text = Text::prose, .may_be_empty = true}, "What people say about it.");
   v.field("passed_in", &Bucket::passed_in, {.max_count = 2, .text = Text::label},
           "Builds in which it was gone since it failed last.");
   v.field("streak", &Bucket::streak, kCount, "Replays in a row: passed while quarantined, steady while flaky.");
@@ -115,7 +116,10 @@ Result<Bucket> read_bucket(const std::string& folder) {
 }
 
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket) {
-  return write_file(folder + "/bucket.json", print_bucket(bucket));
+  const std::string text = print_bucket(bucket);
+  // What nobody can read again would be lost: a name of 300 letters, say.
+  if (const Result<Bucket> again = json_fields::read_document<Bucket>(text, "bucket"); !again) return again.issue();
+  return write_file(folder + "/bucket.json", text);
 }
 
 std::string print_bucket(const Bucket& bucket) { return json_fields::write_pretty(bucket); }

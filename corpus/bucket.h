@@ -39,6 +39,7 @@ struct Bucket {
   std::string ticket;                    // where that is written down
   std::string reason;                    // quarantined: why it may fail
   std::string expires;                   // quarantined: the last day, YYYY-MM-DD
+  std::string note;                      // what people say about it
   std::vector<std::string> passed_in;    // builds in which it was gone, one after the other, since it failed last
   int streak = 0;                        // quarantined: replays in a row that passed; flaky: that were steady
   int changes = 0;                // of all this since the bucket is there; of two copies the one with more counts
@@ -60,6 +61,7 @@ std::string case_file_name(std::string_view role, const Spec& spec);
 
 // bucket.json; codes json.*, bucket.*.
 Result<Bucket> read_bucket(const std::string& folder);
+// Also codes of read_bucket, where it could not be read again.
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket);
 std::string print_bucket(const Bucket& bucket);
 std::string bucket_schema();

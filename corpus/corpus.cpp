@@ -104,6 +104,15 @@ Result<Bucket> Corpus::change(const Bucket& bucket, const Change& change) const 
   return next;
 }
 
+Result<Done> Corpus::remove(const Bucket& bucket) const {
+  const Result<CorpusLock> lock = CorpusLock::take(folder_);
+  if (!lock) return lock.issue();
+  std::error_code error;
+  fs::remove_all(folder_of(bucket), error);
+  if (error) return Issue{"file.unwritable", "", "cannot remove " + folder_of(bucket) + ": " + error.message()};
+  return Done{};
+}
+
 std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
   std::vector<std::string> folders;
   std::error_code error;

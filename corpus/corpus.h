@@ -53,6 +53,9 @@ class Corpus {
   using Change = std::function<Result<Bucket>(const Bucket&)>;
   Result<Bucket> change(const Bucket& bucket, const Change& change) const;
 
+  // Takes the bucket and its cases away.
+  Result<Done> remove(const Bucket& bucket) const;
+
   // All buckets, by folder name. Folders that cannot be read are reported in `damaged`, never skipped silently.
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;
 

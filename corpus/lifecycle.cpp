@@ -49,7 +49,8 @@ void judge(Bucket& bucket, const Observation& seen) {
 
 // Everything that a person or a replay may change, in the order in which copies are compared.
 auto state_of(const Bucket& b) {
-  return std::tie(b.changes, b.state, b.was, b.streak, b.passed_in, b.owner, b.ticket, b.reason, b.expires);
+  return std::tie(b.changes, b.state, b.was, b.streak, b.passed_in, b.owner, b.ticket, b.reason, b.expires,
+                  b.note);
 }
 
 // Days since some day, of "2027-03-01". Years begin in March, so that a leap day is the last of its year and months have
@@ -133,10 +134,17 @@ Result<Bucket> quarantine(const Bucket& bucket, const std::string& owner, const 
   return next;
 }
 
+Bucket annotate(const Bucket& bucket, const std::string& note) {
+  Bucket next = bucket;
+  next.note = note;
+  if (next != bucket) ++next.changes;
+  return next;
+}
+
 void merge_state(Bucket& into, const Bucket& other) {
   if (state_of(into) < state_of(other))
     std::tie(into.changes, into.state, into.was, into.streak, into.passed_in, into.owner, into.ticket, into.reason,
-             into.expires) = state_of(other);
+             into.expires, into.note) = state_of(other);
 }
 
 }  // namespace contort

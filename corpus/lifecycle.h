@@ -45,6 +45,9 @@ Result<Bucket> acknowledge(const Bucket& bucket, const std::string& owner, const
 Result<Bucket> quarantine(const Bucket& bucket, const std::string& owner, const std::string& reason,
                           const std::string& expires, const std::string& today);
 
+// "" takes the note away.
+Bucket annotate(const Bucket& bucket, const std::string& note);
+
 // Of two copies of one bucket, the state of the one that was changed more often and all that belongs to it go into
 // `into`. Commutative, associative, idempotent.
 void merge_state(Bucket& into, const Bucket& other);

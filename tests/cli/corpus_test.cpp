@@ -69,7 +69,7 @@ class StoredCorpus : public testing::Test {
 // ---- contort corpus
 
 TEST_F(StoredCorpus, EveryCommandHasHelpWithAnExample) {
-  for (const std::string command : {"list", "show", "ack", "quarantine", "fsck", "rekey", "prune", "migrate"}) {
+  for (const std::string command : {"list", "show", "ack", "quarantine", "note", "fsck", "rekey", "prune", "migrate"}) {
     const Ran help = contort_program({"corpus", command, "--help"});
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_TRUE(says(help.out, "Example: contort corpus " + command + " ")) << help.out;
@@ -109,9 +109,19 @@ TEST_F(StoredCorpus, AcknowledgingChangesAllOrNone) {
   EXPECT_EQ(corpus("ack", {left().id, "zzz", "--owner", "ana", "--ticket", "12"}).code, 2);
   EXPECT_EQ(corpus("ack", {left().id, "--owner", "ana"}).code, 2);
   EXPECT_EQ(corpus("quarantine", {left().id, "--owner", "ana", "--reason", "r", "--expires", "2027-03-13"}).code, 2);
+  EXPECT_EQ(corpus("ack", {left().id, "--owner", std::string(300, 'x'), "--ticket", "12"}).code, 2) << "nobody could read it";
+  EXPECT_EQ(corpus("note", {left().id, "--text", std::string(5000, 'x')}).code, 2);
   expect_unchanged(before);
   EXPECT_EQ(corpus("ack", {left().id, right_id(), "--owner", "ana", "--ticket", "12"}).code, 0);
   for (const Bucket& bucket : buckets()) EXPECT_EQ(bucket.state, BucketState::open);
+}
+
+TEST_F(StoredCorpus, ANoteIsShownUntilItIsTakenAway) {
+  ASSERT_EQ(corpus("note", {left().id, "--text", "only with a load"}).code, 0);
+  EXPECT_TRUE(says(corpus("show", {left().id}).out, "only with a load"));
+  EXPECT_EQ(left().changes, 1);
+  ASSERT_EQ(corpus("note", {left().id, "--text", ""}).code, 0);
+  EXPECT_EQ(left().note, "");
 }
 
 TEST_F(StoredCorpus, FsckTellsWithOneAndMendsWithZero) {

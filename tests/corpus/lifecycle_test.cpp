@@ -45,6 +45,7 @@ Bucket draw_step(const Bucket& bucket) {
   const int what = *rc::gen::inRange(0, 8);
   const Result<Bucket> done = what == 0   ? acknowledge(bucket, "ana", "12")
                               : what == 1 ? quarantine(bucket, "bo", "soft stop", kToday, kToday)
+                              : what == 2 ? annotate(bucket, *rc::gen::element<std::string>("", "x", "y"))
                                           : Result<Bucket>(next_state(bucket, draw_observation(), draw_day()));
   return done ? *done : bucket;
 }
