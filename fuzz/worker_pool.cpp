@@ -181,9 +181,10 @@ void WorkerPool::give(int index, const std::string& task, double patience) {
   send_message(worker.socket, task);  // where that fails the worker is dead, and wait() will see it
 }
 
-std::optional<WorkerEvent> WorkerPool::wait(int milliseconds) {
+std::optional<WorkerEvent> WorkerPool::wait(int milliseconds, int other) {
   std::vector<pollfd> sockets;
   for (const Worker& worker : workers_) sockets.push_back({worker.socket, POLLIN, 0});
+  sockets.push_back({other, POLLIN, 0});
   ::poll(sockets.data(), sockets.size(), milliseconds);
   for (std::size_t i = 0; i < workers_.size(); ++i)
     if (workers_[i].busy && sockets[i].revents != 0)

@@ -60,8 +60,9 @@ class WorkerPool {
   // `patience` times the limit of seconds is allowed.
   void give(int worker, const std::string& task, double patience = 1.0);
 
-  // The next worker that replied or ended, or nothing within the time.
-  std::optional<WorkerEvent> wait(int milliseconds);
+  // The next worker that replied or ended, or nothing within the time. Comes back at once where there is something to
+  // read on `other`, a socket of the caller's.
+  std::optional<WorkerEvent> wait(int milliseconds, int other = -1);
 
  private:
   struct Worker {

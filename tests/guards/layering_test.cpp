@@ -34,7 +34,8 @@ const std::vector<Layer> kLayers = {
     {"fuzz", {"generator/*", "checks", "corpus"}},
     {"renders", {"generator/*", "checks", "corpus"}},
     {"renders/raster", {"generator/*", "checks", "corpus", "renders"}},
-    {"cli", {"generator/*", "checks", "import", "corpus", "fuzz", "renders"}},
+    {"server", {"generator/*", "checks", "corpus", "fuzz", "renders"}},
+    {"cli", {"generator/*", "checks", "import", "corpus", "fuzz", "renders", "server"}},
     {"cli/render_main.cpp", {"generator/*", "checks", "corpus", "renders", "renders/raster", "cli"}},
     {"tests", {"*"}},
     {"bench", {"*"}},
@@ -58,6 +59,7 @@ const std::vector<Door> kDoors = {
     {"CLI/", "cli/*.cpp"},
     {"zlib.h", "renders/gzip.cpp"},
     {"tinyxml2.h", "renders/junit.cpp"},
+    {"httplib.h", "server/http.cpp"},
 };
 
 // Headers of the system, which a .cpp may use.

@@ -1,0 +1,232 @@
+// contort serve: browse, triage and drive characters from a web page.
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "cli/catalogue_fields.h"
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/render.h"
+#include "generator/core/files.h"
+#include "generator/dynamics/dynamics_desc.h"
+#include "server/app.h"
+#include "server/http.h"
+
+namespace contort::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  server::HttpConfig http;
+  server::Limits limits;
+  server::BrokerLimits workers;
+  std::string corpus, report, token;
+  std::vector<std::string> hosts;
+  bool read_only = false;
+};
+
+// Files of one run of the server; they go with it.
+class Scratch {
+ public:
+  Result<Done> make() {
+    std::string name = (fs::temp_directory_path() / "contort-serve-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) return Issue{"file.unwritable", "", "cannot make a folder for files that pass"};
+    path_ = name;
+    return Done{};
+  }
+  ~Scratch() {
+    std::error_code error;
+    if (!path_.empty()) fs::remove_all(path_, error);
+  }
+  std::string folder(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+std::string bracketed(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
+std::vector<std::string> hosts_of(const Options& options, int port) {
+  const std::string end = ":" + std::to_string(port);
+  std::vector<std::string> hosts = {"127.0.0.1" + end, "localhost" + end, "[::1]" + end,
+                                    bracketed(options.http.host) + end};
+  for (const std::string& host : options.hosts) hosts.insert(hosts.end(), {host, host + end});
+  if (port == 80) hosts.insert(hosts.end(), {"127.0.0.1", "localhost", "[::1]", options.http.host});
+  return hosts;
+}
+
+Json limits_json(const server::Limits& limits) {
+  return {{"sessions", limits.sessions},
+          {"sessions_of_client", limits.sessions_of_client},
+          {"streams", limits.streams},
+          {"streams_of_client", limits.streams_of_client},
+          {"calls_per_s", limits.calls_per_s},
+          {"spec_bytes", limits.spec_bytes},
+          {"library_bytes", limits.library_bytes},
+          {"take_s", limits.take_s},
+          {"most_s", limits.most_s}};
+}
+
+std::string catalogue(const Library& library, const Options& options) {
+  Json sockets = Json::object(), modes = Json::array(), objects = Json::array();
+  for (const auto& [name, part] : library.parts) {
+    sockets[name] = Json::array();
+    for (const SocketDesc& socket : part.sockets) sockets[name].push_back(socket.name);
+  }
+  for (const auto& [name, object] : library.objects) objects.push_back(name);
+  for (const std::string_view mode : mode_names()) modes.push_back(std::string(mode));
+  return Json{{"version", CONTORT_VERSION},
+              {"read_only", options.read_only},
+              {"corpus", !options.corpus.empty()},
+              {"characters", list_characters(library)},
+              {"parts", list_parts(library)},
+              {"objects", objects},
+              {"sockets", sockets},
+              {"actions", list_actions(library)},
+              {"checks", list_checks(library)},
+              {"modes", modes},
+              {"limits", limits_json(options.limits)}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> own_call(const Context& context) {
+  std::error_code error;
+  std::vector<std::string> call = {fs::read_symlink("/proc/self/exe", error).string(), "--gl", context.gl};
+  for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+  if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
+  if (!context.today.empty()) call.insert(call.end(), {"--today", context.today});
+  return call;
+}
+
+// Threads inherit it: only the main thread hears of signals, when it asks.
+sigset_t block_signals() {
+  sigset_t ends;
+  sigemptyset(&ends);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, number);
+  ::pthread_sigmask(SIG_BLOCK, &ends, nullptr);
+  return ends;
+}
+
+void wait_for_end(server::App& app, const sigset_t& ends) {
+  const timespec second{1, 0};
+  for (;;) {
+    app.tick();
+    if (::sigtimedwait(&ends, nullptr, &second) > 0) return;
+  }
+}
+
+Result<Done> check(const Options& options) {
+  if (!server::is_loopback(options.http.host) && options.token.empty())
+    return Issue{"serve.no_token", "", "--host " + options.http.host +
+                                           " can be reached from other machines: give --token, or use 127.0.0.1"};
+  if (!options.token.empty() && options.token.size() < 16)
+    return Issue{"serve.short_token", "", "a token needs 16 characters at least"};
+  for (const char c : options.token)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_')
+      return Issue{"serve.bad_token", "", "a token is of letters, digits, - and _"};
+  return Done{};
+}
+
+void announce(const Options& options, int port) {
+  std::printf("contort serves http://%s:%d/%s\n", bracketed(options.http.host).c_str(), port,
+              options.token.empty() ? "" : "?token=…");
+  std::printf("playground: /play, calls: /api, metrics: /metrics; end with Ctrl-C\n");
+  std::fflush(stdout);
+}
+
+void serve(const Options& options, const Library& library, const CheckSettings& settings, Context& context) {
+  Scratch scratch;
+  if (const Result<Done> made = scratch.make(); !made) return context.fail(made.issue(), kInternal);
+  const std::string about = catalogue(library, options);
+  const sigset_t ends = block_signals();
+  server::Engine engine(options.limits, options.workers, library, settings, std::string("contort ") + CONTORT_VERSION);
+  server::Http http(options.http);
+  const Result<int> port = http.bind();
+  if (!port) return context.fail(port.issue());
+  server::AppConfig config;
+  config.guard = {hosts_of(options, *port), options.token};
+  config.read_only = options.read_only, config.corpus = options.corpus;
+  config.report = options.corpus.empty() ? "" : options.report.empty() ? scratch.folder("report") : options.report;
+  config.pages = (fs::path(renderer_path()).parent_path() / "page").string();
+  config.scratch = scratch.folder("libraries");
+  config.catalogue = about;
+  config.program = own_call(context);
+  config.today = [&context] { return context.day(); };
+  server::App app(config, engine);
+  std::thread answers([&] { http.run([&](const server::Request& request) { return app.answer(request); }); });
+  announce(options, *port);
+  wait_for_end(app, ends);
+  app.close();
+  http.stop();
+  answers.join();
+}
+
+void run(Options options, Context& context) {
+  const Library* library = context.load_library();
+  if (library == nullptr) return;
+  const Result<CheckSettings> settings = context.load_settings_without_waivers();
+  if (!settings) return context.fail(settings.issue());
+  if (const Result<Done> fine = check(options); !fine) return context.fail(fine.issue());
+  if (!options.corpus.empty()) {
+    const Result<Corpus> corpus = options.read_only ? Corpus::open(options.corpus) : Corpus::create(options.corpus);
+    if (!corpus) return context.fail(corpus.issue());
+    options.corpus = fs::absolute(options.corpus).string();
+  }
+  if (options.limits.sessions_of_client > options.limits.sessions) options.limits.sessions = options.limits.sessions_of_client;
+  options.http.threads = options.limits.streams + 64;
+  options.http.most_body = static_cast<std::size_t>(std::max(options.limits.spec_bytes, options.limits.library_bytes));
+  serve(options, *library, *settings, context);
+}
+
+void add_limits(CLI::App& command, Options& options) {
+  const CLI::Range some(1, 100000);
+  server::Limits& limits = options.limits;
+  const char* group = "Limits";
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    command.add_option(name, value, help)->check(some)->capture_default_str()->group(group);
+  };
+  add("--sessions", limits.sessions, "Sessions at a time");
+  add("--sessions-per-client", limits.sessions_of_client, "Of one address");
+  add("--streams", limits.streams, "Streams at a time");
+  add("--streams-per-client", limits.streams_of_client, "Of one address");
+  add("--calls-per-second", limits.calls_per_s, "Of one address, on average");
+  add("--idle-seconds", limits.idle_s, "After which a session that nobody uses ends");
+  add("--waiting-tasks", options.workers.most_waiting, "Motions that wait for a worker");
+  add("--task-seconds", options.workers.each.seconds, "Time of one motion");
+  command.add_option("--spec-bytes", limits.spec_bytes, "Size of a call's body")
+      ->check(CLI::Range(1 << 10, 16 << 20))->capture_default_str()->group(group);
+  command.add_option("--take-seconds", limits.take_s, "Length of a take")
+      ->check(CLI::Range(2.0, 60.0))->check(refuse_nan)->capture_default_str()->group(group);
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  options->workers.workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App* command = app.add_subcommand("serve", "Browse, triage and drive characters from a web page");
+  command->add_option("--corpus", options->corpus, "Its report, live; triage writes it; what sessions show is kept here")
+      ->type_name("DIR");
+  command->add_option("--report", options->report, "Where its report is made (default: a folder that goes with the server)")
+      ->type_name("DIR");
+  command->add_option("--host", options->http.host, "Address to listen on")->capture_default_str();
+  command->add_option("--port", options->http.port, "0: any that is free")->check(CLI::Range(0, 65535))->capture_default_str();
+  command->add_option("--token", options->token, "Who calls must know it; needed where other machines can reach the server");
+  command->add_option("--allow-host", options->hosts, "A name by which browsers may call it, such as one of a proxy");
+  command->add_flag("--read-only", options->read_only, "The corpus does not change");
+  command->add_option("--workers", options->workers.workers, "Processes that generate")
+      ->check(CLI::Range(1, 256))->capture_default_str();
+  add_limits(*command, *options);
+  command->footer("Example: contort serve --corpus contort-out/corpus");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace contort::cli

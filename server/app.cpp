@@ -1,0 +1,220 @@
+#include "server/app.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "generator/core/files.h"
+#include "generator/core/hash.h"
+#include "server/routes.h"
+
+namespace contort::server {
+
+namespace {
+
+constexpr std::size_t kJobsTold = 100;
+constexpr auto kPatience = std::chrono::seconds(1);
+
+Time now() { return std::chrono::steady_clock::now(); }
+
+}  // namespace
+
+// ---- news
+
+void News::corpus(const std::string& revision) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (revision == revision_) return;
+    revision_ = revision;
+    ++corpus_;
+  }
+  changed_.notify_all();
+}
+
+void News::report() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++report_;
+  }
+  changed_.notify_all();
+}
+
+void News::job(const Job& job) {
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.emplace_back(++job_, print_job(job));
+    if (jobs_.size() > kJobsTold) jobs_.erase(jobs_.begin());
+  }
+  changed_.notify_all();
+}
+
+void News::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::vector<Event> News::since(Seen& seen) {
+  std::unique_lock lock(mutex_);
+  const bool first = seen.job < 0;
+  const auto is_new = [&] { return closed_ || seen.corpus != corpus_ || seen.report != report_ || seen.job != job_; };
+  changed_.wait_for(lock, kPatience, is_new);
+  std::vector<Event> events;
+  if (seen.corpus != corpus_) events.push_back({"corpus", "{\"revision\":\"" + revision_ + "\"}"});
+  if (seen.report != report_) events.push_back({"report", "{\"revision\":" + std::to_string(report_) + "}"});
+  for (const auto& [number, text] : jobs_)
+    if (!first && number > seen.job) events.push_back({"job", text});
+  seen = {corpus_, report_, job_};
+  return events;
+}
+
+std::string News::revision() const {
+  const std::lock_guard lock(mutex_);
+  return revision_;
+}
+
+bool News::closed() const {
+  const std::lock_guard lock(mutex_);
+  return closed_;
+}
+
+// ---- the app
+
+App::App(AppConfig config, Engine& engine)
+    : config_(std::move(config)),
+      engine_(engine),
+      rate_(engine.limits().calls_per_s, engine.limits().calls_at_once),
+      sessions_(engine),
+      jobs_(engine.limits().jobs, [this](const Job& job) { news_.job(job); }) {
+  if (!config_.corpus.empty()) triage_.emplace(config_.corpus, config_.program);
+}
+
+App::~App() { close(); }
+
+Answer App::answer(const Request& request) {
+  ++calls_;
+  Answer answer;
+  try {
+    Result<Done> admitted = admit(request, config_.guard);
+    if (admitted && request.path.starts_with("/api")) admitted = rate_.count(request.client, now());
+    if (admitted && closed_) admitted = Issue{"full.closing", "", "the server ends"};
+    answer = admitted ? dispatch(*this, request) : refusal(admitted.issue());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "contort: internal error: %s\n", error.what());
+    answer = refusal({"file.internal", "", "an internal error; the server's log has more"});
+  }
+  if (answer.status >= 500 && answer.status != 503) ++failed_;
+  if (answer.status >= 400) ++refused_;
+  return answer;
+}
+
+void App::tick() {
+  sessions_.sweep(now());
+  if (!triage_) return;
+  const std::string before = news_.revision(), revision = triage_->revision();
+  if (before == revision) return;
+  news_.corpus(revision);
+  if (config_.report.empty()) return;
+  if (const Result<std::string> job = make_report(); !job)
+    std::fprintf(stderr, "contort: %s\n", to_line(job.issue()).c_str());
+}
+
+void App::close() {
+  closed_ = true;
+  news_.close();
+  sessions_.close_all();
+}
+
+Result<const Triage*> App::corpus() const {
+  if (!triage_) return Issue{"corpus.none", "", "this server has no corpus; start it with --corpus DIR"};
+  return &*triage_;
+}
+
+Result<const Triage*> App::writable_corpus() const {
+  if (config_.read_only) return Issue{"guard.read_only", "", "this server is read-only"};
+  return corpus();
+}
+
+Result<std::string> App::make_report() {
+  if (!triage_ || config_.report.empty()) return Issue{"corpus.none", "", "this server has no corpus to report"};
+  const Jobs::Work work = triage_->report_work(config_.report);
+  return jobs_.add("report", "", [this, work](const std::function<bool()>& stop) {
+    Result<Jobs::Outcome> outcome = work(stop);
+    if (outcome) news_.report();
+    return outcome;
+  });
+}
+
+Result<std::string> App::library_folder(const std::string& id) const {
+  if (id.empty()) return std::string();
+  const std::lock_guard lock(libraries_mutex_);
+  const auto found = libraries_.find(id);
+  if (found != libraries_.end()) return found->second;
+  return Issue{"library.not_found", "/library", "no library was registered under that id"};
+}
+
+// Its name is made of what it holds: who registers the same twice gets the same.
+Result<std::string> App::register_library(const std::map<std::string, std::string>& files) {
+  std::string all;
+  for (const auto& [name, text] : files) all += text + "\n";
+  const std::string id = content_id(all).substr(0, 24);
+  const std::string folder = config_.scratch + "/" + id;
+  const std::lock_guard lock(libraries_mutex_);
+  if (libraries_.contains(id)) return id;
+  if (libraries_.size() >= 64) return Issue{"full.libraries", "", "as many libraries are registered as may be"};
+  if (const Result<Done> made = make_folder(folder); !made) return made.issue();
+  int number = 0;
+  for (const auto& [name, text] : files)
+    if (const Result<Done> written = write_file(folder + "/" + std::to_string(number++) + ".json", text); !written)
+      return written.issue();
+  libraries_[id] = folder;
+  return id;
+}
+
+Issue App::forget_library(const std::string& id, Issue why) {
+  const std::lock_guard lock(libraries_mutex_);
+  const std::string folder = libraries_[id];
+  libraries_.erase(id);
+  // Files were numbered, and where they lie is nobody's business.
+  if (const std::size_t at = why.text.find(folder); !folder.empty() && at != std::string::npos)
+    why.text.erase(at, folder.size() + 1);
+  return why;
+}
+
+Answer App::stream(const std::string& client, std::function<std::vector<Event>(bool& more)> next) {
+  const Result<std::shared_ptr<void>> counted = sessions_.count_stream(client);
+  if (!counted) return refusal(counted.issue());
+  Answer answer;
+  answer.type = "text/event-stream";
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  answer.pieces = [this, held = *counted, next](bool& more) {
+    std::string text;
+    for (const Event& event : next(more)) text += print_event(event);
+    if (closed_) more = false;
+    return text;
+  };
+  return answer;
+}
+
+std::string App::metrics() const {
+  const BrokerLoad load = engine_.load();
+  const auto line = [](const char* name, const char* type, double value) {
+    char text[200];
+    std::snprintf(text, sizeof text, "# TYPE contort_%s %s\ncontort_%s %.10g\n", name, type, name, value);
+    return std::string(text);
+  };
+  return line("calls_total", "counter", static_cast<double>(calls_)) +
+         line("calls_refused_total", "counter", static_cast<double>(refused_)) +
+         line("calls_failed_total", "counter", static_cast<double>(failed_)) +
+         line("sessions", "gauge", sessions_.count()) + line("streams", "gauge", sessions_.streams()) +
+         line("session_bytes", "gauge", static_cast<double>(sessions_.bytes())) +
+         line("session_cpu_seconds_total", "counter", sessions_.cpu_s()) +
+         line("tasks_waiting", "gauge", load.waiting) + line("tasks_running", "gauge", load.running) +
+         line("tasks_done_total", "counter", static_cast<double>(load.done)) +
+         line("tasks_ended_badly_total", "counter", static_cast<double>(load.ended_badly)) +
+         line("task_seconds_total", "counter", load.busy_s) + line("jobs_waiting", "gauge", jobs_.waiting());
+}
+
+}  // namespace contort::server

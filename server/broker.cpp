@@ -1,0 +1,226 @@
+#include "server/broker.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <deque>
+#include <system_error>
+#include <vector>
+
+namespace contort::server {
+
+namespace {
+
+constexpr int kLook_ms = 50;  // at limits of workers
+
+// Between front and broker: this, then as many bytes of text.
+struct Header {
+  std::uint64_t id = 0;
+  std::uint64_t length = 0;
+  std::uint64_t kind = 0;  // to the broker an Urgency, from it a WorkerEnd
+};
+
+bool send_all(int socket, const void* data, std::size_t size) {
+  const char* next = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::send(socket, next, size, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    next += sent, size -= static_cast<std::size_t>(sent);
+  }
+  return true;
+}
+
+bool receive_all(int socket, void* data, std::size_t size) {
+  char* next = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t got = ::recv(socket, next, size, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    next += got, size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool send_message(int socket, std::uint64_t id, std::uint8_t kind, const std::string& text) {
+  const Header header{id, text.size(), kind};
+  return send_all(socket, &header, sizeof header) && send_all(socket, text.data(), text.size());
+}
+
+bool receive_message(int socket, Header& header, std::string& text) {
+  if (!receive_all(socket, &header, sizeof header)) return false;
+  text.resize(header.length);
+  return receive_all(socket, text.data(), text.size());
+}
+
+// The broker's own process: takes tasks from the front, gives them to idle workers, urgent ones first.
+class BrokerProcess {
+ public:
+  BrokerProcess(int socket, const BrokerLimits& limits, WorkerPool::Work work)
+      : socket_(socket), pool_(limits.workers, limits.each, std::move(work)), ids_(static_cast<std::size_t>(limits.workers)) {}
+
+  // Until the front hangs up.
+  void run() {
+    while (take_tasks()) {
+      give_out();
+      if (const std::optional<WorkerEvent> event = pool_.wait(pool_.busy() > 0 ? kLook_ms : -1, socket_))
+        if (!tell(*event)) return;
+    }
+  }
+
+ private:
+  struct Queued {
+    std::uint64_t id;
+    std::string task;
+  };
+
+  bool take_tasks() {
+    for (;;) {
+      pollfd front{socket_, POLLIN, 0};
+      if (::poll(&front, 1, 0) <= 0) return true;
+      Header header;
+      std::string text;
+      if (!receive_message(socket_, header, text)) return false;
+      queues_[header.kind == 0 ? 0 : 1].push_back({header.id, std::move(text)});
+    }
+  }
+
+  void give_out() {
+    for (std::deque<Queued>& queue : queues_)
+      while (!queue.empty()) {
+        const std::optional<int> worker = pool_.idle_worker();
+        if (!worker) return;
+        ids_[static_cast<std::size_t>(*worker)] = queue.front().id;
+        pool_.give(*worker, queue.front().task);
+        queue.pop_front();
+      }
+  }
+
+  bool tell(const WorkerEvent& event) {
+    return send_message(socket_, ids_[static_cast<std::size_t>(event.worker)], static_cast<std::uint8_t>(event.end),
+                        event.text);
+  }
+
+  int socket_;
+  WorkerPool pool_;
+  std::vector<std::uint64_t> ids_;  // by worker: its task
+  std::deque<Queued> queues_[2];    // by urgency
+};
+
+Result<std::string> result_of(WorkerEnd end, std::string text) {
+  switch (end) {
+    case WorkerEnd::replied: return text;
+    case WorkerEnd::crashed:
+      return Issue{"work.crash", "", "this spec ended the generator (" + text + "); nothing else is affected"};
+    case WorkerEnd::timed_out: return Issue{"work.timeout", "", "this took longer than a task may"};
+    case WorkerEnd::out_of_memory: break;
+  }
+  return Issue{"work.memory", "", "this took more memory than a task may"};
+}
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Broker::Broker(const BrokerLimits& limits, WorkerPool::Work work) : limits_(limits) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw std::system_error(errno, std::generic_category(), "no socket for the broker");
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid();
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "no process for the broker");
+  if (pid_ == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(0);
+    ::close(ends[0]);
+    ::signal(SIGINT, SIG_IGN);  // the front says when it is over
+    ::signal(SIGTERM, SIG_IGN);
+    BrokerProcess(ends[1], limits, std::move(work)).run();
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  socket_ = ends[0];
+  reader_ = std::thread([this] { read_replies(); });
+}
+
+Broker::~Broker() {
+  ::shutdown(socket_, SHUT_RDWR);
+  reader_.join();
+  ::close(socket_);
+  ::kill(pid_, SIGKILL);  // its workers end with it
+  ::waitpid(pid_, nullptr, 0);
+}
+
+Result<std::string> Broker::run(const std::string& task, Urgency urgency) {
+  Waiting mine;
+  std::unique_lock lock(mutex_);
+  if (gone_) return Issue{"work.gone", "", "the worker processes have ended"};
+  if (static_cast<int>(waiting_.size()) >= limits_.workers + limits_.most_waiting)
+    return Issue{"work.busy", "", "too much is waiting to be generated"};
+  const std::uint64_t id = next_id_++;
+  waiting_[id] = &mine;
+  lock.unlock();
+  const double since = now_s();
+  {
+    const std::lock_guard sending(sending_);
+    if (!send_message(socket_, id, static_cast<std::uint8_t>(urgency), task))
+      finish(id, Issue{"work.gone", "", "the worker processes have ended"});
+  }
+  lock.lock();
+  changed_.wait(lock, [&] { return mine.done; });
+  load_.busy_s += now_s() - since;
+  return std::move(mine.result);
+}
+
+BrokerLoad Broker::load() const {
+  const std::lock_guard lock(mutex_);
+  BrokerLoad load = load_;
+  const int all = static_cast<int>(waiting_.size());
+  load.running = std::min(all, limits_.workers);
+  load.waiting = all - load.running;
+  return load;
+}
+
+void Broker::finish(std::uint64_t id, Result<std::string> result) {
+  const std::lock_guard lock(mutex_);
+  const auto found = waiting_.find(id);
+  if (found == waiting_.end()) return;
+  found->second->result = std::move(result);
+  found->second->done = true;
+  waiting_.erase(found);
+  changed_.notify_all();
+}
+
+void Broker::read_replies() {
+  Header header;
+  std::string text;
+  while (receive_message(socket_, header, text)) {
+    const auto end = static_cast<WorkerEnd>(header.kind);
+    {
+      const std::lock_guard lock(mutex_);
+      ++(end == WorkerEnd::replied ? load_.done : load_.ended_badly);
+    }
+    finish(header.id, result_of(end, std::move(text)));
+  }
+  const std::lock_guard lock(mutex_);
+  gone_ = true;
+  for (const auto& [id, waiting] : waiting_) {
+    waiting->result = Issue{"work.gone", "", "the worker processes have ended"};
+    waiting->done = true;
+  }
+  waiting_.clear();
+  changed_.notify_all();
+}
+
+}  // namespace contort::server

@@ -1,0 +1,123 @@
+// Calls without a session or a corpus, and pages.
+#include "server/bodies_fields.h"
+#include "server/files.h"
+#include "server/routes.h"
+
+namespace contort::server::calls {
+
+namespace {
+
+using json_fields::Json;
+
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
+    "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+Answer text_answer(std::string text, std::string type = "application/json") {
+  Answer answer;
+  answer.body = std::move(text);
+  answer.type = std::move(type);
+  return answer;
+}
+
+Answer file_answer(const std::string& folder, const std::string& path) {
+  const Result<std::string> bytes = read_below(folder, path);
+  if (!bytes) return refusal(bytes.issue());
+  return text_answer(*bytes, type_of(path));
+}
+
+void replace_once(std::string& text, std::string_view what, std::string_view by) {
+  if (const std::size_t at = text.find(what); at != std::string::npos) text.replace(at, what.size(), by);
+}
+
+// The report on the disk is a plain one that may be copied anywhere. Served, it has a script more, which may call us.
+std::string made_live(std::string page) {
+  replace_once(page, "style-src ", "connect-src 'self'; style-src 'self' ");
+  replace_once(page, "script-src ", "script-src 'self' ");
+  replace_once(page, "</head>", "<script src='/page/live.js' defer></script>\n</head>");
+  return page;
+}
+
+Result<Worked> work(App& app, const Call& call, TaskKind kind) {
+  const Result<EvaluateBody> body = json_fields::read_document<EvaluateBody>(call.request.body, "spec");
+  if (!body) return body.issue();
+  const Result<std::string> library = app.library_folder(body->library);
+  if (!library) return library.issue();
+  const int most = static_cast<int>(app.engine().limits().most_s * body->spec.rate_hz) + 1;
+  Worked worked = app.engine().run({kind, body->spec, 0, most, *library, "", ""});
+  if (!worked.reply) return worked.reply.issue();
+  return worked;
+}
+
+}  // namespace
+
+Answer document(App&, const Call&) { return text_answer(openapi(CONTORT_VERSION)); }
+
+Answer catalogue(App& app, const Call&) { return text_answer(app.config().catalogue); }
+
+Answer health(App& app, const Call&) {
+  if (app.closed()) return refusal({"full.closing", "", "the server ends"});
+  return text_answer("{\"ok\":true}");
+}
+
+Answer metrics(App& app, const Call&) { return text_answer(app.metrics(), "text/plain; version=0.0.4; charset=utf-8"); }
+
+Answer evaluate(App& app, const Call& call) {
+  const Result<Worked> worked = work(app, call, TaskKind::evaluate);
+  return worked ? text_answer(worked->reply->head) : refusal(worked.issue());
+}
+
+Answer generate_file(App& app, const Call& call) {
+  const Result<Worked> worked = work(app, call, TaskKind::model_file);
+  return worked ? text_answer(worked->reply->bytes, "model/gltf-binary") : refusal(worked.issue());
+}
+
+// A library that does not fit is refused here, not when it is used.
+Answer register_library(App& app, const Call& call) {
+  if (call.request.body.size() > static_cast<std::size_t>(app.engine().limits().library_bytes))
+    return refusal({"call.too_large", "", "a library may have as many bytes as /api/catalogue says"});
+  const Result<Json> body = json_fields::parse_document(call.request.body);
+  if (!body) return refusal(body.issue());
+  if (!body->is_object() || body->size() != 1 || !body->contains("files") || !(*body)["files"].is_object() ||
+      (*body)["files"].empty() || (*body)["files"].size() > 256)
+    return refusal({"call.no_files", "/files", "expected an object of 1 to 256 files"});
+  std::map<std::string, std::string> files;
+  for (const auto& [name, file] : (*body)["files"].items()) files[name] = file.dump();
+  const Result<std::string> id = app.register_library(files);
+  if (!id) return refusal(id.issue());
+  Spec probe;
+  probe.character.name = "human";
+  const Result<std::string> folder = app.library_folder(*id);
+  const Worked worked = app.engine().run({TaskKind::model, probe, 0, 0, *folder, "", ""});
+  if (!worked.reply) return refusal(app.forget_library(*id, worked.reply.issue()));
+  return text_answer(Json{{"library", *id}}.dump());
+}
+
+Answer front_page(App& app, const Call& call) {
+  Answer answer;
+  answer.status = 302;
+  answer.headers.emplace_back("Location", app.config().report.empty() ? "/play" : "/report/index.html");
+  if (!app.config().guard.token.empty() && !call.request.parameter("token").empty())
+    answer.headers.emplace_back("Set-Cookie", "contort=" + app.config().guard.token +
+                                                  "; HttpOnly; SameSite=Strict; Path=/; Max-Age=43200");
+  return answer;
+}
+
+Answer play_page(App& app, const Call&) {
+  Answer answer = file_answer(app.config().pages, "play.html");
+  answer.headers.emplace_back("Content-Security-Policy", kPolicy);
+  return answer;
+}
+
+Answer page_file(App& app, const Call& call) { return file_answer(app.config().pages, call.id("rest")); }
+
+// The report says itself what its scripts may do.
+Answer report_file(App& app, const Call& call) {
+  if (app.config().report.empty()) return refusal({"call.not_found", "", "this server has no corpus to report"});
+  Answer answer = file_answer(app.config().report, call.id("rest"));
+  answer.headers.emplace_back("Cache-Control", "no-cache");
+  if (call.id("rest") == "index.html" && answer.status == 200) answer.body = made_live(std::move(answer.body));
+  return answer;
+}
+
+}  // namespace contort::server::calls

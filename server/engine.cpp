@@ -1,0 +1,78 @@
+#include "server/engine.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace contort::server {
+
+namespace {
+
+double cpu_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// In the worker: microseconds of CPU, then the reply.
+std::string work(Worker& worker, const std::string& text) {
+  const double since_s = cpu_s();
+  const Result<Task> task = parse_task(text);
+  const Result<Reply> reply = task ? worker.run(*task) : Result<Reply>(task.issue());
+  const std::string answer = print_reply(reply);
+  return std::to_string(static_cast<long long>(1e6 * (cpu_s() - since_s))) + " " + answer;
+}
+
+WorkerPool::Work make_work(const Library& library, const CheckSettings& settings, const std::string& tool) {
+  auto worker = std::make_shared<Worker>(library, settings, tool);
+  return [worker](const std::string& task, WorkerSlot&) { return work(*worker, task); };
+}
+
+}  // namespace
+
+Engine::Engine(const Limits& limits, const BrokerLimits& workers, const Library& library, const CheckSettings& settings,
+               const std::string& tool)
+    : limits_(limits), broker_(workers, make_work(library, settings, tool)), thread_([this] { do_later(); }) {}
+
+Engine::~Engine() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+    waiting_.clear();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+Worked Engine::run(const Task& task, Urgency urgency) {
+  const Result<std::string> answer = broker_.run(print_task(task), urgency);
+  if (!answer) return {answer.issue(), 0.0};
+  const std::size_t end = std::min(answer->find(' '), answer->size());
+  return {parse_reply(end == answer->size() ? "" : answer->substr(end + 1)), 1e-6 * std::strtod(answer->c_str(), nullptr)};
+}
+
+void Engine::later(const std::string& key, std::function<void()> work) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto is_same = [&](const auto& other) { return other.first == key; };
+    if (std::ranges::any_of(waiting_, is_same)) return;
+    waiting_.emplace_back(key, std::move(work));
+  }
+  changed_.notify_one();
+}
+
+void Engine::do_later() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return ends_ || !waiting_.empty(); });
+    if (ends_) return;
+    const auto next = std::move(waiting_.front().second);
+    waiting_.pop_front();
+    lock.unlock();
+    next();
+    lock.lock();
+  }
+}
+
+}  // namespace contort::server

@@ -1,0 +1,65 @@
+// What sessions and calls have in common: workers, limits, and the thread that judges.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "server/broker.h"
+#include "server/work.h"
+
+namespace contort::server {
+
+struct Limits {
+  int sessions = 256;             // in total
+  int sessions_of_client = 16;
+  int streams = 64;               // in total
+  int streams_of_client = 16;
+  double calls_per_s = 30.0;      // of one client, on average
+  double calls_at_once = 120.0;   // after a pause
+  int spec_bytes = 256 << 10;     // of a call's body
+  int library_bytes = 1 << 20;
+  double take_s = 20.0;           // how long a take is
+  double most_s = 60.0;           // and may become, by what is queued
+  int frame_bytes = 64 << 20;     // of one motion
+  double idle_s = 600.0;          // after which a session that nobody uses ends
+  int jobs = 16;                  // that wait
+};
+
+// Every code that a task can end with, and the time it took of a worker's CPU.
+struct Worked {
+  Result<Reply> reply;
+  double cpu_s = 0.0;
+};
+
+class Engine {
+ public:
+  // Before the process has threads.
+  Engine(const Limits& limits, const BrokerLimits& workers, const Library& library, const CheckSettings& settings,
+         const std::string& tool);
+  ~Engine();
+
+  Worked run(const Task& task, Urgency urgency = Urgency::now);
+
+  // Calls `work` soon, in another thread; equal keys that still wait are one.
+  void later(const std::string& key, std::function<void()> work);
+
+  const Limits& limits() const { return limits_; }
+  BrokerLoad load() const { return broker_.load(); }
+
+ private:
+  void do_later();
+
+  Limits limits_;
+  Broker broker_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<std::string, std::function<void()>>> waiting_;
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace contort::server

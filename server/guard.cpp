@@ -1,0 +1,81 @@
+#include "server/guard.h"
+
+#include <algorithm>
+
+namespace contort::server {
+
+namespace {
+
+constexpr std::size_t kMostPath = 1024;
+constexpr std::size_t kMostClients = 4096;  // that are remembered
+
+bool writes(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }
+
+// Takes the same time wherever they differ.
+bool equal(const std::string& a, const std::string& b) {
+  unsigned different = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    different |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b.empty() ? 0 : b[i % b.size()]);
+  return different == 0;
+}
+
+// "contort=<token>" among "a=b; c=d".
+std::string cookie_of(const Request& request) {
+  const std::string all = "; " + request.header("cookie");
+  const std::size_t at = all.find("; contort=");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + 10;
+  return all.substr(begin, all.find(';', begin) - begin);
+}
+
+bool has_token(const Request& request, const std::string& token) {
+  const std::string bearer = request.header("authorization");
+  const bool asked = request.path == "/" && equal(token, request.parameter("token"));
+  return asked || equal("Bearer " + token, bearer) || equal(token, cookie_of(request));
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
+Result<Done> admit(const Request& request, const GuardConfig& config) {
+  if (request.path.size() > kMostPath) return Issue{"call.too_long", "", "the address is too long"};
+  const std::string host = request.header("host");
+  if (std::ranges::find(config.hosts, host) == config.hosts.end())
+    return Issue{"guard.host", "", "this server does not go by that name; --allow-host adds one"};
+  const std::string origin = request.header("origin");
+  if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
+    return Issue{"guard.origin", "", "pages of other servers may not call this one"};
+  if (!config.token.empty() && !has_token(request, config.token))
+    return Issue{"guard.token", "", "a token is needed: Authorization: Bearer, or once /?token= in a browser"};
+  if (writes(request) && request.method != "DELETE" && !request.header("content-type").starts_with("application/json"))
+    return Issue{"call.wrong_type", "", "a call that writes has Content-Type: application/json"};
+  if (writes(request) && !request.header("sec-fetch-site").empty() && request.header("sec-fetch-site") != "same-origin")
+    return Issue{"guard.origin", "", "pages of other servers may not call this one"};
+  return Done{};
+}
+
+Result<Done> CallRate::count(const std::string& client, Time now) {
+  const std::lock_guard lock(mutex_);
+  if (clients_.size() >= kMostClients) forget_quiet(now);
+  const auto [found, is_new] = clients_.try_emplace(client, Left{at_once_, now});
+  Left& left = found->second;
+  const double passed_s = std::chrono::duration<double>(now - left.since).count();
+  left.calls = std::min(at_once_, left.calls + per_s_ * passed_s);
+  left.since = now;
+  if (left.calls < 1.0) return Issue{"limit.calls", "", "too many calls in a short time"};
+  left.calls -= 1.0;
+  return Done{};
+}
+
+void CallRate::forget_quiet(Time now) {
+  std::erase_if(clients_, [&](const auto& entry) {
+    const double passed_s = std::chrono::duration<double>(now - entry.second.since).count();
+    return entry.second.calls + per_s_ * passed_s >= at_once_;
+  });
+  if (clients_.size() >= kMostClients) clients_.clear();
+}
+
+}  // namespace contort::server

@@ -1,0 +1,69 @@
+// Work that takes seconds or minutes, one piece after another: reports, shrinking, replays.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "generator/core/result.h"
+#include "server/played.h"
+
+namespace contort::server {
+
+enum class JobState { queued, running, done, failed };
+
+struct Job {
+  std::string id;
+  std::string kind;    // report, shrink, replay
+  std::string about;   // a bucket; ""
+  JobState state = JobState::queued;
+  std::string text;    // a sentence for people
+  std::string result;  // JSON; "" while there is none
+  Time since{};        // when it began to run
+  double seconds = 0.0;
+};
+
+// {job, kind, bucket, state, seconds, text, result}
+std::string print_job(const Job& job);
+
+class Jobs {
+ public:
+  // What a job does: its sentence and JSON, or why it failed. Looks at `stop` while it works.
+  struct Outcome {
+    std::string text;
+    std::string result;
+  };
+  using Work = std::function<Result<Outcome>(const std::function<bool()>& stop)>;
+
+  // `most_waiting` at the most. `changed` is called from the jobs' thread.
+  Jobs(int most_waiting, std::function<void(const Job&)> changed);
+  ~Jobs();  // what runs is stopped
+
+  // Its id. One of the same kind about the same that still waits is that one. Code full.jobs.
+  Result<std::string> add(const std::string& kind, const std::string& about, Work work);
+  // Code job.not_found: of those that have ended the last hundred are remembered.
+  Result<Job> find(const std::string& id) const;
+  int waiting() const;
+
+ private:
+  void run();
+  void update(const std::string& id, const std::function<void(Job&)>& change);
+
+  int most_waiting_;
+  std::function<void(const Job&)> changed_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::map<std::string, Job> jobs_;
+  std::deque<std::pair<std::string, Work>> queue_;
+  std::deque<std::string> ended_;
+  std::int64_t next_ = 1;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace contort::server

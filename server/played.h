@@ -1,0 +1,51 @@
+// A motion as a session has it, and the clock by which it is shown.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "generator/core/math.h"
+#include "generator/motion/motion.h"
+#include "server/work.h"
+
+namespace contort::server {
+
+using Time = std::chrono::steady_clock::time_point;
+
+// Frames that go by while it plays.
+class PlayClock {
+ public:
+  void set(int frame, bool playing, Time now) { frame_ = frame, playing_ = playing, since_ = now; }
+  bool playing() const { return playing_; }
+  // Without an end; 0 is the first frame.
+  int frame(double rate_hz, Time now) const;
+
+ private:
+  int frame_ = 0;
+  bool playing_ = false;
+  Time since_{};
+};
+
+// A motion of the take, in one mode.
+struct Played {
+  int frame_count = 0;
+  int joint_count = 0;
+  double rate_hz = 60.0;
+  std::string motion_hash;
+  std::string frames;  // compact
+  std::vector<QueueSpan> queue;
+  std::string spans;   // fields of the event, without take, revision and mode
+
+  int frame_bytes() const { return joint_count * kJointBytes; }
+  // Of two motions of one take the first frame that differs, in bits of what is sent.
+  int first_difference(const Played& other) const;
+  // Where the root is in the world; a whole rotation, unless the motion is not finite.
+  Rigid root(int frame) const;
+};
+
+// Of a worker's reply to TaskKind::play. Code work.damaged.
+Result<std::shared_ptr<const Played>> played_of(const Reply& reply);
+
+}  // namespace contort::server

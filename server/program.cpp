@@ -1,0 +1,94 @@
+#include "server/program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+extern char** environ;
+
+namespace contort::server {
+
+namespace {
+
+constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
+constexpr int kLook_ms = 50;
+
+struct Pipe {
+  std::array<int, 2> ends{-1, -1};
+  ~Pipe() {
+    for (const int end : ends)
+      if (end >= 0) ::close(end);
+  }
+  bool open() { return ::pipe2(ends.data(), O_CLOEXEC) == 0; }
+  void close_writer() { ::close(ends[1]), ends[1] = -1; }
+};
+
+// Whether there may be more.
+bool read_some(int file, std::string& text) {
+  char buffer[16384];
+  const ssize_t got = ::read(file, buffer, sizeof buffer);
+  if (got < 0) return errno == EINTR || errno == EAGAIN;
+  if (got == 0) return false;
+  text.append(buffer, static_cast<std::size_t>(got));
+  if (text.size() > 2 * kMostText) text.erase(0, text.size() - kMostText);
+  return true;
+}
+
+pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
+  std::vector<char*> arguments;
+  for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&files, out.ends[1], 1);
+  ::posix_spawn_file_actions_adddup2(&files, err.ends[1], 2);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setpgroup(&attributes, 0);  // it may have children: they end with it
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  pid_t pid = -1;
+  const int failed = ::posix_spawn(&pid, arguments[0], &files, &attributes, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&files);
+  return failed == 0 ? pid : -1;
+}
+
+int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
+}  // namespace
+
+Result<Ran> run_program(const std::vector<std::string>& command, double seconds, const std::function<bool()>& stop) {
+  Pipe out, err;
+  if (!out.open() || !err.open()) return Issue{"work.no_process", "", "no pipe for a program"};
+  const pid_t pid = start(command, out, err);
+  if (pid < 0) return Issue{"work.no_process", "", "cannot start " + command[0]};
+  out.close_writer(), err.close_writer();
+  Ran ran;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  bool more_out = true, more_err = true;
+  while (more_out || more_err) {
+    pollfd files[] = {{more_out ? out.ends[0] : -1, POLLIN, 0}, {more_err ? err.ends[0] : -1, POLLIN, 0}};
+    ::poll(files, 2, kLook_ms);
+    if (files[0].revents != 0) more_out = read_some(out.ends[0], ran.out);
+    if (files[1].revents != 0) more_err = read_some(err.ends[0], ran.err);
+    if (ran.killed || (std::chrono::steady_clock::now() < end && !stop())) continue;
+    ran.killed = true;
+    ::kill(-pid, SIGKILL);
+  }
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  ran.code = code_of(status);
+  return ran;
+}
+
+}  // namespace contort::server

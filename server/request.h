@@ -1,0 +1,41 @@
+// A call and its answer, without sockets: what tests use, and what server/http.cpp fills from the wire.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/core/result.h"
+
+namespace contort::server {
+
+struct Request {
+  std::string method = "GET";
+  std::string path;                            // decoded, without the query
+  std::map<std::string, std::string> query;    // decoded
+  std::map<std::string, std::string> headers;  // names in lower case
+  std::string body;
+  std::string client;  // address
+
+  std::string header(const std::string& name) const;
+  std::string parameter(const std::string& name) const;
+};
+
+// The next piece of a stream, "" for none within about a second; sets `more` to false at its end.
+using Pieces = std::function<std::string(bool& more)>;
+
+struct Answer {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+  Pieces pieces;  // where it is not empty, the body is a stream
+};
+
+// The status that a code stands for; docs/server.md.
+int status_of(const Issue& issue);
+Answer refusal(const Issue& issue);
+
+}  // namespace contort::server

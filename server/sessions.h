@@ -1,0 +1,48 @@
+// All sessions by their ids, within the limits.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "server/session.h"
+
+namespace contort::server {
+
+class Sessions {
+ public:
+  explicit Sessions(Engine& engine) : engine_(engine) {}
+
+  // Ids are drawn at random: nobody guesses another one's. Codes limit.sessions, full.sessions, and those of
+  // Session::open.
+  Result<std::shared_ptr<Session>> open(SessionDesc desc);
+
+  // Code session.not_found.
+  Result<std::shared_ptr<Session>> find(const std::string& id) const;
+  Result<Done> close(const std::string& id);
+
+  // Those that nobody has used for a while; all of them at the end.
+  void sweep(Time now);
+  void close_all();
+
+  int count() const;
+  std::size_t bytes() const;
+  double cpu_s() const;  // of all that ever were
+
+  // A stream is open for as long as somebody holds this. Codes limit.streams, full.streams.
+  Result<std::shared_ptr<void>> count_stream(const std::string& client);
+  int streams() const;
+
+ private:
+  Result<Done> room_for(const std::string& client) const;
+
+  Engine& engine_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Session>> sessions_;
+  std::map<std::string, int> opening_;  // by client: not in sessions_ yet
+  std::map<std::string, int> streams_;  // by client
+  double ended_cpu_s_ = 0.0;
+};
+
+}  // namespace contort::server

@@ -1,0 +1,80 @@
+// What worker processes do: everything that generates. A task says all that is needed, so any worker can do any task, and
+// do it again.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "checks/evaluate.h"
+#include "generator/character/library.h"
+#include "generator/core/result.h"
+#include "generator/spec.h"
+
+namespace contort::server {
+
+enum class TaskKind {
+  model,      // the character and what is around it
+  play,       // frames
+  judge,      // margins and findings
+  evaluate,   // motion hash and findings
+  model_file, // .glb of the motion
+  make_case,  // of one finding
+};
+
+struct Task {
+  TaskKind kind = TaskKind::evaluate;
+  Spec spec;
+  int take_frames = 0;    // play: the motion holds still at its end until it has so many frames; else as the spec says
+  int most_frames = 0;    // longer motions are refused
+  std::string library;    // folder of a registered library; "": none
+  std::string check;      // make_case, and whose curve comes first
+  std::string subject;
+  bool operator==(const Task&) const = default;
+};
+
+// A JSON text, and bytes for what is no text: frames of play, the .glb of model_file.
+struct Reply {
+  std::string head;
+  std::string bytes;
+  bool operator==(const Reply&) const = default;
+};
+
+// {code, pointer, text}: how every error looks.
+std::string print_issue(const Issue& issue);
+
+std::string print_task(const Task& task);
+Result<Task> parse_task(const std::string& text);
+std::string print_reply(const Result<Reply>& reply);
+Result<Reply> parse_reply(const std::string& text);
+
+// Heads:
+//   model     {joints: [{name, parent, slot}], glb, colliders, ground, obstacles, aims: [{slot, action, points}], rest: [x, y, z, w]}
+//   play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes: compact frames
+//   judge     {curves, findings}
+//   evaluate  {motion_hash, frame_count, rate_hz, findings}
+//   make_case the case as corpus files have it
+// docs/server.md has their fields and what a compact frame is.
+class Worker {
+ public:
+  // `tool` goes into cases.
+  Worker(const Library& library, CheckSettings settings, std::string tool);
+
+  // Codes of build_stage, with pointers into the spec; take.too_long, case.no_such_finding.
+  Result<Reply> run(const Task& task);
+
+ private:
+  const Library& base_;
+  std::string tool_;
+  Evaluator evaluator_;
+  std::string registered_;  // the folder that `with_registered_` was made with
+  Library with_registered_;
+
+  Result<const Library*> library_of(const Task& task);
+  Result<Reply> play(Task task, const Library& library);
+  Result<Reply> judge(const Stage& stage, const Task& task);
+};
+
+// Bytes of a compact frame, for each joint.
+inline constexpr int kJointBytes = 28;
+
+}  // namespace contort::server
