@@ -1,5 +1,5 @@
-# Bundles the report's viewer: viewer.cmake -DNPM=npm -DFROM=renders/page -DTO=…/page
-# Its packages are those of the lock file, in a folder beside TO. A failure is a warning: all but the viewer works.
+# Bundles the report's viewer and the server's pages: viewer.cmake -DNPM=npm -DFROM=renders/page -DTO=…/page
+# Their packages are those of the lock file, in a folder beside TO. A failure is a warning: all but these pages works.
 set(modules ${TO}_modules)
 file(MAKE_DIRECTORY ${modules} ${TO})
 foreach(file package.json package-lock.json)
@@ -12,6 +12,8 @@ if(code EQUAL 0)
                   RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
 endif()
 if(NOT code EQUAL 0)
-  file(REMOVE ${TO}/viewer.js ${TO}/viewer.css)
-  message(WARNING "reports will have no viewer:\n${output}")
+  foreach(file viewer.js viewer.css play.html play.js play.css live.js live.css)
+    file(REMOVE ${TO}/${file})
+  endforeach()
+  message(WARNING "reports will have no viewer, and the server no pages:\n${output}")
 endif()

@@ -1,9 +1,13 @@
-// Makes viewer.js and viewer.css of the report: node build.mjs [--modules DIR] OUTDIR
+// Makes the scripts and styles of the pages: node build.mjs [--modules DIR] OUTDIR
 //
-// DIR is the node_modules folder where `npm ci` was run, if that is not next to this file. Everything is put into one
-// classic script, because browsers refuse modules, workers and fetch for pages that are opened from a disk.
+//   viewer.js, viewer.css             the open case of a report
+//   play.html, play.js, play.css      the playground of `contort serve`
+//   live.js, live.css                 what a served report can do beside
+//
+// DIR is the node_modules folder where `npm ci` was run, if that is not next to this file. Each page has one classic
+// script, because browsers refuse modules, workers and fetch for pages that are opened from a disk.
 import { createRequire } from 'node:module';
-import { existsSync, mkdirSync, readFileSync, statSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, statSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
@@ -26,25 +30,38 @@ function licences(modules) {
   return `/*!\nParts of this file are three.js and uPlot.\n\n${texts.join('\n\n').replaceAll('*/', '* /')}\n*/`;
 }
 
-async function build({ modules, out }) {
-  const esbuild = await import(pathToFileURL(createRequire(join(modules, 'x.js')).resolve('esbuild')).href);
-  mkdirSync(out, { recursive: true });
-  await esbuild.default.build({
-    entryPoints: [join(here, 'src', 'main.js')],
-    outfile: join(out, 'viewer.js'),
+// Name of the outputs: where they begin, and what a page can call of them.
+const kBundles = {
+  viewer: { entry: ['src', 'main.js'], globalName: 'contortViewer' },
+  play: { entry: ['play', 'main.js'] },
+  live: { entry: ['live', 'main.js'], own: true },
+};
+
+async function bundle(esbuild, { modules, out }, name, { entry, globalName, own }) {
+  await esbuild.build({
+    entryPoints: [join(here, ...entry)],
+    outfile: join(out, `${name}.js`),
     bundle: true,
     minify: true,
     format: 'iife',
-    globalName: 'contortViewer',
+    globalName,
     target: ['chrome100', 'firefox100', 'safari15.4'],
     charset: 'ascii',  // The page may be read with any encoding guess.
     legalComments: 'eof',
-    footer: { js: licences(modules) },
+    footer: own ? {} : { js: licences(modules) },
     nodePaths: [modules],
     absWorkingDir: here,
     logLevel: 'warning',
   });
-  for (const name of ['viewer.js', 'viewer.css']) console.log(`${name}: ${statSync(join(out, name)).size} bytes`);
+  for (const kind of ['js', 'css']) console.log(`${name}.${kind}: ${statSync(join(out, `${name}.${kind}`)).size} bytes`);
+}
+
+async function build(options) {
+  const { modules, out } = options;
+  const esbuild = await import(pathToFileURL(createRequire(join(modules, 'x.js')).resolve('esbuild')).href);
+  mkdirSync(out, { recursive: true });
+  for (const [name, what] of Object.entries(kBundles)) await bundle(esbuild.default, options, name, what);
+  copyFileSync(join(here, 'play', 'play.html'), join(out, 'play.html'));
 }
 
 const options = readArguments(process.argv.slice(2));

@@ -79,19 +79,26 @@
 
   const list = { cards: [], words: null, selects: new Map() };
 
+  // Choices are added, never taken away: what was chosen stays chosen.
   const fillSelect = (name, select) => {
     const given = new Set([...select.options].map((option) => option.value));
     const values = new Set(list.cards.flatMap((card) => valuesOf(card, name)));
     if (!given.has('')) select.append(new Option(`all ${name}s`, ''));
     for (const value of [...values].sort()) if (!given.has(value)) select.append(new Option(value, value));
     // A choice of one is none.
-    if (values.size < 2 && select.closest('label')) select.closest('label').hidden = true;
+    if (select.closest('label')) select.closest('label').hidden = values.size < 2;
   };
 
-  // As it stands on the page, once for each card.
+  // As it stands on the page, once for each card; without the buttons that live.js adds.
   const texts = new WeakMap();
+  const reportText = (card) => {
+    if (!card.querySelector('.live-bar')) return card.textContent;
+    const copied = card.cloneNode(true);
+    for (const bar of copied.querySelectorAll('.live-bar')) bar.remove();
+    return copied.textContent;
+  };
   const textOf = (card) => {
-    if (!texts.has(card)) texts.set(card, card.textContent.toLowerCase());
+    if (!texts.has(card)) texts.set(card, reportText(card).toLowerCase());
     return texts.get(card);
   };
 
@@ -305,6 +312,7 @@
     shown.title = shown.title || document.title;
     document.title = `${data.check} ${data.subject} \u2013 ${shown.title}`;
     scrollTo(0, 0);
+    document.dispatchEvent(new CustomEvent('contort:case', { detail: { key, element: shown.panel } }));
   };
 
   const openCase = async (key, frame) => {
@@ -359,9 +367,18 @@
     if (bucket) openCase(bucket.dataset.case, null);
   };
 
+  // live.js has changed the list: a server made the report anew.
+  const relist = () => {
+    list.cards = [...document.querySelectorAll('.card')];
+    if (list.words !== document.getElementById('words')) { list.selects.clear(); startFilter(); return; }
+    for (const [name, select] of list.selects) fillSelect(name, select);
+    if (list.words) apply();
+  };
+
   document.addEventListener('DOMContentLoaded', () => {
     list.cards = [...document.querySelectorAll('.card')];
     startFilter();
+    document.addEventListener('contort:list', relist);
     document.addEventListener('keydown', listKey);
     document.addEventListener('click', (event) => {
       const button = event.target.closest('.open');

@@ -1,18 +1,11 @@
 // For everyone: automatic checks in light and dark and on a phone, no sideways scrolling, keys alone.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { axePath, findCase, openCase, openPage, options, readCases, urlOf } from './support.mjs';
+import { findCase, openCase, openPage, options, readCases, seriousProblems, urlOf } from './support.mjs';
 
 const cases = readCases(options.report);
 const any = findCase(cases, (data) => data.motions.length > 1) ?? findCase(cases, () => true);
 const need = { skip: any === undefined ? 'the report has no motion' : false };
-
-async function seriousProblems(page) {
-  await page.addScriptTag({ path: axePath() });
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
-  return violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).slice(0, 3).join(' ')}`);
-}
 
 const looks = [['light', 1280], ['dark', 1280], ['light', 375], ['dark', 375]];
 for (const [scheme, width] of looks) {

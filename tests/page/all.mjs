@@ -8,5 +8,8 @@ import './case.test.mjs';
 import './failures.test.mjs';
 import './access.test.mjs';
 import './speed.test.mjs';
+import './play.test.mjs';
+import './live.test.mjs';
+import './serve.test.mjs';
 
 after(closeAll);

@@ -10,7 +10,7 @@ import vm from 'node:vm';
 
 export const options = JSON.parse(process.env.CONTORT_PAGE_TEST ?? '{}');
 const require = createRequire(join(resolve(options.modules ?? 'node_modules'), 'x.js'));
-export const axePath = () => require.resolve('axe-core/axe.min.js');
+const axePath = () => require.resolve('axe-core/axe.min.js');
 export const validator = () => require('gltf-validator');
 
 const kCommon = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
@@ -129,6 +129,14 @@ export async function openCase(url, key, more = {}) {
 export async function ready(page, which = '0') {
   await page.waitForSelector(`.case[data-ready="${which}"]`);
   await settle(page);
+}
+
+// What axe-core calls serious or worse.
+export async function seriousProblems(page) {
+  await page.addScriptTag({ path: axePath() });
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+  return violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).slice(0, 3).join(' ')}`);
 }
 
 // Two pictures of the screen later everything that was asked for is drawn.

@@ -5,16 +5,16 @@ export class Damaged extends Error {}
 
 const kFormat = 'contort.report_case/1';
 
-const list = (value) => (Array.isArray(value) ? value : []);
-const text = (value) => (typeof value === 'string' ? value : '');
+export const list = (value) => (Array.isArray(value) ? value : []);
+export const text = (value) => (typeof value === 'string' ? value : '');
 // For texts that are only shown: signs that turn the order of a text around, or control signs, become visible.
 const kUnseen = /[\u0000-\u001f\u007f-\u009f\u200e\u200f\u2028-\u202e\u2066-\u2069]/g;
-const shown = (value) => text(value).replace(kUnseen, '\ufffd');
+export const shown = (value) => text(value).replace(kUnseen, '\ufffd');
 const whole = (value, fallback) => (Number.isInteger(value) ? value : fallback);
-const finite = (value) => typeof value === 'number' && Number.isFinite(value);
+export const finite = (value) => typeof value === 'number' && Number.isFinite(value);
 const point = (value) => Array.isArray(value) && value.length === 3 && value.every(finite);
 
-function readCurve(curve) {
+export function readCurve(curve) {
   return {
     check: shown(curve?.check),
     subject: shown(curve?.subject),
@@ -24,7 +24,7 @@ function readCurve(curve) {
   };
 }
 
-function readSpan(span, frameCount) {
+export function readSpan(span, frameCount) {
   const first = Math.max(0, whole(span?.first_frame, 0));
   return {
     name: shown(span?.name), slot: shown(span?.slot), clip: shown(span?.clip), action: shown(span?.action),
@@ -33,7 +33,7 @@ function readSpan(span, frameCount) {
   };
 }
 
-function readMark(mark) {
+export function readMark(mark) {
   return {
     frame: whole(mark?.frame, -1), kind: shown(mark?.kind), text: shown(mark?.text),
     point: point(mark?.point) ? mark.point : null, impulse: point(mark?.impulse) ? mark.impulse : null,
@@ -44,7 +44,7 @@ function readBalance(entry) {
   return entry && point(entry.zmp) ? { zmp: entry.zmp, margin: finite(entry.margin) ? entry.margin : null } : null;
 }
 
-function readGround(ground) {
+export function readGround(ground) {
   if (Array.isArray(ground?.positions) && ground.positions.every(finite) && ground.positions.length >= 9)
     return { positions: ground.positions, indices: list(ground.indices).filter(Number.isInteger) };
   return { level: finite(ground?.level) ? ground.level : 0 };

@@ -8,11 +8,11 @@ import { seekByPointer } from './axis.js';
 const kFrameSteps = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000];
 
 // The limit is always in sight, with some space on both sides of it.
-function limits(curve) {
+function limits(curve, end) {
   let low = 0;
   let high = 0;
-  for (const value of curve.margins) {
-    if (value === null) continue;
+  for (const value of curve.margins.slice(0, end)) {
+    if (value === null || value === undefined) continue;
     low = Math.min(low, value);
     high = Math.max(high, value);
   }
@@ -56,6 +56,7 @@ export class CurvePlot {
     this.motion = motion;
     this.small = small;
     this.calls = calls;
+    this.end = Infinity;  // Frames from here on are still to come.
     this.value = el('span', { class: 'curve-value' });
     this.title = el('p', { class: 'curve-title' }, el('span', { text: curveName(curve) }),
       el('span', { class: 'dim', text: curve.unit ? `margin in ${curve.unit}, below 0 is violated` : '' }), this.value);
@@ -72,19 +73,32 @@ export class CurvePlot {
   resize(axis, colours) {
     this.plot?.destroy();
     const { curve, motion, small } = this;
-    const frames = Array.from({ length: motion.frameCount }, (_, frame) => frame);
     const single = curve.margins.filter((value) => value !== null).length < 2;
     this.plot = new uPlot({
       width: axis.gutter + axis.width, height: small ? 84 : 168, padding: [6, 0, small ? 6 : 0, 0],
       legend: { show: false },
       cursor: { drag: { x: false, y: false, setScale: false }, points: { show: false }, y: false },
       select: { show: false },
-      scales: { x: { time: false, range: [-0.5, motion.frameCount - 0.5] }, y: { range: limits(curve) } },
+      scales: {
+        x: { time: false, range: [-0.5, motion.frameCount - 0.5] }, y: { range: () => limits(this.curve, this.end) },
+      },
       axes: axes(small, axis, colours),
       series: [{}, { stroke: colours.curve, width: 2, points: { show: single, size: 6 }, spanGaps: false }],
-      hooks: { drawClear: [(plot) => shade(plot, curve, motion, colours)] },
-    }, [frames, frames.map((frame) => curve.margins[frame] ?? null)], this.holder);
+      hooks: { drawClear: [(plot) => shade(plot, this.curve, motion, colours)] },
+    }, this.values(), this.holder);
     seekByPointer(this.plot.over, this.calls.frameAt, this.calls.seek);
+  }
+
+  values() {
+    const frames = Array.from({ length: this.motion.frameCount }, (_, frame) => frame);
+    return [frames, frames.map((frame) => (frame < this.end ? this.curve.margins[frame] ?? null : null))];
+  }
+
+  // The same subject with other margins, or more of them.
+  update(curve, end) {
+    this.curve = curve;
+    this.end = end;
+    this.plot?.setData(this.values());
   }
 
   setFrame(frame) {

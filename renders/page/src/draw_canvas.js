@@ -169,7 +169,7 @@ export class CanvasDrawing {
 
   drawResponse(pane) {
     const c = this.context;
-    for (const { object } of pane.response.arrows) {
+    for (const { object } of [...pane.response.arrows, ...(pane.pushes ?? [])]) {
       if (!object.visible) continue;
       c.strokeStyle = pane.colours.arrow;
       c.lineWidth = 4;
@@ -180,6 +180,10 @@ export class CanvasDrawing {
     const { disc } = pane.response;
     const at = disc.visible ? this.project(disc.getWorldPosition(new Vector3())) : null;
     if (at) this.dot(at, 6, `#${disc.userData.material.color.getHexString()}`);
+    for (const { object, colour } of pane.dots) {
+      const middle = this.project(object.getWorldPosition(new Vector3()));
+      if (middle) this.dot(middle, 7, colour);
+    }
   }
 
   dot(at, radius, colour) {

@@ -1,14 +1,17 @@
-// One animated character out of a .glb: its joints by their real names, and its pose at a frame.
+// One character out of a .glb: its joints by their real names, and its pose at a frame of its animation, or as given.
 import { AnimationMixer, Box3, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
-// Out of base64 and gzip.
-function bytesOf(text) {
+// Out of base64.
+export function bytesOf(text) {
   const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
-  const whole = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(whole).arrayBuffer();
+  return bytes;
+}
+
+function unzipped(bytes) {
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
 export class Figure {
@@ -39,6 +42,15 @@ export class Figure {
   sample(frame) {
     for (const action of this.actions) action.time = frame / this.rate;
     this.mixer.update(0);
+    this.root.updateMatrixWorld(true);
+  }
+
+  // Of each joint in `order` seven numbers, its place and rotation against its parent: what a server sends.
+  pose(order, values) {
+    order.forEach((joint, i) => {
+      joint?.position.fromArray(values, 7 * i);
+      joint?.quaternion.fromArray(values, 7 * i + 3);
+    });
     this.root.updateMatrixWorld(true);
   }
 
@@ -85,8 +97,13 @@ export class Figure {
 }
 
 export async function loadFigure(glb, rate) {
-  const gltf = await new GLTFLoader().parseAsync(await bytesOf(glb), '');
+  const gltf = await new GLTFLoader().parseAsync(await unzipped(bytesOf(glb)), '');
   return new Figure(gltf, rate);
+}
+
+// Without gzip, and without an animation.
+export async function loadModel(glb) {
+  return new Figure(await new GLTFLoader().parseAsync(bytesOf(glb).buffer, ''), 1);
 }
 
 // Where the figure is at every frame, smoothed over half a second, so that a camera that goes along does not shake.

@@ -9,11 +9,11 @@ const kGap = 2;
 
 export class HeatMap {
   constructor(curves, calls) {
-    this.curves = curves;
     this.calls = calls;  // seek(frame), frameAt(clientX)
     this.row = 0;
-    this.names = el('div', { class: 'names', 'aria-hidden': 'true' }, ...curves.map((curve) =>
-      el('span', { text: curveName(curve), title: curveName(curve) })));
+    this.end = Infinity;  // Later columns are not painted.
+    this.names = el('div', { class: 'names', 'aria-hidden': 'true' });
+    this.setCurves(curves);
     this.canvas = el('canvas', {
       class: 'heat-canvas', tabindex: '0', role: 'application', 'aria-describedby': 'heat-readout',
       'aria-label': 'Heat map of all curves. Up and down choose a curve, left and right a frame.',
@@ -23,6 +23,22 @@ export class HeatMap {
       el('div', { class: 'row' }, this.names, el('div', { class: 'track' }, this.canvas)),
       el('div', { class: 'row' }, el('span'), el('div', { class: 'heat-foot' }, this.readout, legend())));
     this.listen();
+  }
+
+  setCurves(curves) {
+    this.curves = curves;
+    this.row = Math.min(this.row, Math.max(0, curves.length - 1));
+    this.names.replaceChildren(...curves.map((curve) =>
+      el('span', { text: curveName(curve), title: curveName(curve) })));
+    if (this.axis) this.resize(this.axis, this.colours);
+  }
+
+  // Frames from `end` on are still to come. Only new columns are painted, if there are no others.
+  setEnd(end) {
+    const before = this.end;
+    this.end = end;
+    if (this.axis && end < before) this.paint();
+    else if (this.axis) this.paintColumns(before, end);
   }
 
   listen() {
@@ -80,19 +96,27 @@ export class HeatMap {
     const c = this.canvas.getContext('2d');
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     c.clearRect(0, 0, this.axis.width, this.curves.length * kRow);
-    this.curves.forEach((curve, row) => this.paintRow(c, curve, row * kRow));
+    this.curves.forEach((curve, row) => {
+      c.fillStyle = this.colours.grid;
+      c.fillRect(0, row * kRow + kRow / 2 - 1, this.axis.width, 1);  // Where nothing was judged.
+    });
+    this.paintColumns(0, this.end);
     if (document.activeElement !== this.canvas) return;
     c.strokeStyle = this.colours.curve;
     c.lineWidth = 2;
     c.strokeRect(1, this.row * kRow, this.axis.width - 2, kRow - 1);
   }
 
-  paintRow(c, curve, y) {
+  paintColumns(from, end) {
+    const c = this.canvas.getContext('2d');
+    const last = Math.min(end, this.axis.frameCount);
+    this.curves.forEach((curve, row) => this.paintRow(c, curve, row * kRow, from, last));
+  }
+
+  paintRow(c, curve, y, from, end) {
     const { axis, colours } = this;
-    c.fillStyle = colours.grid;
-    c.fillRect(0, y + kRow / 2 - 1, axis.width, 1);  // Where nothing was judged.
     const column = axis.column();
-    for (let frame = 0; frame < axis.frameCount; ++frame) {
+    for (let frame = from; frame < end; ++frame) {
       const value = curve.margins[frame];
       if (value === null || value === undefined) continue;
       c.fillStyle = heatColour(colours, value / curve.scale);

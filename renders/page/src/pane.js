@@ -20,13 +20,24 @@ export class Pane {
     return pane;
   }
 
+  // Where the picture's middle is at a frame.
+  makePath() {
+    return pathOf(this.figure, this.motion.frameCount);
+  }
+
+  pose(frame) {
+    this.figure.sample(frame);
+    if (this.ghostFigure) this.ghostFigure.sample(frame);
+  }
+
   build() {
     const { motion, colours, figure } = this;
     this.scene = new Scene();
     this.scene.background = new Color(colours.stage);
     this.middle = new Vector3();
-    this.path = pathOf(figure, motion.frameCount);
-    figure.sample(this.startFrame());
+    this.dots = [];  // Points that are marked: {object, colour}, for drawing without WebGL.
+    this.path = this.makePath();
+    this.pose(this.startFrame());
     this.radius = Math.max(0.2, figure.box().getSize(new Vector3()).length() / 2);
     this.lights = lights(colours);
     this.obstacles = obstacleGroup(motion.obstacles, colours);
@@ -46,8 +57,7 @@ export class Pane {
 
   show(frame) {
     this.frame = frame;
-    this.figure.sample(frame);
-    if (this.ghostFigure) this.ghostFigure.sample(frame);
+    this.pose(frame);
     this.response.show(frame);
     this.middle.copy(this.path(frame));
     this.lights.userData.follow(this.middle, this.radius);

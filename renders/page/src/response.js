@@ -6,10 +6,8 @@ import {
 const kUp = new Vector3(0, 1, 0);
 const kShownSeconds = 0.3;
 
-// Ends at the point that was hit. Longer for a harder blow, within what fits into the picture.
-function arrow(mark, colours) {
-  const impulse = new Vector3(...mark.impulse);
-  const length = Math.min(0.9, 0.3 + 0.01 * impulse.length());
+// Ends at the origin, coming from below. Points with the impulse when it is turned from kUp to it.
+export function arrow(length, colours) {
   const material = new MeshBasicMaterial({ color: colours.arrow, depthTest: false, transparent: true });
   const shaft = new Mesh(new CylinderGeometry(0.014, 0.014, length, 10), material);
   shaft.position.y = -0.1 - length / 2;
@@ -18,9 +16,20 @@ function arrow(mark, colours) {
   const group = new Group();
   group.add(shaft, tip);
   shaft.renderOrder = tip.renderOrder = 8;
-  group.position.set(...mark.point);
-  group.quaternion.setFromUnitVectors(kUp, impulse.lengthSq() > 0 ? impulse.normalize() : kUp);
   return group;
+}
+
+export function turnArrow(object, impulse) {
+  object.quaternion.setFromUnitVectors(kUp, impulse.lengthSq() > 0 ? impulse.clone().normalize() : kUp);
+}
+
+// Ends at the point that was hit. Longer for a harder blow, within what fits into the picture.
+function blow(mark, colours) {
+  const impulse = new Vector3(...mark.impulse);
+  const object = arrow(Math.min(0.9, 0.3 + 0.01 * impulse.length()), colours);
+  object.position.set(...mark.point);
+  turnArrow(object, impulse);
+  return object;
 }
 
 function disc(colours) {
@@ -41,7 +50,7 @@ export class Response {
     this.colours = colours;
     this.group = new Group();
     this.arrows = motion.marks.filter((mark) => mark.point && mark.impulse)
-      .map((mark) => ({ frame: mark.frame, object: arrow(mark, colours) }));
+      .map((mark) => ({ frame: mark.frame, object: blow(mark, colours) }));
     for (const { object } of this.arrows) this.group.add(object);
     this.disc = disc(colours);
     this.group.add(this.disc);

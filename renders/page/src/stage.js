@@ -11,11 +11,13 @@ const kNoWebgl = 'This browser cannot draw in 3-D (WebGL is switched off or miss
 const kDamaged = 'The 3-D model of this motion is missing or damaged and cannot be shown. The numbers below are complete.';
 const kLost = 'The browser took the 3-D picture away. Close this case and open it again.';
 
+// `load` makes a pane of a motion and the colours; `lost` is what is said when the browser takes the picture away.
 export class Stage {
-  constructor() {
+  constructor({ load = Pane.load, lost: lostText = kLost } = {}) {
+    this.load = load;
     this.drawing = webglDrawing() ?? new CanvasDrawing();
     this.flat = this.drawing instanceof CanvasDrawing;
-    this.drawing.lost = (lost) => { this.say(lost ? kLost : ''); this.invalidate(); };
+    this.drawing.lost = (lost) => { this.say(lost ? lostText : ''); this.invalidate(); };
     this.toggles = { ghost: true, colliders: false, xray: true, follow: true };
     this.panes = [];
     this.frames = [];
@@ -28,7 +30,7 @@ export class Stage {
   }
 
   makeElement() {
-    this.labels = [0, 1].map((i) => el('p', { class: `pane-label pane-${i}` }));
+    this.labels = el('div', { class: 'pane-labels' });
     this.sentence = el('p', { class: 'stage-sentence', role: 'status', text: this.flat ? kNoWebgl : '' });
     const turn = (angle) => () => this.turn(angle);
     const zoom = (factor) => () => this.zoom(factor);
@@ -36,7 +38,7 @@ export class Stage {
       iconButton('left', 'Turn left', '', turn(-Math.PI / 8)), iconButton('right', 'Turn right', '', turn(Math.PI / 8)),
       iconButton('plus', 'Nearer', '', zoom(0.8)), iconButton('minus', 'Farther', '', zoom(1.25)),
       el('button', { type: 'button', text: 'Reset view', on: { click: () => this.resetView() } }));
-    this.element = el('div', { class: 'stage' }, this.drawing.canvas, ...this.labels, buttons,
+    this.element = el('div', { class: 'stage' }, this.drawing.canvas, this.labels, buttons,
       el('p', { class: 'stage-scale', text: `Squares of the ground: 1 m${this.flat ? '' : ', thin lines 0.25 m'}` }));
     this.frame = el('div', {}, this.element, this.sentence);
     const { canvas } = this.drawing;
@@ -68,7 +70,7 @@ export class Stage {
     const ticket = this.ticket = {};
     let panes = [];
     try {
-      panes = await Promise.all(motions.map((motion) => Pane.load(motion, theme())));
+      panes = await Promise.all(motions.map((motion) => this.load(motion, theme())));
     } catch (error) {
       panes = [];
       this.error = error;
@@ -77,7 +79,6 @@ export class Stage {
     if (this.ticket !== ticket) { panes.forEach((pane) => pane.dispose()); return false; }
     this.panes.forEach((pane) => pane.dispose());
     this.panes = panes;
-    this.element.classList.toggle('two', panes.length > 1);
     this.say(panes.length ? '' : kDamaged);
     panes.forEach((pane, i) => { pane.apply(this.toggles); pane.show(this.frames[i] ?? pane.startFrame()); });
     if (panes.length > 0) this.afterLoad(keepView);
@@ -117,7 +118,13 @@ export class Stage {
 
   describe(texts, labels) {
     this.drawing.canvas.setAttribute('aria-label', texts);
-    this.labels.forEach((label, i) => { label.textContent = labels[i] ?? ''; });
+    // Side by side, each over its own pane.
+    while (this.labels.children.length > labels.length) this.labels.lastChild.remove();
+    labels.forEach((text, i) => {
+      const place = this.labels.children[i] ??
+        this.labels.appendChild(el('div', {}, el('p', { class: `pane-label pane-${i}` })));
+      if (place.firstChild.textContent !== text) place.firstChild.textContent = text;
+    });
   }
 
   set(name, on) {
@@ -191,6 +198,18 @@ export class Stage {
     const views = this.panes.map((pane, i) =>
       ({ pane, camera: this.cameraOf(pane, width / height), x: i * width, width }));
     this.drawing.draw(views, height);
+  }
+
+  // What is under a place on the screen: the pane, its camera, and the place as three.js's rays want it. Null outside.
+  at(clientX, clientY) {
+    const box = this.drawing.canvas.getBoundingClientRect();
+    const width = box.width / Math.max(1, this.panes.length);
+    const i = Math.floor((clientX - box.left) / width);
+    const pane = this.panes[i];
+    if (!pane || clientY < box.top || clientY > box.bottom) return null;
+    const x = (clientX - box.left - i * width) / width;
+    const y = (clientY - box.top) / box.height;
+    return { pane, camera: this.cameraOf(pane, width / box.height), x: 2 * x - 1, y: 1 - 2 * y };
   }
 
   // The second pane is seen from the same side, around its own figure.
