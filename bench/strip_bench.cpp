@@ -1,9 +1,12 @@
-// What a film strip costs, and where the time goes: one thread, one context, six tiles of 320 x 240.
+// What a film strip costs, and where the time goes: one thread, one context; a strip has six tiles of 320 x 240, a whole
+// case eight and a .glb.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 
+#include "checks/evaluate.h"
 #include "generator/generate.h"
+#include "generator/gltf/write.h"
 #include "generator/stage.h"
 #include "renders/case_data.h"
 #include "renders/frames.h"
@@ -54,6 +57,64 @@ void strip_and_clip(benchmark::State& state) {
         renderer.render(subject.input, scratch("contort_bench.png"), scratch("contort_bench.webp")).ok());
 }
 
+// What a failing case costs: choosing the view, eight antialiased tiles in one PNG, and the motion as .glb.
+struct WholeCase : Subject {
+  StripRenderer strips = StripRenderer::create().value();
+  WholeCase() { input.tiles = 8, input.columns = 4; }
+  bool draw(const std::string& clip) {
+    return strips.render(input, scratch("contort_bench.png"), clip).ok() &&
+           save_glb(scratch("contort_bench.glb"), *stage.character, motion, {}).ok();
+  }
+};
+
+void whole_case(benchmark::State& state) {
+  WholeCase subject;
+  for (auto _ : state) benchmark::DoNotOptimize(subject.draw(""));
+  state.counters["cases/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void whole_case_and_clip(benchmark::State& state) {
+  WholeCase subject;
+  for (auto _ : state) benchmark::DoNotOptimize(subject.draw(scratch("contort_bench.webp")));
+  state.counters["cases/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+// Its parts, which are the next ones too.
+void generate_and_judge(benchmark::State& state) {
+  const Subject subject;
+  Evaluator evaluator;
+  for (auto _ : state) benchmark::DoNotOptimize(evaluator.run(subject.stage).findings.size());
+}
+
+void take_the_shots(benchmark::State& state) {
+  const Subject subject;
+  const std::vector<int> frames = choose_frames(20, 30, 40, subject.motion.frame_count, 8);
+  for (auto _ : state) {
+    Shots shots = take_shots(subject.story, frames);
+    add_scenery(subject.story, shots.outlines, shots);
+    benchmark::DoNotOptimize(shots.meshes.size());
+  }
+}
+
+void set_the_meshes(benchmark::State& state) {
+  Subject subject;
+  for (auto _ : state) subject.renderer->set_meshes(subject.shots.meshes);
+}
+
+void png_of_eight_tiles(benchmark::State& state) {
+  Subject subject;
+  const Image tile = subject.tile();
+  Image sheet(4 * tile.width, 2 * tile.height);
+  for (int i = 0; i < 8; ++i) paste(sheet, tile, i % 4 * tile.width, i / 4 * tile.height);
+  for (auto _ : state) benchmark::DoNotOptimize(png_bytes(sheet, "contort replay x").value());
+}
+
+void glb_of_the_motion(benchmark::State& state) {
+  const Subject subject;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(save_glb(scratch("contort_bench.glb"), *subject.stage.character, subject.motion, {}).ok());
+}
+
 void choose_the_view(benchmark::State& state) {
   Subject subject;
   for (auto _ : state)
@@ -97,6 +158,13 @@ void case_data_of_one_motion(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(case_data("k", shown, stock_library(), {}).value());
 }
 
+BENCHMARK(whole_case)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(whole_case_and_clip)->Unit(benchmark::kMillisecond);
+BENCHMARK(generate_and_judge)->Unit(benchmark::kMillisecond);
+BENCHMARK(take_the_shots)->Unit(benchmark::kMillisecond);
+BENCHMARK(set_the_meshes)->Unit(benchmark::kMillisecond);
+BENCHMARK(png_of_eight_tiles)->Unit(benchmark::kMillisecond);
+BENCHMARK(glb_of_the_motion)->Unit(benchmark::kMillisecond);
 BENCHMARK(strip)->Unit(benchmark::kMillisecond);
 BENCHMARK(strip_and_clip)->Unit(benchmark::kMillisecond);
 BENCHMARK(choose_the_view)->Unit(benchmark::kMillisecond);

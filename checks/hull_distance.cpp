@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 64;
+constexpr double kTouch_m = 1e-12;
 constexpr double kProof = 1e-13;  // of the solids' size: bounds this close prove a distance
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -225,7 +226,8 @@ double nearest_to_faces(std::span<const Vec3> corners, const Polyhedron& solid, 
       return solid_corners[at(solid.loops[at(face.first + i % face.count)])];
     };
     for (const Vec3& p : corners) {
-      const double height = glm::dot(n, p - corner(0));
+      double height = glm::dot(n, p - corner(0));
+      if (height < 0.0 && height > -kTouch_m) height = 0.0;  // they are apart: a corner on the face, but for rounding
       if (height < 0.0 || height >= best) continue;
       bool above = true;
       for (int i = 0; i < face.count && above; ++i)

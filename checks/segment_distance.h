@@ -17,9 +17,15 @@ struct Segment {
 // Below this squared sine of the angle between two segments, products of lengths tell nothing about it any more.
 inline constexpr double kNearlyParallel = 1e-8;
 
-// Closest points of two segments: the minimum of a convex quadratic over a square. Solve for s, clamp it, solve for t;
-// if that had to be clamped, s again for the t that is left (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-inline double segment_distance(const Segment& a, const Segment& b) {
+// Closest points of two segments, a.center + s * a.half and b.center + t * b.half: the minimum of a convex quadratic over
+// a square. Solve for s, clamp it, solve for t; if that had to be clamped, s again for the t that is left (Ericson,
+// Real-Time Collision Detection, 2005, 5.1.9).
+struct ClosestOnSegments {
+  double s = 0.0;
+  double t = 0.0;
+};
+
+inline ClosestOnSegments closest_on_segments(const Segment& a, const Segment& b) {
   const Vec3 between = a.center - b.center;
   const double aa = glm::dot(a.half, a.half);
   const double bb = glm::dot(b.half, b.half);
@@ -37,7 +43,12 @@ inline double segment_distance(const Segment& a, const Segment& b) {
   const double free_t = bb > 0.0 ? (ab * s + br) / bb : 0.0;
   const double t = std::clamp(free_t, -1.0, 1.0);
   if ((t != free_t || bb == 0.0) && aa > 0.0) s = std::clamp((ab * t - ar) / aa, -1.0, 1.0);
-  const Vec3 apart = between + s * a.half - t * b.half;
+  return {s, t};
+}
+
+inline double segment_distance(const Segment& a, const Segment& b) {
+  const ClosestOnSegments at = closest_on_segments(a, b);
+  const Vec3 apart = (a.center - b.center) + at.s * a.half - at.t * b.half;
   return std::sqrt(glm::dot(apart, apart));
 }
 

@@ -23,6 +23,7 @@ struct Options {
   std::string model;
   std::string folder;
   ImportOptions import;
+  bool no_model = false;
   bool force = false;
   bool json = false;
 };
@@ -36,7 +37,9 @@ Result<Done> refuse_existing(const Options& options, const Imported& imported) {
 }
 
 Result<Done> write_files(const Options& options, const Imported& imported) {
-  if (const Result<Done> made = make_folder(options.folder + "/maps"); !made) return made;
+  for (const char* folder : {"/maps", "/skins"})
+    if (folder != std::string("/skins") || options.import.wears_model)
+      if (const Result<Done> made = make_folder(options.folder + folder); !made) return made;
   for (const ImportFile& file : imported.files)
     if (const Result<Done> written = write_file(options.folder + "/" + file.name, file.text); !written) return written;
   return Done{};
@@ -77,17 +80,36 @@ void print_text(const Options& options, const Imported& imported) {
   std::printf("next: contort --library %s fuzz --character %s\n", shell_quoted(options.folder).c_str(), name.c_str());
 }
 
+// A .gltf may be several files: its figure is drawn by its colliders.
+bool is_one_file(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  return ending == ".glb" || ending == ".vrm";
+}
+
+// Before the report, which is the last file.
+Result<Done> add_model(const Options& options, Imported& imported) {
+  if (!options.import.wears_model) return Done{};
+  Result<std::string> bytes = read_file(options.model);
+  if (!bytes) return bytes.issue();
+  const std::string name = "skins/" + imported.cut.character.name + ".glb";
+  imported.files.insert(imported.files.end() - 1, {name, std::move(bytes).value()});
+  return Done{};
+}
+
 void run(Options options, Context& context) {
   if (options.import.name.empty()) options.import.name = name_of_file(options.model);
+  options.import.wears_model = !options.no_model && is_one_file(options.model);
   const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
   if (!asset) return context.fail(asset.issue());
-  const Result<Imported> imported = import_model(*asset, options.import);
-  if (!imported) return context.fail(imported.issue());
-  if (const Result<Done> free = refuse_existing(options, *imported); !free) return context.fail(free.issue());
-  if (const Result<Done> written = write_files(options, *imported); !written)
+  Result<Imported> made = import_model(*asset, options.import);
+  if (!made) return context.fail(made.issue());
+  Imported imported = std::move(made).value();
+  if (const Result<Done> added = add_model(options, imported); !added) return context.fail(added.issue());
+  if (const Result<Done> free = refuse_existing(options, imported); !free) return context.fail(free.issue());
+  if (const Result<Done> written = write_files(options, imported); !written)
     return context.fail(written.issue(), kInternal);
-  if (options.json) return print_json(options, *imported);
-  print_text(options, *imported);
+  if (options.json) return print_json(options, imported);
+  print_text(options, imported);
 }
 
 }  // namespace
@@ -108,6 +130,7 @@ void add_import(CLI::App& app, Context& context) {
   command->add_option("--skin", options->import.skin, "Which skin, where the file has several skeletons")
       ->check(CLI::Range(0, 1000000));
   command->add_flag("--mesh", options->import.draw_mesh, "Draw the model's triangles instead of the colliders");
+  command->add_flag("--no-model", options->no_model, "Leave the model's copy out: strips show the colliders");
   command->add_flag("--force", options->force, "Overwrite files that are there");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(

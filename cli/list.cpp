@@ -10,6 +10,7 @@
 #include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "fuzz/profile.h"
+#include "generator/character/skin_desc.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -84,7 +85,7 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
       {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
       {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
       {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema},
-      {"profile", profile_schema}};
+      {"profile", profile_schema}, {"skin", skin_schema}};
   return all;
 }
 

@@ -95,7 +95,11 @@ void add_render(CLI::App& app, Context& context) {
     std::string frames;
     std::string azimuth_deg;
     std::string clip;
+    std::string compared;
+    std::string tolerance_mm;
+    bool json = false;
     int tiles = 8;
+    bool colliders = false;
     bool rows = false;
     bool sheet = false;
   };
@@ -111,15 +115,26 @@ void add_render(CLI::App& app, Context& context) {
       ->type_name("DEGREES");
   command->add_option("--clip", options->clip, "The failing half second as a moving picture, too (WebP)")
       ->type_name("FILE");
+  command->add_option("--compare", options->compared, "Another case or spec, in a row below: says where the two part")
+      ->type_name("FILE");
+  command->add_option("--tolerance", options->tolerance_mm, "What is no farther apart is the same [1]")->type_name("MM");
+  command->add_flag("--json", options->json, "Print what --compare found as JSON");
+  command->add_flag("--colliders", options->colliders, "The shapes that checks judge, as wires around the figure");
   command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
   command->add_flag("--sheet", options->sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
   command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
       ->allow_extra_args(false);
-  command->footer("Example: contort render docs/examples/reach_hand.json -o strip.png");
+  command->footer(
+      "Example: contort render docs/examples/reach_hand.json -o strip.png\n"
+      "         contort render before.json --compare after.json -o difference.png");
   command->callback([options, &context] {
     if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
     std::vector<std::string> call = renderer_call(context);
     call.insert(call.end(), {"-o", options->output, "--tiles", std::to_string(options->tiles)});
+    if (!options->compared.empty()) call.insert(call.end(), {"--compare", options->compared});
+    if (!options->tolerance_mm.empty()) call.insert(call.end(), {"--tolerance", options->tolerance_mm});
+    if (options->json) call.push_back("--json");
+    if (options->colliders) call.push_back("--colliders");
     if (options->rows) call.push_back("--rows");
     if (options->sheet) {
       call.push_back("--sheet");

@@ -1,6 +1,6 @@
 // contort-render: draws film strips. One call draws one (FILE -o PNG), a row for each of several files (--rows FILE… -o
-// PNG), or many strips (--many FILE PNG FILE PNG …) with one OpenGL context. `contort render` and `contort report`
-// start it.
+// PNG), two files where they differ (FILE --compare FILE -o PNG), or many strips (--many FILE PNG FILE PNG …) with one
+// OpenGL context. `contort render` and `contort report` start it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -9,12 +9,15 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "renders/divergence.h"
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
+#include "renders/skin.h"
 
 namespace contort::cli {
 
@@ -30,7 +33,11 @@ struct Options {
   std::string clip;         // where the moving picture of one file goes; "": there is none
   std::string gl = "auto";
   std::string settings_file;
+  std::string compared;  // with the one file; "": with nothing
+  double tolerance_mm = 1000.0 * kSamePlace_m;
+  bool json = false;
   CheckSettings settings{};
+  bool colliders = false;
   bool clips = false;  // with `many`: beside each strip
   bool many = false;
   bool rows = false;
@@ -55,23 +62,44 @@ std::string clip_of(const Options& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
+// What all pictures of a call share.
+struct Studio {
+  StripRenderer renderer;
+  Library library;
+  Options options;
+  Wardrobe wardrobe;
+  std::vector<Issue> notes{};     // why figures have no skin, once each
+  std::set<std::string> noted{};  // characters
+
+  // nullptr: the figure is drawn as its parts say.
+  std::shared_ptr<const Skin> skin_of(const Character& character) {
+    const Result<std::shared_ptr<const Skin>> skin = wardrobe.skin_of(character);
+    if (skin) return *skin;
+    Issue issue = skin.issue();
+    issue.text += "; " + character.name() + " is drawn without its skin";
+    if (noted.insert(character.name()).second) notes.push_back(std::move(issue));
+    return nullptr;
+  }
+};
+
 // What a file shows, and what has to live as long as its pictures are drawn.
 struct Shown {
   SpecInput input;
   Stage stage;
   Evaluator evaluator;
   Evaluation evaluation;
+  std::shared_ptr<const Skin> skin{};
 };
 
-Result<std::unique_ptr<Shown>> evaluate(const Library& library, const CheckSettings& settings,
-                                        const std::string& file) {
+Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file) {
   Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
-  Result<Stage> stage = build_stage(input->spec, library);
+  Result<Stage> stage = build_stage(input->spec, studio.library);
   if (!stage) return stage.issue();
   auto shown = std::make_unique<Shown>(
-      Shown{std::move(input).value(), std::move(stage).value(), Evaluator(settings), {}});
+      Shown{std::move(input).value(), std::move(stage).value(), Evaluator(studio.options.settings), {}});
   shown->evaluation = shown->evaluator.run(shown->stage);
+  shown->skin = studio.skin_of(*shown->stage.character);
   return shown;
 }
 
@@ -85,15 +113,16 @@ StripInput strip_of(const Shown& shown, const Options& options, const std::strin
   strip.dynamics = &shown.input.spec.dynamics;
   strip.frames = options.frames;
   strip.azimuth_rad = options.azimuth_rad();
+  strip.colliders = options.colliders;
+  strip.skin = shown.skin.get();
   if (!options.labels.empty()) strip.title = options.labels.front();
   return strip;
 }
 
-Result<StripDone> draw(StripRenderer& renderer, const Library& library, const Options& options, const std::string& file,
-                       const std::string& png) {
-  const Result<std::unique_ptr<Shown>> shown = evaluate(library, options.settings, file);
+Result<StripDone> draw(Studio& studio, const std::string& file, const std::string& png) {
+  const Result<std::unique_ptr<Shown>> shown = evaluate(studio, file);
   if (!shown) return shown.issue();
-  return renderer.render(strip_of(**shown, options, file), png, clip_of(options, png));
+  return studio.renderer.render(strip_of(**shown, studio.options, file), png, clip_of(studio.options, png));
 }
 
 // A file of several, and what it makes.
@@ -102,17 +131,19 @@ struct Performed {
   Spec spec;
   Stage stage;
   Motion motion;
+  std::shared_ptr<const Skin> skin;
 };
 
-Result<std::vector<Performed>> perform_all(const Library& library, const std::vector<std::string>& files) {
+Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std::string>& files) {
   std::vector<Performed> all;
   for (const std::string& file : files) {
     Result<SpecInput> input = read_spec_input(file);
     if (!input) return input.issue();
-    Result<Stage> stage = build_stage(input->spec, library);
+    Result<Stage> stage = build_stage(input->spec, studio.library);
     if (!stage) return Issue{stage.issue().code, stage.issue().pointer, file + ": " + stage.issue().text};
     Motion motion = generate(*stage);
-    all.push_back({file, std::move(input->spec), std::move(stage).value(), std::move(motion)});
+    std::shared_ptr<const Skin> skin = studio.skin_of(*stage->character);
+    all.push_back({file, std::move(input->spec), std::move(stage).value(), std::move(motion), std::move(skin)});
   }
   return all;
 }
@@ -128,16 +159,20 @@ std::vector<int> frames_of(const Options& options, const std::vector<Performed>&
 std::string command_of(const Options& options, const std::vector<int>& frames) {
   std::string command = "contort render";
   for (const std::string& file : options.files) command += " " + shell_quoted(file);
-  command += " --rows --frames ";
+  command += options.compared.empty() ? " --rows" : " --compare " + shell_quoted(options.compared);
+  if (!options.compared.empty()) command += " --tolerance " + std::to_string(options.tolerance_mm);
+  command += " --frames ";
   for (const int frame : frames) command += (&frame == frames.data() ? "" : ",") + std::to_string(frame);
   if (!options.azimuth_deg.empty()) command += " --azimuth " + shell_quoted(options.azimuth_deg);
+  if (options.colliders) command += " --colliders";
   for (const std::string& label : options.labels) command += " --label " + shell_quoted(label);
   for (const std::string& folder : options.libraries) command += " --library " + shell_quoted(folder);
   return command;
 }
 
-Result<StripDone> draw_all(StripRenderer& renderer, const Library& library, const Options& options) {
-  const Result<std::vector<Performed>> all = perform_all(library, options.files);
+Result<StripDone> draw_all(Studio& studio) {
+  const Options& options = studio.options;
+  const Result<std::vector<Performed>> all = perform_all(studio, options.files);
   if (!all) return all.issue();
   RowsInput input;
   for (std::size_t i = 0; i < all->size(); ++i) {
@@ -146,38 +181,90 @@ Result<StripDone> draw_all(StripRenderer& renderer, const Library& library, cons
     input.rows.push_back({{.character = *one.stage.character,
                            .motion = one.motion,
                            .environment = &one.stage.environment,
-                           .dynamics = &one.spec.dynamics},
+                           .dynamics = &one.spec.dynamics,
+                           .colliders = options.colliders,
+                           .skin = one.skin.get()},
                           options.labels.empty() ? name : options.labels[i]});
   }
   input.frames = frames_of(options, *all);
   input.azimuth_rad = options.azimuth_rad();
   input.replay_command = command_of(options, input.frames);
-  return renderer.render_rows(input, options.output);
+  return studio.renderer.render_rows(input, options.output);
+}
+
+// Around the first difference, up to the last one; of frames that both have.
+std::vector<int> frames_of(const Options& options, const Divergence& divergence) {
+  if (!options.frames.empty()) return options.frames;
+  if (divergence.first.frame < 0) return spread_frames(divergence.frames, options.tiles);
+  return choose_frames(divergence.first.frame, divergence.worst.frame, divergence.last_frame, divergence.frames,
+                       options.tiles);
+}
+
+// Two rows: the first motion, and the second with the first as its ghost, where it is the same figure.
+RowsInput rows_of(const Options& options, const std::vector<Performed>& all, const Divergence& divergence,
+                  const Finding& where, const std::string& verdict) {
+  RowsInput input;
+  const bool same_figure = all[0].stage.character->hash() == all[1].stage.character->hash();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Performed& one = all[i];
+    const std::string name = std::filesystem::path(one.file).stem().string();
+    const std::string label = options.labels.empty() ? name : options.labels[i];
+    input.rows.push_back({{.character = *one.stage.character,
+                           .motion = one.motion,
+                           .finding = where.subject.empty() ? nullptr : &where,
+                           .ghost = i == 1 && same_figure && !divergence.none() ? &all[0].motion : nullptr,
+                           .environment = &one.stage.environment,
+                           .dynamics = &one.spec.dynamics,
+                           .colliders = options.colliders,
+                           .skin = one.skin.get()},
+                          i == 0 ? label : label + "   " + verdict});
+  }
+  input.frames = frames_of(options, divergence);
+  input.azimuth_rad = options.azimuth_rad();
+  if (divergence.first.frame >= 0) input.marked_frame = divergence.first.frame, input.mark = "first difference";
+  input.replay_command = command_of(options, input.frames);
+  return input;
+}
+
+Result<StripDone> draw_comparison(Studio& studio) {
+  const Options& options = studio.options;
+  const Result<std::vector<Performed>> all = perform_all(studio, {options.files.front(), options.compared});
+  if (!all) return all.issue();
+  const Performed &a = (*all)[0], &b = (*all)[1];
+  const double tolerance_m = options.tolerance_mm / 1000.0, rate_hz = a.motion.rate_hz;
+  const Result<Divergence> divergence =
+      find_divergence({*a.stage.character, a.motion}, {*b.stage.character, b.motion}, tolerance_m);
+  if (!divergence) return divergence.issue();
+  const std::string verdict = divergence_text(*divergence, tolerance_m, rate_hz);
+  std::printf("%s\n", options.json ? divergence_json(*divergence, tolerance_m, rate_hz).c_str() : verdict.c_str());
+  const Finding where{"difference", divergence->first.joint, "m"};
+  return studio.renderer.render_rows(rows_of(options, *all, *divergence, where, verdict), options.output);
 }
 
 constexpr int kSheetColumns = 5;
 constexpr std::size_t kMostSheetTiles = 1000;
 
 // In a narrow tile the end of the title is cut: the joint comes first.
-Result<Image> draw_tile(StripRenderer& renderer, const Shown& shown, const Options& options, const std::string& file) {
-  StripInput strip = strip_of(shown, options, file);
+Result<Image> draw_tile(Studio& studio, const Shown& shown, const std::string& file) {
+  StripInput strip = strip_of(shown, studio.options, file);
   if (strip.finding != nullptr) strip.title = strip.finding->subject + "  " + strip.finding->check;
-  return renderer.render_tile(strip);
+  return studio.renderer.render_tile(strip);
 }
 
 // A tile for each file; those that cannot be shown are left out, and `warnings` says so.
-Result<StripDone> draw_sheet(StripRenderer& renderer, const Library& library, const Options& options) {
+Result<StripDone> draw_sheet(Studio& studio) {
+  const Options& options = studio.options;
   StripDone done;
   std::vector<Image> tiles;
   for (const std::string& file : options.files) {
     if (tiles.size() == kMostSheetTiles) {
       const std::string all = std::to_string(options.files.size());
-      done.warnings.push_back(
-          {"render.too_many", "", "the sheet has the first " + std::to_string(tiles.size()) + " of " + all + " pictures"});
+      done.warnings.push_back({"render.too_many", "",
+                               "the sheet has the first " + std::to_string(tiles.size()) + " of " + all + " pictures"});
       break;
     }
-    const Result<std::unique_ptr<Shown>> shown = evaluate(library, options.settings, file);
-    Result<Image> tile = shown ? draw_tile(renderer, **shown, options, file) : Result<Image>(shown.issue());
+    const Result<std::unique_ptr<Shown>> shown = evaluate(studio, file);
+    Result<Image> tile = shown ? draw_tile(studio, **shown, file) : Result<Image>(shown.issue());
     if (tile)
       tiles.push_back(std::move(tile).value());
     else
@@ -206,6 +293,18 @@ int report(const Result<StripDone>& done) {
   return kClean;
 }
 
+int draw_what_is_asked(Studio& studio) {
+  const Options& options = studio.options;
+  if (!options.compared.empty()) return report(draw_comparison(studio));
+  if (options.rows) return report(draw_all(studio));
+  if (options.sheet) return report(draw_sheet(studio));
+  if (!options.many) return report(draw(studio, options.files.front(), options.output));
+  int code = kClean;
+  for (std::size_t i = 0; i < options.files.size(); i += 2)
+    if (const int one = report(draw(studio, options.files[i], options.files[i + 1])); one != kClean) code = one;
+  return code;
+}
+
 int run(Options options) {
   const Result<Library> library = load_libraries(options.libraries);
   if (!library) return fail(library.issue(), kBadInput);
@@ -215,33 +314,33 @@ int run(Options options) {
   options.settings.waivers.clear();  // what is waived is still there to be seen
   Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
-  StripRenderer drawing = std::move(renderer).value();
-  if (options.rows) return report(draw_all(drawing, *library, options));
-  if (options.sheet) return report(draw_sheet(drawing, *library, options));
-  if (!options.many) return report(draw(drawing, *library, options, options.files.front(), options.output));
-  int code = kClean;
-  for (std::size_t i = 0; i < options.files.size(); i += 2)
-    if (const int one = report(draw(drawing, *library, options, options.files[i], options.files[i + 1])); one != kClean)
-      code = one;
+  Wardrobe wardrobe(options.libraries);
+  Studio studio{std::move(renderer).value(), *library, std::move(options), std::move(wardrobe)};
+  const int code = draw_what_is_asked(studio);
+  for (const Issue& note : studio.notes) std::fprintf(stderr, "contort: %s\n", to_line(note).c_str());
   return code;
 }
 
 // Why the arguments do not fit together, "" where they do.
 std::string misfit(const Options& options) {
-  const std::size_t files = options.files.size();
+  const std::size_t files = options.files.size(), shown = files + (options.compared.empty() ? 0 : 1);
   if (options.many + options.rows + options.sheet > 1) return "--many, --rows and --sheet exclude each other";
+  if (options.compared.empty() && options.json) return "--json is what --compare found";
+  if (!options.compared.empty() && (options.many || options.rows || options.sheet || files > 1))
+    return "--compare sets one FILE beside another";
   if (options.sheet && !options.labels.empty()) return "--sheet takes no --label";
   if (!options.clip.empty() && options.clip == options.output) return "--clip and -o are the same file";
   if (options.sheet && !options.frames.empty()) return "--sheet shows the worst frame of each FILE";
   if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
   if (options.clips && !options.many) return "--clips needs --many";
-  if (!options.clip.empty() && (options.many || options.rows || options.sheet)) return "--clip is of one FILE";
+  if (!options.clip.empty() && (options.many || options.rows || options.sheet || !options.compared.empty()))
+    return "--clip is of one FILE";
   if (!options.many && options.output.empty()) return "expected -o PNG";
   if (!options.many && !options.rows && !options.sheet && files > 1)
     return "found " + std::to_string(files) +
            " files: with --rows they become the rows of one picture, with --sheet its tiles";
-  if (!options.labels.empty() && (options.many || options.labels.size() != files))
-    return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(files) +
+  if (!options.labels.empty() && (options.many || options.labels.size() != shown))
+    return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(shown) +
            " files, expected one for each";
   return "";
 }
@@ -263,6 +362,10 @@ int parse_and_run(int argc, char** argv) {
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
   app.add_option("--settings", options.settings_file, "Limits that are not the default ones");
   app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  app.add_option("--compare", options.compared, "Another motion, below the first one");
+  app.add_option("--tolerance", options.tolerance_mm, "Millimetres")->check(CLI::Range(0.0, 1e6))->check(refuse_nan);
+  app.add_flag("--json", options.json, "Print what --compare found as JSON");
+  app.add_flag("--colliders", options.colliders, "Show the shapes that are judged");
   app.add_flag("--rows", options.rows, "A row for each FILE");
   app.add_flag("--sheet", options.sheet, "A tile for each FILE");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");

@@ -50,11 +50,14 @@ std::string location_of(const Bucket& bucket, const std::string& path) {
   return is_below ? here : "buckets/" + folder_name(bucket) + "/" + bucket.min;
 }
 
+// Goes up when strips of the same case show something else: 2 joins nearest points and has skins.
+constexpr char kPictureStyle[] = "style 2";
+
 // Another picture has another name, so that one that is there already is right: what moves, what is written in it, and
 // by which limits it is judged.
 std::string picture_name(const ReportRow& row, const Case& stored, const std::string& settings) {
   const std::string shown = print_spec(stored.spec) + stored.expect.motion_hash + row.replay_command + settings +
-                            CONTORT_VERSION;
+                            CONTORT_VERSION + kPictureStyle;
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 

@@ -83,6 +83,7 @@ struct ImportOptions {
   double height_m = 0.0;         // 0: what the scale makes of it
   int skin = -1;                 // of the file; -1: the one that most vertices hang on
   bool draw_mesh = false;        // parts are drawn as the model's triangles
+  bool wears_model = false;      // skins/NAME.json is written, for the model's copy skins/NAME.glb
 };
 
 inline const Bone& bone_at(const RiggedFigure& figure, int index) {

@@ -4,6 +4,7 @@
 
 #include "checks/joint_map.h"
 #include "generator/character/library.h"
+#include "generator/character/skin_desc.h"
 #include "import/names.h"
 #include "import/roles.h"
 #include "import/skeleton.h"
@@ -44,11 +45,17 @@ Result<Character> build(const CutFigure& cut) {
   return build_character({cut.character.name, {}, {}}, *library);
 }
 
-void write_files(Imported& out) {
+SkinDesc skin_of(const Imported& imported) {
+  return {imported.cut.character.name + ".glb", imported.figure.metres_per_unit,
+          to_rotation_vector(imported.figure.world_from_model) * kDegPerRad, imported.cut.carrier_of_node};
+}
+
+void write_files(Imported& out, bool wears_model) {
   const std::string& name = out.cut.character.name;
   for (const PartDesc& part : out.cut.parts) out.files.push_back({part.name + ".json", print_part(part)});
   out.files.push_back({name + ".json", print_character(out.cut.character)});
   out.files.push_back({"maps/" + name + ".json", print_joint_map({out.cut.joint_of_node})});
+  if (wears_model) out.files.push_back({"skins/" + name + ".json", print_skin(skin_of(out))});
   out.files.push_back({name + ".import.md", write_report(out, name)});
 }
 
@@ -80,7 +87,7 @@ Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& op
   const Result<Character> character = build(out.cut);
   if (!character) return character.issue();
   for (const Joint& joint : character->joints()) out.mass_kg += joint.mass_kg;
-  write_files(out);
+  write_files(out, options.wears_model);
   return out;
 }
 

@@ -152,7 +152,7 @@ class PartWriter {
     joint.name = claim(limits.is_pair ? plain + "_flex" : plain);
     joint.parent = docks ? "" : joint_of_[at(own.parent)];
     joint.position_m = docks ? Vec3(0.0) : rounded(own.position_m - bone(own.parent).position_m, 1e5);
-    reports_[index] = {plan_.slot + "/" + joint.name, limits};
+    reports_[index] = {plan_.slot + "/" + joint.name, "", limits};
     if (limits.is_pair) {
       out_.joints.push_back(joint);
       joint.parent = joint.name;
@@ -167,6 +167,7 @@ class PartWriter {
     joint.center_of_mass_m = rounded(inertia.center_m, 1e5);
     for (int i = 0; i < 3; ++i) joint.inertia_kg_m2[i] = std::min(inertia.inertia_kg_m2[i][i], 1e6);
     joint_of_[at(index)] = joint.name;
+    reports_[index].carries = plan_.slot + "/" + joint.name;
     out_.joints.push_back(std::move(joint));
   }
 
@@ -302,7 +303,7 @@ CutFigure describe(const RiggedFigure& figure, const ClipPoses& poses, const std
   for (const BoneBody& body : plain.bodies) mass_kg += body.inertia.mass_kg;
   CutFigure out;
   out.bones.resize(figure.bones.size());
-  out.bones[0].joint = "root";
+  out.bones[0].joint = out.bones[0].carries = "root";
   out.character.name = name;
   out.character.help = "Imported from a rigged model; " + name + ".import.md says what was guessed.";
   for (std::size_t p = 0; p < plans.size(); ++p) {
@@ -317,9 +318,11 @@ CutFigure describe(const RiggedFigure& figure, const ClipPoses& poses, const std
                                    plan.carrier < 0 ? "" : plan.slot,
                                    {out.parts.back().name}});
   }
-  for (std::size_t b = 1; b < figure.bones.size(); ++b) {
+  for (std::size_t b = 0; b < figure.bones.size(); ++b) {
     const std::string& label = figure.bones[b].label;
-    if (!label.empty() && label.size() <= 200) out.joint_of_node[label] = out.bones[b].joint;
+    if (label.empty() || label.size() > 200) continue;
+    if (b > 0) out.joint_of_node[label] = out.bones[b].joint;
+    out.carrier_of_node[label] = out.bones[b].carries;
   }
   return out;
 }

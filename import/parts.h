@@ -25,7 +25,8 @@ Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
 
 // What was decided for a bone, for the report.
 struct BoneReport {
-  std::string joint;  // "arm_left/elbow"; "root" for the first one
+  std::string joint;    // "arm_left/elbow"; "root" for the first one
+  std::string carries;  // the last joint of several in one place, which moves the body
   BoneJoint limits;
 };
 
@@ -33,6 +34,7 @@ struct CutFigure {
   std::vector<PartDesc> parts;
   CharacterDesc character;
   std::map<std::string, std::string> joint_of_node;  // labels; without the root
+  std::map<std::string, std::string> carrier_of_node;  // the joint that a node's skin moves with; with the root
   std::vector<BoneReport> bones;
 };
 

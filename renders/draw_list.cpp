@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checks/distance.h"
+#include "generator/motion/kinematics.h"
+#include "renders/wires.h"
+
 namespace contort {
 namespace {
 
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
 constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Of the other one of a pair: red on red hides which is which.
 constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
+constexpr Vec3 kSkinColor{0.33, 0.37, 0.42};
 constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};
 constexpr Vec3 kPaleColor{0.80, 0.80, 0.79};
 constexpr double kMarkerRadius_m = 0.038;
+constexpr double kWire = 0.0016;  // radius, in sizes of the figure: about a pixel of a strip's tile
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -31,30 +37,32 @@ MeshShape as_mesh(const ColliderShape& shape) {
   return std::visit([](const auto& s) { return MeshShape(s); }, shape);
 }
 
-void add_mesh_pieces(Figure& figure, const Character& character, const Highlight& highlight) {
+void add_mesh_pieces(Figure& figure, const Character& character, const Highlight& highlight, bool wears_skin) {
   const std::vector<int> groups = highlight_groups(character, highlight);
   for (std::size_t i = 0; i < character.mesh().size(); ++i) {
     const MeshPiece& piece = character.mesh()[i];
+    if (wears_skin && !is_of_object(character, piece)) continue;
     const Vec3 color = groups[i] > 0 ? color_of(groups[i]) : highlight.empty() ? piece.color : muted(piece.color);
     figure.pieces.push_back({add_mesh(figure, piece.shape), piece.joint, color, groups[i]});
   }
 }
 
-bool drawn_as_it_is(const Character& character, const Collider& collider) {
-  return std::any_of(character.mesh().begin(), character.mesh().end(),
-                     [&](const MeshPiece& piece) { return looks_like(piece, collider); });
+bool drawn_as_it_is(const Character& character, const Collider& collider, bool wears_skin) {
+  return std::any_of(character.mesh().begin(), character.mesh().end(), [&](const MeshPiece& piece) {
+    return looks_like(piece, collider) && !(wears_skin && !is_of_object(character, piece));
+  });
 }
 
 // What was judged is the collider. Where the mesh differs from it, two parts that look apart may overlap.
-void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight) {
+void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight, bool wears_skin) {
   int group = 0;
   for (const std::vector<int>& solid : highlight.solids) {
     ++group;
-    const bool has_mesh = std::any_of(figure.pieces.begin(), figure.pieces.end(),
-                                      [&](const FigurePiece& piece) { return piece.highlight == group; });
+    const bool has_mesh = wears_skin || std::any_of(figure.pieces.begin(), figure.pieces.end(),
+                                                    [&](const FigurePiece& piece) { return piece.highlight == group; });
     for (const int index : solid) {
       const Collider& collider = character.colliders()[at(index)];
-      if (drawn_as_it_is(character, collider)) continue;
+      if (drawn_as_it_is(character, collider, wears_skin)) continue;
       figure.pieces.push_back(
           {add_mesh(figure, as_mesh(collider.shape)), collider.joint, color_of(group), group, has_mesh});
     }
@@ -83,12 +91,38 @@ void grow_box(const Triangles& triangles, Vec3& low, Vec3& high) {
 
 }  // namespace
 
-Figure make_figure(const Character& character, const Highlight& highlight) {
+Figure make_figure(const Character& character, const Highlight& highlight, bool wears_skin) {
   Figure figure;
-  add_mesh_pieces(figure, character, highlight);
-  add_judged_shapes(figure, character, highlight);
+  add_mesh_pieces(figure, character, highlight, wears_skin);
+  add_judged_shapes(figure, character, highlight, wears_skin);
   add_joint_markers(figure, highlight);
   return figure;
+}
+
+void add_wires(const Character& character, Figure& figure) {
+  const double radius_m = kWire * figure_size_m(character);
+  for (const Collider& collider : character.colliders()) {
+    figure.meshes.push_back(wire_triangles(collider.shape, radius_m));
+    figure.pieces.push_back({.mesh = static_cast<int>(figure.meshes.size()) - 1,
+                             .joint = collider.joint,
+                             .color = kWireColor,
+                             .mark = true});
+  }
+}
+
+double figure_size_m(const Character& character) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  Vec3 low(1e9), high(-1e9);
+  for (const Collider& collider : character.colliders()) {
+    const Solid solid = moved(world[at(collider.joint)], solid_of(collider));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 along(axis == 0, axis == 1, axis == 2);
+      low[axis] = std::min(low[axis], solid.center_m[axis] - extent_along(solid, -along));
+      high[axis] = std::max(high[axis], solid.center_m[axis] + extent_along(solid, along));
+    }
+  }
+  return character.colliders().empty() ? 1.0 : glm::length(high - low);
 }
 
 void add_instance(DrawList& list, const DrawInstance& instance) {
@@ -98,14 +132,27 @@ void add_instance(DrawList& list, const DrawInstance& instance) {
     list.complete = false;
 }
 
+Vec3 skin_color(int group, bool any_highlight) {
+  return group > 0 ? color_of(group) : any_highlight ? muted(kSkinColor) : kSkinColor;
+}
+
+Vec3 color_in(Look look, const Vec3& color, int highlight) {
+  if (look == Look::ghost) return kGhostColor;
+  return look == Look::pale && highlight == 0 ? kPaleColor : color;
+}
+
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look) {
   for (const FigurePiece& piece : figure.pieces) {
     const Rigid& at_joint = world[at(piece.joint)];
-    const bool pale = look == Look::pale && piece.highlight == 0;
     if (look != Look::ghost)
-      add_instance(list, {piece.mesh, at_joint, pale ? kPaleColor : piece.color, piece.highlight, piece.ghost});
-    else if (!piece.ghost)
-      add_instance(list, {piece.mesh, at_joint, kGhostColor, 0, true});
+      add_instance(list, {.mesh = piece.mesh,
+                          .world_from_mesh = at_joint,
+                          .color = piece.mark ? piece.color : color_in(look, piece.color, piece.highlight),
+                          .highlight = piece.highlight,
+                          .ghost = piece.ghost,
+                          .mark = piece.mark});
+    else if (!piece.ghost && !piece.mark)
+      add_instance(list, {piece.mesh, at_joint, color_in(look, piece.color, 0), 0, true});
   }
 }
 

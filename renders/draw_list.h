@@ -20,8 +20,9 @@ struct DrawInstance {
   Vec3 color{0.7};        // Linear RGB, each in [0, 1].
   int highlight =
       0;  // 0: none. n > 0: a thing that a finding is about (see highlight_groups); it shines through what hides it.
-  bool ghost = false;  // Translucent.
-  bool mark = false;   // A sign: it has no shadow, and shines through what hides it unless it is translucent.
+  bool ghost = false;   // Translucent.
+  bool mark = false;    // A sign: it has no shadow, and shines through what hides it unless it is translucent.
+  bool on_top = false;  // With `mark`: nothing hides it; of several the later one is above.
 };
 
 // Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
@@ -47,6 +48,7 @@ struct FigurePiece {
   Vec3 color{0.7};
   int highlight = 0;
   bool ghost = false;
+  bool mark = false;
 };
 
 struct Figure {
@@ -56,8 +58,18 @@ struct Figure {
 
 // Mesh pieces with their colours; what is highlighted is red and all else pale, because a character may be red itself.
 // Added to them: the highlighted colliders, where the mesh has another shape than what was judged, and a small sphere
-// at each highlighted joint.
-Figure make_figure(const Character& character, const Highlight& highlight);
+// at each highlighted joint. Of a figure that wears a skin, which is not here, the mesh of attached objects alone.
+Figure make_figure(const Character& character, const Highlight& highlight, bool wears_skin = false);
+
+// Of a skin's piece in this highlight group.
+Vec3 skin_color(int group, bool any_highlight);
+
+// Around it, as wires: the shape of every collider, which is what checks judge.
+inline constexpr Vec3 kWireColor{0.0, 0.16, 0.75};
+void add_wires(const Character& character, Figure& figure);
+
+// The diagonal of the box around the figure's colliders at rest; 1 where there are none.
+double figure_size_m(const Character& character);
 
 enum class Look {
   solid,  // in its own colours
@@ -67,6 +79,9 @@ enum class Look {
 
 // Appends one instance; one without a finite place is left out, and the list not complete.
 void add_instance(DrawList& list, const DrawInstance& instance);
+
+// What a piece of this colour and group looks like.
+Vec3 color_in(Look look, const Vec3& color, int highlight);
 
 // Appends the figure in the pose `world` (world_from_joint, one per joint).
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look = Look::solid);

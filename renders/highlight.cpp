@@ -95,10 +95,10 @@ int collider_of(const Character& character, const MeshPiece& piece) {
   return nearest;
 }
 
-// The joint itself, or the nearest joints below it that move a mesh piece.
-std::vector<bool> joints_with_mesh(const Character& character, int joint) {
-  std::vector<bool> has_mesh(character.joints().size(), false);
-  for (const MeshPiece& piece : character.mesh()) has_mesh[at(piece.joint)] = true;
+bool is_of_object(const Collider& collider) { return collider.name.starts_with("object:"); }
+
+// The joint itself, or the nearest joints below it that have a mesh.
+std::vector<bool> nearest_with(const std::vector<bool>& has_mesh, const Character& character, int joint) {
   std::vector<bool> searched(has_mesh.size(), false), found(has_mesh.size(), false);
   searched[at(joint)] = true;
   for (std::size_t j = at(joint); j < has_mesh.size(); ++j) {
@@ -110,6 +110,11 @@ std::vector<bool> joints_with_mesh(const Character& character, int joint) {
 }
 
 }  // namespace
+
+bool is_of_object(const Character& character, const MeshPiece& piece) {
+  const int collider = collider_of(character, piece);
+  return collider >= 0 && is_of_object(character.colliders()[at(collider)]);
+}
 
 bool looks_like(const MeshPiece& piece, const Collider& collider) {
   if (piece.joint != collider.joint) return false;
@@ -138,10 +143,31 @@ std::vector<int> highlight_groups(const Character& character, const Highlight& h
       if (std::find(solid.begin(), solid.end(), collider_of(character, mesh[i])) != solid.end()) groups[i] = group;
   }
   ++group;
+  std::vector<bool> has_mesh(character.joints().size(), false);
+  for (const MeshPiece& piece : mesh) has_mesh[at(piece.joint)] = true;
   for (const int joint : highlight.joints) {
-    const std::vector<bool> moved = joints_with_mesh(character, joint);
+    const std::vector<bool> moved = nearest_with(has_mesh, character, joint);
     for (std::size_t i = 0; i < mesh.size(); ++i)
       if (moved[at(mesh[i].joint)]) groups[i] = group;
+  }
+  return groups;
+}
+
+std::vector<int> highlight_groups_of_joints(const Character& character, const Highlight& highlight,
+                                            const std::vector<bool>& moved) {
+  std::vector<int> groups(character.joints().size(), 0);
+  int group = 0;
+  for (const std::vector<int>& solid : highlight.solids) {
+    ++group;
+    for (const int index : solid)
+      if (const Collider& collider = character.colliders()[at(index)]; !is_of_object(collider))
+        groups[at(collider.joint)] = group;
+  }
+  ++group;
+  for (const int joint : highlight.joints) {
+    const std::vector<bool> nearest = nearest_with(moved, character, joint);
+    for (std::size_t j = 0; j < groups.size(); ++j)
+      if (nearest[j]) groups[j] = group;
   }
   return groups;
 }

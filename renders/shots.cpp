@@ -6,6 +6,7 @@
 
 #include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "renders/contact_marks.h"
 #include "renders/range_marks.h"
 #include "renders/response_marks.h"
 #include "renders/scenery.h"
@@ -41,19 +42,26 @@ Result<Done> check_motion(const Character& character, const Motion& motion) {
 class Photographer {
  public:
   Photographer(const Story& story, const Figure& figure, const Highlight& highlight)
-      : story_(story), figure_(figure), world_(story.character.joints().size()) {
+      : story_(story),
+        figure_(figure),
+        highlight_(highlight),
+        environment_(environment_of(story)),
+        figure_m_(figure_size_m(story.character)),
+        world_(story.character.joints().size()) {
     if (story.finding && story.finding->check == "joint_range") ranged_ = highlight.joints;
+    if (story.skin) groups_ = highlight_groups_of_joints(story.character, highlight, story.skin->moved);
     if (has_response(story.motion)) physics_ = build_figure(story.character, find_legs(story.character), {});
   }
 
   DrawList shoot(int frame, std::vector<Triangles>& meshes) {
     DrawList list;
     const bool haunted = place_ghost(frame);
-    if (haunted) add_figure(list, figure_, world_, Look::ghost);
+    if (haunted) add_look(Look::ghost, list, meshes);
     place_figure(story_.motion.root[at(frame)], story_.motion.row(frame));
-    add_figure(list, figure_, world_, haunted ? Look::pale : Look::solid);
+    add_look(haunted ? Look::pale : Look::solid, list, meshes);
     for (const int joint : ranged_)
       add_range_mark(story_.character, joint, world_, story_.motion.row(frame), list, meshes);
+    if (const auto contact = contact_of_finding()) add_contact_mark(*contact, figure_m_, list, meshes);
     if (!physics_) return list;
     const ResponseFrame of{story_.character, *physics_, story_.motion, frame, world_};
     if (story_.dynamics) add_loads(story_.dynamics->loads, story_.character, world_, list, meshes);
@@ -66,6 +74,22 @@ class Photographer {
  private:
   void place_figure(const Rigid& root, std::span<const double> coords) {
     forward_kinematics(story_.character, root, coords, world_);
+  }
+
+  void add_look(Look look, DrawList& list, std::vector<Triangles>& meshes) const {
+    add_figure(list, figure_, world_, look);
+    if (!story_.skin) return;
+    PosedSkin posed = pose_skin(*story_.skin, world_, groups_);
+    list.complete = list.complete && posed.complete;
+    for (SkinPiece& piece : posed.pieces) {
+      const bool ghost = look == Look::ghost;
+      meshes.push_back(std::move(piece.triangles));
+      add_instance(list, {.mesh = static_cast<int>(meshes.size()) - 1,
+                          .world_from_mesh = {kNoRotation, posed.origin_m},
+                          .color = color_in(look, skin_color(piece.group, !highlight_.empty()), piece.group),
+                          .highlight = ghost ? 0 : piece.group,
+                          .ghost = ghost});
+    }
   }
 
   // false: there is none.
@@ -82,10 +106,21 @@ class Photographer {
     return story_.ghost || physics_;
   }
 
+  std::optional<NearestPoints> contact_of_finding() const {
+    if (!story_.finding) return {};
+    if (story_.finding->check == "obstacle_penetration")
+      return contact_with_obstacle(story_.character, environment_, highlight_, world_);
+    return contact_of_pair(story_.character, highlight_, world_);
+  }
+
   const Story& story_;
   const Figure& figure_;
+  const Highlight& highlight_;
+  Environment environment_;
+  double figure_m_;
   std::vector<Rigid> world_;
-  std::vector<int> ranged_;  // joints whose range is shown
+  std::vector<int> groups_;               // of joints, by highlight; for a skin
+  std::vector<int> ranged_;               // joints whose range is shown
   std::optional<DynamicFigure> physics_;  // of a motion with a response
 };
 
@@ -129,7 +164,8 @@ std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View
 Shots take_shots(const Story& story, std::span<const int> frames) {
   const Environment environment = environment_of(story);
   const Highlight highlight = story.finding ? highlighted(story.character, *story.finding) : Highlight{};
-  const Figure figure = make_figure(story.character, highlight);
+  Figure figure = make_figure(story.character, highlight, story.skin != nullptr);
+  if (story.colliders) add_wires(story.character, figure);
   Photographer photographer(story, figure, highlight);
   Shots shots;
   shots.meshes = figure.meshes;

@@ -10,6 +10,7 @@
 #include "generator/world/environment.h"
 #include "renders/camera.h"
 #include "renders/draw_list.h"
+#include "renders/skin.h"
 
 namespace contort {
 
@@ -22,6 +23,8 @@ struct Story {
   const Motion* ghost = nullptr;             // instead of the response's target
   const Environment* environment = nullptr;  // null: a level plane at height 0
   const DynamicsDesc* dynamics = nullptr;    // whose loads are drawn; null: none
+  bool colliders = false;                    // as wires around the figure
+  const Skin* skin = nullptr;                // of this character; null: its parts' meshes are drawn
 };
 
 struct Shots {

@@ -1,5 +1,7 @@
 #include "generator/character/shape.h"
 
+#include <array>
+
 #include "generator/character/polyhedron.h"
 #include "generator/core/detmath.h"
 
@@ -38,15 +40,34 @@ void add_quad(Triangles& out, const Vec3& a, const Vec3& b, const Vec3& c, const
   add_triangle(out, a, c, d);
 }
 
+// Of all rings and of all directions around: each corner of a capsule would ask for two of them.
+struct CapsuleAngles {
+  std::array<det::SinCos, 2 * kRings - 1> tilts;
+  std::array<det::SinCos, kSegments> turns;
+};
+
+const CapsuleAngles& capsule_angles() {
+  static const CapsuleAngles angles = [] {
+    CapsuleAngles made;
+    for (int step = 0; step < 2 * kRings - 1; ++step)
+      made.tilts[static_cast<std::size_t>(step)] = det::sincos(kPi * step / (2 * kRings - 2) - kPi / 2);
+    for (int segment = 0; segment < kSegments; ++segment)
+      made.turns[static_cast<std::size_t>(segment)] = det::sincos(2 * kPi * segment / kSegments);
+    return made;
+  }();
+  return angles;
+}
+
 // A capsule as rings of latitude; ring normals are exact, so that it looks round.
 Triangles tessellate_capsule(const Capsule& c) {
+  const CapsuleAngles& angles = capsule_angles();
   const Vec3 up = unit_or(c.b_m - c.a_m, Vec3(0, 1, 0));
   const Vec3 side = perpendicular(up);
   const Vec3 front = glm::cross(side, up);
   const auto normal = [&](int ring, int segment) {
     const int step = ring < kRings ? ring : ring - 1;  // the two rings at the equator share their normals
-    const det::SinCos tilt = det::sincos(kPi * step / (2 * kRings - 2) - kPi / 2);
-    const det::SinCos turn = det::sincos(2 * kPi * (segment % kSegments) / kSegments);
+    const det::SinCos& tilt = angles.tilts[static_cast<std::size_t>(step)];
+    const det::SinCos& turn = angles.turns[static_cast<std::size_t>(segment % kSegments)];
     return tilt.sin * up + tilt.cos * (turn.cos * side + turn.sin * front);
   };
   const auto point = [&](int ring, int segment) {

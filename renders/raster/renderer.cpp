@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat4x4.hpp>
 
+#include "renders/raster/matrices.h"
 #include "renders/raster/shaders.h"
 
 namespace contort {
@@ -25,39 +25,16 @@ bool is_ghost_figure(const DrawInstance& instance) {
   return instance.ghost && !instance.mark && instance.highlight == 0;
 }
 
+bool is_opaque(const DrawInstance& instance) { return !instance.ghost && !instance.on_top; }
+
+// Neither opaque, nor of another kind.
+bool is_translucent(const DrawInstance& instance) { return instance.ghost && !is_ghost_figure(instance); }
+
+bool shines_through(const DrawInstance& instance) {
+  return instance.highlight > 0 || (instance.mark && !instance.ghost && !instance.on_top);
+}
+
 bool casts_shadow(const DrawInstance& instance) { return !instance.ghost && !instance.mark; }
-
-glm::mat4 float_matrix(const Rigid& place, const Vec3& origin_m) {
-  glm::dmat4 matrix = glm::mat4_cast(place.q);
-  matrix[3] = glm::dvec4(place.p_m - origin_m, 1.0);
-  return glm::mat4(matrix);
-}
-
-glm::mat4 clip_matrix(const Camera& camera, double aspect) {
-  const Vec3 eye = camera.eye_m - camera.center_m;
-  const double near = 0.25, far = 4.0 * glm::length(eye) + 30.0;  // Less than the clearance that camera.cpp keeps.
-  glm::dmat4 view(1.0);
-  const Vec3 axes[] = {camera.right, camera.up, camera.back};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) view[column][row] = axes[row][column];
-    view[3][row] = -glm::dot(axes[row], eye);
-  }
-  glm::dmat4 projection(0.0);
-  projection[0][0] = 1.0 / (camera.tan_half_height * aspect);
-  projection[1][1] = 1.0 / camera.tan_half_height;
-  projection[2][2] = -(far + near) / (far - near);
-  projection[2][3] = -1.0;
-  projection[3][2] = -2.0 * far * near / (far - near);
-  return glm::mat4(projection * view);
-}
-
-// Flattens along the light onto the plane y = height.
-glm::mat4 shadow_matrix(const Vec3& to_light, double height) {
-  glm::dmat4 matrix(1.0);
-  matrix[1] = glm::dvec4(-to_light.x / to_light.y, 0.0, -to_light.z / to_light.y, 0.0);
-  matrix[3] = glm::dvec4(to_light.x / to_light.y * height, height, to_light.z / to_light.y * height, 1.0);
-  return glm::mat4(matrix);
-}
 
 }  // namespace
 
@@ -77,7 +54,6 @@ struct Renderer::Eye {
 
 struct Renderer::Paint {
   float alpha = 1.0f;
-  bool lit = true;
   float rim = 1.0f;
   const glm::mat4* flatten = nullptr;  // For shadows.
   const Vec3* color = nullptr;         // Instead of the instance's own.
@@ -97,7 +73,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(std::unique_ptr<GlBackend> ba
 
 Renderer::~Renderer() {
   if (!gl_.DeleteProgram || !backend_->make_current()) return;
-  for (const unsigned program : {solid_, background_, ground_, shaped_ground_})
+  for (const unsigned program : {solid_.program, flat_.program, background_, ground_, shaped_ground_})
     if (program) gl_.DeleteProgram(program);
   if (vertex_array_) gl_.DeleteVertexArrays(1, &vertex_array_);
   if (no_vertices_) gl_.DeleteVertexArrays(1, &no_vertices_);
@@ -105,17 +81,25 @@ Renderer::~Renderer() {
 }
 
 Result<Done> Renderer::set_up() {
+  const std::string level = std::string(shaders::kLevel) + shaders::kGroundFragment,
+                    shaped = std::string(shaders::kShaped) + shaders::kGroundFragment;
   const struct {
     unsigned& program;
     const char *vertex, *fragment;
-  } programs[] = {{solid_, shaders::kSolidVertex, shaders::kSolidFragment},
+  } programs[] = {{solid_.program, shaders::kSolidVertex, shaders::kSolidFragment},
+                  {flat_.program, shaders::kFlatVertex, shaders::kFlatFragment},
                   {background_, shaders::kBackgroundVertex, shaders::kBackgroundFragment},
-                  {ground_, shaders::kGroundVertex, shaders::kGroundFragment},
-                  {shaped_ground_, shaders::kSolidVertex, shaders::kGroundFragment}};
+                  {ground_, shaders::kGroundVertex, level.c_str()},
+                  {shaped_ground_, shaders::kSolidVertex, shaped.c_str()}};
   for (const auto& p : programs) {
     const Result<unsigned> made = make_program(gl_, p.vertex, p.fragment);
     if (!made) return made.issue();
     p.program = *made;
+  }
+  for (Solid* solid : {&solid_, &flat_}) {
+    solid->place = gl_.GetUniformLocation(solid->program, "world_from_mesh");
+    solid->color = gl_.GetUniformLocation(solid->program, "color");
+    solid->rim = gl_.GetUniformLocation(solid->program, "rim");
   }
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.GenVertexArrays(1, &no_vertices_);  // Core profile draws nothing without a vertex array, even an empty one.
@@ -174,7 +158,7 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int wid
   gl_.DepthFunc(GL_LESS);
   begin_solid(eye);
   for (const DrawInstance& instance : list.instances)
-    if (!instance.ghost) draw_instance(instance, eye, {});
+    if (is_opaque(instance)) draw_instance(instance, eye, {});
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.DepthMask(GL_FALSE);
@@ -182,8 +166,9 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera, int wid
   draw_translucent(list, eye);
   draw_obstacles(list, eye);
   draw_ghost_figure(list, eye);
-  gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_BLEND);
+  draw_on_top(list, eye);
+  gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   Image image = halve_and_flip(target_.read(), wide, high);
   if (Result<Done> fine = gl_errors(); !fine) return fine.issue();
@@ -198,13 +183,13 @@ Result<std::vector<int>> Renderer::count_visible(const DrawList& list, const Cam
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
-  begin_solid(eye);
+  begin_flat(eye.clip_from_world);
   std::vector<int> counts(1, 0);
   for (const DrawInstance& instance : list.instances) {
-    if (instance.ghost) continue;
+    if (!is_opaque(instance)) continue;
     const Vec3 group(instance.highlight / 255.0, 0.0, 0.0);
     counts.resize(std::max(counts.size(), static_cast<std::size_t>(instance.highlight) + 1), 0);
-    draw_instance(instance, eye, {.lit = false, .color = &group});
+    draw_instance(instance, eye, {.color = &group});
   }
   draw_hiding(list, eye);
   gl_.Disable(GL_DEPTH_TEST);
@@ -229,10 +214,9 @@ Result<Done> Renderer::draw_shadow_map(const DrawList& list, const Eye& eye) {
   if (Result<Done> ready = shadow_map_.use(); !ready) return ready;
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
-  begin_solid(eye);
-  set_matrix(solid_, "clip_from_world", eye.light_from_world);
+  begin_flat(eye.light_from_world);
   for (const DrawInstance& instance : list.instances)
-    if (casts_shadow(instance)) draw_instance(instance, eye, {.lit = false});
+    if (casts_shadow(instance)) draw_instance(instance, eye, {});
   gl_.Disable(GL_DEPTH_TEST);
   return Done{};
 }
@@ -261,7 +245,6 @@ void Renderer::begin_ground(unsigned program, const DrawList& list, const Eye& e
   set3(program, "middle", Vec3(0.0, list.scenery.level_m - eye.center_m.y, 0.0));
   set3(program, "world_origin", -eye.center_m);
   set1("reach", 0.75 * glm::length(eye.at));
-  set1("relief", program == shaped_ground_ ? 1.0 : 0.0);
   set1("show", show ? 1.0 : 0.0);
 }
 
@@ -279,7 +262,7 @@ void Renderer::draw_shaped_ground(const DrawList& list, const Eye& eye, bool sho
   shadow_map_.bind();
   for (const DrawInstance& instance : list.scenery.ground) {
     set_matrix(shaped_ground_, "world_from_mesh", float_matrix(instance.world_from_mesh, eye.center_m));
-    set_color(shaped_ground_, instance.color, kShapedGroundAlpha);
+    set_color(gl_.GetUniformLocation(shaped_ground_, "color"), instance.color, kShapedGroundAlpha);
     draw_range(instance);
   }
 }
@@ -291,23 +274,22 @@ void Renderer::draw_shadows(const DrawList& list, const Eye& eye) {
   gl_.Enable(GL_STENCIL_TEST);  // Each pixel once, or shadows of several parts would add up.
   gl_.StencilFunc(GL_EQUAL, 0, 0xff);
   gl_.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
-  begin_solid(eye);
+  begin_flat(eye.clip_from_world);
   for (const DrawInstance& instance : list.instances)
     if (casts_shadow(instance))
-      draw_instance(instance, eye, {.alpha = kShadowAlpha, .lit = false, .flatten = &flatten, .color = &kBlack});
+      draw_instance(instance, eye, {.alpha = kShadowAlpha, .flatten = &flatten, .color = &kBlack});
   gl_.Disable(GL_STENCIL_TEST);
 }
 
 void Renderer::draw_translucent(const DrawList& list, const Eye& eye) {
   begin_solid(eye);
   for (const DrawInstance& instance : list.instances)
-    if (instance.ghost && !is_ghost_figure(instance))
+    if (is_translucent(instance))
       draw_instance(instance, eye,
                     instance.mark ? Paint{.alpha = kMarkAlpha} : Paint{.alpha = kGhostAlpha, .rim = 0.45f});
   gl_.DepthFunc(GL_GREATER);  // Only where something is in front.
   for (const DrawInstance& instance : list.instances)
-    if (instance.highlight > 0 || (instance.mark && !instance.ghost))
-      draw_instance(instance, eye, {.alpha = kShineThroughAlpha});
+    if (shines_through(instance)) draw_instance(instance, eye, {.alpha = kShineThroughAlpha});
   gl_.DepthFunc(GL_LESS);
 }
 
@@ -324,6 +306,14 @@ void Renderer::draw_ghost_figure(const DrawList& list, const Eye& eye) {
       draw_instance(instance, eye, {.alpha = show ? kFigureAlpha : 0.0f});
     }
   }
+  gl_.DepthFunc(GL_LESS);
+}
+
+void Renderer::draw_on_top(const DrawList& list, const Eye& eye) {
+  begin_flat(eye.clip_from_world);
+  gl_.DepthFunc(GL_ALWAYS);
+  for (const DrawInstance& instance : list.instances)
+    if (instance.on_top) draw_instance(instance, eye, {});
   gl_.DepthFunc(GL_LESS);
 }
 
@@ -344,25 +334,31 @@ void Renderer::draw_hiding(const DrawList& list, const Eye& eye) {
   static constexpr Vec3 kNoGroup(0.0);
   gl_.Disable(GL_CULL_FACE);  // The eye may be below the ground.
   for (const auto* instances : {&list.scenery.ground, &list.scenery.obstacles})
-    for (const DrawInstance& instance : *instances) draw_instance(instance, eye, {.lit = false, .color = &kNoGroup});
+    for (const DrawInstance& instance : *instances) draw_instance(instance, eye, {.color = &kNoGroup});
 }
 
 void Renderer::begin_solid(const Eye& eye) {
-  gl_.UseProgram(solid_);
+  begin(solid_, eye.clip_from_world);
+  set3(solid_.program, "eye", eye.at);
+  set3(solid_.program, "to_light", eye.to_light);
+}
+
+void Renderer::begin_flat(const glm::mat4& clip_from_world) { begin(flat_, clip_from_world); }
+
+void Renderer::begin(const Solid& solid, const glm::mat4& clip_from_world) {
+  begun_ = &solid;
+  gl_.UseProgram(solid.program);
   gl_.BindVertexArray(vertex_array_);
   gl_.Enable(GL_CULL_FACE);  // Counter-clockwise seen from outside; halves the work.
-  set_matrix(solid_, "clip_from_world", eye.clip_from_world);
-  set3(solid_, "eye", eye.at);
-  set3(solid_, "to_light", eye.to_light);
+  set_matrix(solid.program, "clip_from_world", clip_from_world);
 }
 
 void Renderer::draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint) {
   glm::mat4 world_from_mesh = float_matrix(instance.world_from_mesh, eye.center_m);
   if (paint.flatten) world_from_mesh = *paint.flatten * world_from_mesh;
-  set_matrix(solid_, "world_from_mesh", world_from_mesh);
-  set_color(solid_, paint.color ? *paint.color : instance.color, paint.alpha);
-  gl_.Uniform1f(gl_.GetUniformLocation(solid_, "lit"), paint.lit ? 1.0f : 0.0f);
-  gl_.Uniform1f(gl_.GetUniformLocation(solid_, "rim"), paint.rim);
+  gl_.UniformMatrix4fv(begun_->place, 1, GL_FALSE, glm::value_ptr(world_from_mesh));
+  set_color(begun_->color, paint.color ? *paint.color : instance.color, paint.alpha);
+  gl_.Uniform1f(begun_->rim, paint.rim);  // Without effect where the program has none.
   draw_range(instance);
 }
 
@@ -381,9 +377,8 @@ void Renderer::set3(unsigned program, const char* name, const Vec3& v) {
                 static_cast<float>(v.z));
 }
 
-void Renderer::set_color(unsigned program, const Vec3& color, float alpha) {
-  gl_.Uniform4f(gl_.GetUniformLocation(program, "color"), static_cast<float>(color.x), static_cast<float>(color.y),
-                static_cast<float>(color.z), alpha);
+void Renderer::set_color(int location, const Vec3& color, float alpha) {
+  gl_.Uniform4f(location, static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z), alpha);
 }
 
 }  // namespace contort

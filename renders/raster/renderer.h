@@ -46,6 +46,11 @@ class Renderer {
     int first = 0;
     int count = 0;
   };
+  // A program that draws triangles, and where its uniforms are.
+  struct Solid {
+    unsigned program = 0;
+    int place = -1, color = -1, rim = -1;
+  };
   struct Paint;
   struct Eye;
 
@@ -66,16 +71,21 @@ class Renderer {
   void draw_hiding(const DrawList& list, const Eye& eye);
   void draw_translucent(const DrawList& list, const Eye& eye);
   void draw_ghost_figure(const DrawList& list, const Eye& eye);
-  void begin_solid(const Eye& eye);
+  void draw_on_top(const DrawList& list, const Eye& eye);
+  void begin_solid(const Eye& eye);                   // Instances are shaded from now on,
+  void begin_flat(const glm::mat4& clip_from_world);  // or have their colour as it is.
+  void begin(const Solid& solid, const glm::mat4& clip_from_world);
   void draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint);
   void draw_range(const DrawInstance& instance);
   void set_matrix(unsigned program, const char* name, const glm::mat4& matrix);
   void set3(unsigned program, const char* name, const Vec3& v);
-  void set_color(unsigned program, const Vec3& color, float alpha);
+  void set_color(int location, const Vec3& color, float alpha);
 
   std::unique_ptr<GlBackend> backend_;
   Gl gl_;
-  unsigned solid_ = 0, background_ = 0, ground_ = 0, shaped_ground_ = 0;  // programs
+  Solid solid_, flat_;
+  const Solid* begun_ = nullptr;                              // one of the two
+  unsigned background_ = 0, ground_ = 0, shaped_ground_ = 0;  // programs
   unsigned vertex_array_ = 0, no_vertices_ = 0, buffer_ = 0;
   std::vector<Range> ranges_;
   Target target_;

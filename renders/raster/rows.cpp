@@ -17,6 +17,8 @@ constexpr int kNumberSize = 14;
 constexpr Rgb8 kPaper{24, 29, 36};
 constexpr Rgb8 kLabelColor{240, 243, 246};
 constexpr Rgb8 kNumberColor{40, 48, 60};
+constexpr Rgb8 kMarkColor{200, 20, 20};
+constexpr int kMarkWidth = 4;
 
 // Labels, tiles with their frames' numbers, and what they are put on.
 class Table {
@@ -34,14 +36,26 @@ class Table {
   void add_tile(int row, int column, const Image& picture, int frame, bool complete) {
     const int x = kGap + column * (input_.tile_width + kGap), y = top_of(row);
     paste(image_, picture, x, y);
+    const bool marked = input_.marked_frame == frame;
+    if (marked) add_mark(x, y);
     const std::string text = std::to_string(frame) + (complete ? "" : " NOT FINITE");
-    write(x + kPadding, y + 18, input_.tile_width - 2 * kPadding, text, kNumberSize, kNumberColor);
+    const int width = input_.tile_width - 2 * kPadding;
+    write(x + kPadding, y + 18, width, text, kNumberSize, marked ? kMarkColor : kNumberColor);
+    if (marked) write(x + kPadding, y + input_.tile_height - 11, width, input_.mark, kNumberSize, kMarkColor);
   }
 
   Image image() && { return std::move(image_); }
 
  private:
   int top_of(int row) const { return kBand + row * (kBand + input_.tile_height); }
+
+  void add_mark(int x, int y) {
+    const int width = input_.tile_width, height = input_.tile_height;
+    fill(image_, x, y, width, kMarkWidth, kMarkColor);
+    fill(image_, x, y + height - kMarkWidth, width, kMarkWidth, kMarkColor);
+    fill(image_, x, y, kMarkWidth, height, kMarkColor);
+    fill(image_, x + width - kMarkWidth, y, kMarkWidth, height, kMarkColor);
+  }
 
   void write(int x, int y, int width, const std::string& text, int size, Rgb8 color) {
     if (no_text_) return;  // One warning is enough.

@@ -3,9 +3,10 @@
 
 namespace contort::shaders {
 
-// Everything with triangles. `lit` 0 writes the colour as it is, 1 shades it; `rim` is how much of a translucent
-// surface stays where one looks at it squarely (1: all). A software rasterizer feels each pow(): the highlight is a
-// 16th power by squaring, and gamma is 2.
+// A software rasterizer runs both sides of every branch, so what differs in kind is a program of its own.
+
+// Everything with triangles. `rim` is how much of a translucent surface stays where one looks at it squarely (1: all).
+// Each pow() is felt: the highlight is a 16th power by squaring, and gamma is 2.
 inline constexpr char kSolidVertex[] = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -27,14 +28,9 @@ in vec3 facing;
 uniform vec4 color;
 uniform vec3 eye;
 uniform vec3 to_light;
-uniform float lit;
 uniform float rim;
 out vec4 pixel;
 void main() {
-  if (lit < 0.5) {
-    pixel = color;
-    return;
-  }
   vec3 n = normalize(facing);
   vec3 view = normalize(eye - at);
   float toward = dot(n, view);
@@ -47,6 +43,20 @@ void main() {
   vec3 linear = color.rgb * light + vec3(0.10 * shine * key);
   pixel = vec4(sqrt(min(linear, vec3(1.0))), color.a * mix(edge, 1.0, rim));
 }
+)";
+
+// The colour as it is.
+inline constexpr char kFlatVertex[] = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 clip_from_world;
+uniform mat4 world_from_mesh;
+void main() { gl_Position = clip_from_world * (world_from_mesh * vec4(position, 1.0)); }
+)";
+
+inline constexpr char kFlatFragment[] = R"(#version 330 core
+uniform vec4 color;
+out vec4 pixel;
+void main() { pixel = color; }
 )";
 
 // One triangle that covers the picture, shaded from `bottom` to `top`.
@@ -67,36 +77,30 @@ out vec4 pixel;
 void main() { pixel = mix(bottom, top, clamp(height, 0.0, 1.0)); }
 )";
 
-// Level ground: a square around `middle` with a line each metre, fainter ones each 25 cm, all fading toward `reach`.
+// Level ground: a square around `middle`.
 inline constexpr char kGroundVertex[] = R"(#version 330 core
 uniform mat4 clip_from_world;
 uniform vec3 middle;
 uniform float reach;
 out vec3 at;
-out vec3 facing;
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
   at = middle + vec3(corner.x, 0.0, corner.y) * reach;
-  facing = vec3(0.0, 1.0, 0.0);
   gl_Position = clip_from_world * vec4(at, 1.0);
 }
 )";
 
-// `relief` 1 is for ground with a shape, which comes through kSolidVertex: shaded, less translucent, darker on risers,
-// and with the shadow from the map; 0 leaves level ground as flat as it is, its shadows are drawn onto it. `show` 0
-// draws nothing but depth.
-inline constexpr char kGroundFragment[] = R"(#version 330 core
+// Ground, of two kinds, after one of the two lines below: a line each metre, fainter ones each 25 cm, all fading toward
+// `reach`. Shaped ground comes through kSolidVertex: shaded, less translucent, darker on risers, and with the shadow from
+// the map; level ground is left as flat as it is, its shadows are drawn onto it. `show` 0 draws nothing but depth.
+inline constexpr char kLevel[] = "#version 330 core\n";
+inline constexpr char kShaped[] = "#version 330 core\n#define SHAPED\n";
+inline constexpr char kGroundFragment[] = R"(
 in vec3 at;
-in vec3 facing;
 uniform vec3 middle;
 uniform vec3 world_origin;
 uniform float reach;
-uniform float relief;
 uniform float show;
-uniform vec4 color;
-uniform vec3 to_light;
-uniform mat4 light_from_world;
-uniform sampler2DShadow nearest_to_light;
 out vec4 pixel;
 
 // Coverage of lines that are `width` pixels wide. Where several lines share a pixel they fade instead of flickering.
@@ -108,29 +112,38 @@ float lines(vec2 place, float step, float width) {
   return max(cover.x, cover.y);
 }
 
+#ifdef SHAPED
+in vec3 facing;
+uniform vec4 color;
+uniform vec3 to_light;
+uniform mat4 light_from_world;
+uniform sampler2DShadow nearest_to_light;
+
 float shadow(vec3 n) {
   vec3 seen = (light_from_world * vec4(at, 1.0)).xyz * 0.5 + 0.5;
   bool outside = any(lessThan(seen, vec3(0.0))) || any(greaterThan(seen, vec3(1.0)));
   return outside || dot(n, to_light) <= 0.0 ? 0.0 : 1.0 - texture(nearest_to_light, seen - vec3(0.0, 0.0, 0.002));
 }
 
-vec4 shaded(float line) {
+vec4 ground(float line) {
   vec3 n = normalize(facing);
   float slant = 1.0 - smoothstep(0.0, 0.5, n.y);  // 1 on a riser, which a line along it would paint as a whole
   float light = 0.62 + 0.5 * max(dot(n, to_light), 0.0) - 0.3 * slant;
   vec3 surface = mix(sqrt(color.rgb) * light, vec3(0.24, 0.29, 0.36), clamp(line * 1.6, 0.0, 1.0) * (1.0 - slant));
   return vec4(mix(surface, vec3(0.05, 0.07, 0.10), 0.3 * shadow(n)), color.a);
 }
+#else
+vec4 ground(float line) {
+  vec3 color = mix(vec3(0.70, 0.73, 0.77), vec3(0.24, 0.29, 0.36), clamp(line * 2.0, 0.0, 1.0));
+  return vec4(color, 0.20 + 0.80 * line);
+}
+#endif
 
 void main() {
   vec2 place = (at - world_origin).xz;
   float fade = 1.0 - smoothstep(0.35, 1.0, length((at - middle).xz) / reach);
   float line = max(0.42 * lines(place, 1.0, 2.6), 0.16 * lines(place, 0.25, 1.6));
-  float alpha = fade * (0.20 + 0.80 * line);
-  vec3 color_of_level = mix(vec3(0.70, 0.73, 0.77), vec3(0.24, 0.29, 0.36), clamp(line * 2.0, 0.0, 1.0));
-  pixel = vec4(color_of_level, alpha);
-  if (relief > 0.5) pixel = shaded(line) * vec4(1.0, 1.0, 1.0, fade);
-  pixel.a *= show;
+  pixel = ground(line) * vec4(1.0, 1.0, 1.0, fade * show);
 }
 )";
 

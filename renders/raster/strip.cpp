@@ -16,7 +16,8 @@ namespace contort {
 namespace {
 
 Story story_of(const StripInput& input) {
-  return {input.character, input.motion, input.finding, input.ghost, input.environment, input.dynamics};
+  return {input.character, input.motion, input.finding, input.ghost, input.environment, input.dynamics,
+          input.colliders, input.skin};
 }
 
 Result<Done> check_input(const StripInput& input) {

@@ -37,6 +37,8 @@ struct StripInput {
   const DynamicsDesc* dynamics = nullptr;    // Of the spec: its loads are drawn. Null: none.
   std::vector<int> frames{};                 // Empty: `tiles` of them are chosen.
   std::optional<double> azimuth_rad{};       // Where to look from, see View. None: from where most is seen.
+  bool colliders = false;                    // Drawn as wires around the figure.
+  const Skin* skin = nullptr;                // Drawn instead of the parts' meshes.
 };
 
 // Several motions below one another: what one and the same action becomes under different conditions.
@@ -49,6 +51,8 @@ struct RowsInput {
   std::vector<StripRow> rows;           // 1 to 16
   std::vector<int> frames;              // Of every row, 1 to 16; their numbers are in the tiles' corners.
   std::optional<double> azimuth_rad{};  // As in StripInput; chosen for the first row's middle tile.
+  std::optional<int> marked_frame{};    // Its tiles have a red frame, and say `mark`.
+  std::string mark{};
   std::string replay_command{};
   int tile_width = 176;  // Pixels, in [96, 2048].
   int tile_height = 208;

@@ -45,6 +45,31 @@ TEST_F(ImportCommand, MakesALibraryThatFuzzesAtOnce) {
   EXPECT_NE(fuzz.out.find("cases=5"), std::string::npos) << fuzz.out;
 }
 
+TEST_F(ImportCommand, TakesTheModelAlongForPictures) {
+  const std::string path = model(testing::rigged(testing::person()));
+  ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);
+  EXPECT_EQ(slurp(library() + "/skins/some_one.glb"), slurp(path));
+  const std::string spec = folder_ / "spec.json", picture = folder_ / "picture.png";
+  spill(spec, R"({"format":"contort.spec/1","character":{"name":"some_one"},"hold_frames":3})");
+  const auto draw = [&] {
+    const Ran ran = contort_program({"--library", library(), "render", spec, "-o", picture, "--tiles", "1"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return std::pair(slurp(picture), ran.err);
+  };
+  const auto [worn, no_note] = draw();
+  EXPECT_EQ(no_note, "");
+  fs::remove(library() + "/skins/some_one.glb");
+  const auto [plain, note] = draw();
+  EXPECT_NE(plain, worn);
+  EXPECT_NE(note.find("skin.no_model"), std::string::npos) << note;
+  EXPECT_NE(note.find("some_one is drawn without its skin"), std::string::npos) << note;
+}
+
+TEST_F(ImportCommand, LeavesTheModelWhereItIsWhenAsked) {
+  ASSERT_EQ(contort_program({"import", model(testing::rigged(testing::person())), "-o", library(), "--no-model"}).code, 0);
+  EXPECT_FALSE(fs::exists(library() + "/skins"));
+}
+
 TEST_F(ImportCommand, KeepsWhatIsThereUnlessForced) {
   const std::string path = model(testing::rigged(testing::person()));
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);

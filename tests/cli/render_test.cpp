@@ -1,6 +1,8 @@
 // Pictures from the command line.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_corpus.h"
 
@@ -85,6 +87,50 @@ TEST_F(Render, DrawsWhatMoves) {
   EXPECT_TRUE(slurp(folder_ / "a.webp").starts_with("RIFF"));
   EXPECT_NE(refusal({a_, c_, "--rows", "--clip", folder_ / "b.webp"}), "");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b.webp"));
+}
+
+TEST_F(Render, SaysWhereTwoMotionsPart) {
+  const auto compare = [&](const std::string& other, std::vector<std::string> more = {}) {
+    std::filesystem::remove(picture());
+    std::vector<std::string> arguments = {"--library", kSquat + "actions", "render", a_, "--compare", other, "-o", picture()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = contort_program(arguments);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_TRUE(std::filesystem::exists(picture()));
+    return ran.out;
+  };
+  EXPECT_EQ(compare(a_).rfind("no difference (", 0), 0U);
+  EXPECT_EQ(size(), std::make_pair(8 * 178 + 2, 2 * 234 + 2));
+  const std::string same = slurp(picture());
+  EXPECT_EQ(compare(c_).rfind("first difference at frame ", 0), 0U);
+  EXPECT_NE(slurp(picture()), same);
+  EXPECT_EQ(compare(c_, {"--tolerance", "10000"}).rfind("no difference (", 0), 0U);
+  const auto json = nlohmann::json::parse(compare(c_, {"--json"}));
+  EXPECT_FALSE(json["same"].get<bool>());
+  EXPECT_GE(json["first_difference"]["frame"].get<int>(), 0);
+  EXPECT_EQ(json["tolerance_m"], 0.001);
+  EXPECT_TRUE(nlohmann::json::parse(compare(a_, {"--json"}))["same"].get<bool>());
+}
+
+TEST_F(Render, SaysWhyItCannotCompare) {
+  EXPECT_NE(refusal({a_, "--compare", folder_ / "missing.json"}).find("missing.json"), std::string::npos);
+  EXPECT_NE(refusal({a_, c_, "--compare", a_}).find("one FILE beside another"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--rows", "--compare", c_}).find("one FILE beside another"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--compare", c_, "--label", "(a)"}).find("1 labels for 2 files"), std::string::npos);
+  EXPECT_NE(refusal({a_, "--compare", c_, "--clip", folder_ / "a.webp"}), "");
+  EXPECT_NE(refusal({a_, "--json"}).find("--compare"), std::string::npos);
+  for (const char* tolerance : {"nan", "-1", "x"}) EXPECT_NE(refusal({a_, "--compare", c_, "--tolerance", tolerance}), "");
+}
+
+TEST_F(Render, DrawsColliders) {
+  for (const std::vector<std::string>& how : {std::vector<std::string>{a_, "--frames", "0"}, {a_, "--rows", "--frames", "0"}, {a_, "--sheet"}}) {
+    EXPECT_EQ(refusal(how), "");
+    const std::string plain = slurp(picture());
+    std::vector<std::string> with = how;
+    with.push_back("--colliders");
+    EXPECT_EQ(refusal(with), "");
+    EXPECT_NE(slurp(picture()), plain);
+  }
 }
 
 TEST_F(Render, SaysWhatDoesNotFitTogether) {

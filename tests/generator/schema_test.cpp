@@ -10,6 +10,7 @@
 #include "corpus/case.h"
 #include "fuzz/profile.h"
 #include "generator/character/library.h"
+#include "generator/character/skin_desc.h"
 #include "generator/core/files.h"
 #include "generator/spec.h"
 
@@ -32,6 +33,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("character"), character_schema());
   EXPECT_EQ(published("action"), action_schema());
   EXPECT_EQ(published("map"), joint_map_schema());
+  EXPECT_EQ(published("skin"), skin_schema());
   EXPECT_EQ(published("bucket"), bucket_schema());
   EXPECT_EQ(published("profile"), profile_schema());
 }

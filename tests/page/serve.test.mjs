@@ -5,7 +5,7 @@ import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { openPage, options, seriousProblems, settle } from './support.mjs';
+import { openApiValidator, openPage, options, seriousProblems, settle } from './support.mjs';
 
 const canServe = options.contort && spawnSync(options.contort, ['serve', '--help']).status === 0 &&
   existsSync(join(dirname(options.contort), 'page', 'play.html'));
@@ -37,6 +37,16 @@ after(async () => {
   server.kill();
   await ended;
   rmSync(scratch, { recursive: true, force: true });
+});
+
+test('the document of the calls is OpenAPI 3.1', need, async () => {
+  const Validator = await openApiValidator();
+  const document = await (await fetch(`${url}api`)).json();
+  const found = await new Validator().validate(document);
+  assert.deepEqual(found.errors ?? [], []);
+  assert.ok(found.valid);
+  delete document.info.version;
+  assert.equal((await new Validator().validate(document)).valid, false, 'one without a version is not');
 });
 
 const api = async (path) => (await fetch(`${url}api/${path}`)).json();

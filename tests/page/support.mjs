@@ -12,6 +12,8 @@ export const options = JSON.parse(process.env.CONTORT_PAGE_TEST ?? '{}');
 const require = createRequire(join(resolve(options.modules ?? 'node_modules'), 'x.js'));
 const axePath = () => require.resolve('axe-core/axe.min.js');
 export const validator = () => require('gltf-validator');
+export const openApiValidator = async () =>
+  (await import(pathToFileURL(require.resolve('@seriousme/openapi-schema-validator')).href)).Validator;
 
 const kCommon = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync'];

@@ -10,6 +10,7 @@
 #include "generator/stage.h"
 #include "renders/raster/strip.h"
 #include "tests/renders/raster/png.h"
+#include "tests/corpus/temp_folder.h"
 #include "tests/scenes.h"
 
 namespace contort {
@@ -76,12 +77,8 @@ constexpr double kTolerance = 0.001;
 
 class Golden : public testing::Test {
  protected:
-  Golden() : folder_(std::filesystem::path(testing::TempDir()) / "contort_golden") {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Golden() override { std::filesystem::remove_all(folder_); }
-  std::string drawn(const std::string& name) const { return (folder_ / (name + ".png")).string(); }
-  std::filesystem::path folder_;
+  std::string drawn(const std::string& name) const { return folder_ / (name + ".png"); }
+  TempFolder folder_;  // each run's own: two drivers are tried at the same time
 };
 
 TEST_F(Golden, ScenesLookAsTheyDid) {

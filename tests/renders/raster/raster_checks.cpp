@@ -188,6 +188,15 @@ TEST(Renderer, LetsMarksShineThroughAndGivesThemNoShadow) {
   EXPECT_LT(without, with_shadow - 50);
 }
 
+TEST(Renderer, DrawsOverEverythingWhatIsOnTop) {
+  DrawInstance behind = Scene::ball(-0.5, 0), before = Scene::ball(0.5, 0);
+  for (DrawInstance* ball : {&behind, &before}) ball->mark = ball->on_top = true;
+  const long hidden = redness(draw(list_of({Scene().wall, behind}))), seen = redness(draw(list_of({Scene().wall, before})));
+  EXPECT_GT(hidden, 10000);
+  EXPECT_GT(seen, hidden) << "it is nearer";
+  EXPECT_LT(seen, 3 * hidden) << "and as bright";
+}
+
 TEST(Renderer, CountsWhatIsVisible) {
   const Scene scene;
   const std::unique_ptr<Renderer> renderer = make_renderer();
@@ -198,6 +207,9 @@ TEST(Renderer, CountsWhatIsVisible) {
   EXPECT_EQ(visible[0], 0);
   EXPECT_GT(visible[1], 100);
   EXPECT_EQ(visible[2], 0);
+  DrawInstance sign = Scene::ball(0.6, 0);
+  sign.mark = sign.on_top = true;
+  EXPECT_EQ(count(list_of({scene.wall, Scene::ball(0.5, 1), Scene::ball(-0.5, 2), sign})), visible);
 }
 
 TEST(Renderer, RefusesSizesThatCannotBe) {

@@ -150,6 +150,33 @@ TEST_F(Strip, IsRedWhereTheFindingIs) {
   EXPECT_EQ(red_pixels(read_png(path("without.png")).image, without), 0);
 }
 
+// Also in the worst frame, in which the other one hides the deepest points.
+TEST_F(Strip, JoinsThePairWhereItIsNearest) {
+  const auto yellow_pixels = [&](const StripInput& strip) {
+    EXPECT_TRUE(render_strip(strip, path("a.png")).ok());
+    const Image image = read_png(path("a.png")).image;
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+      count += image.rgb[i] > 240 && image.rgb[i + 1] > 220 && image.rgb[i + 2] < 60 ? 1 : 0;
+    return count;
+  };
+  finding_.subject = "arm_left/forearm ~ torso/trunk";
+  EXPECT_GT(yellow_pixels(input()), 8 * 20);
+  finding_.subject = "arm_left/forearm";
+  EXPECT_EQ(yellow_pixels(input()), 0);
+}
+
+TEST_F(Strip, HasWiresAroundEveryCollider) {
+  StripInput with = input();
+  with.colliders = true;
+  const Result<StripDone> done = render_strip(with, path("a.png"));
+  ASSERT_TRUE(done.ok());
+  const Image image = read_png(path("a.png")).image;
+  int blue = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) blue += image.rgb[i + 2] > image.rgb[i] + 60 ? 1 : 0;
+  EXPECT_GT(blue, 8 * 100);
+}
+
 TEST_F(Strip, HighlightsJoints) {
   finding_.check = "joint_range";
   finding_.subject = "arm_left/elbow max";

@@ -1,0 +1,50 @@
+// Where two motions part: what can be seen of them, joint by joint, in frames of the same number.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/character/character.h"
+#include "generator/core/result.h"
+#include "generator/motion/motion.h"
+
+namespace contort {
+
+inline constexpr double kSamePlace_m = 0.001;
+
+// Joints are compared by name: the place of a joint, and of the points that span the colliders on it, by which a hand
+// that only turns is found too. Two places that are not finite are the same.
+struct Divergence {
+  struct At {
+    int frame = -1;
+    std::string joint;     // that is farthest from where it is in the other motion
+    double apart_m = 0.0;  // greater than the tolerance, or NaN where one of the two has no place
+  };
+  At first, worst;                  // of frames that both have; frame -1: no difference there
+  int last_frame = -1;              // the last one that is different
+  int frames = 0;                   // that both have
+  int frames_a = 0, frames_b = 0;   // that each has
+  int joints = 0;                   // that both have
+  std::vector<std::string> only_a;  // joints that the other one lacks
+  std::vector<std::string> only_b;
+
+  bool same_length() const { return frames_a == frames_b; }
+  bool none() const { return first.frame < 0 && same_length() && only_a.empty() && only_b.empty(); }
+};
+
+struct Performance {
+  const Character& character;
+  const Motion& motion;  // of this character
+};
+
+// `tolerance_m` >= 0: what is no farther apart is the same. Code: compare.other_rate, where frames of one number are at
+// different times.
+Result<Divergence> find_divergence(const Performance& a, const Performance& b, double tolerance_m);
+
+// One line for people: "first difference at frame 37 (0.617 s): arm_left/elbow is 12.3 mm apart; …".
+std::string divergence_text(const Divergence& divergence, double tolerance_m, double rate_hz);
+
+// The same as a JSON object, with null for what is not there.
+std::string divergence_json(const Divergence& divergence, double tolerance_m, double rate_hz);
+
+}  // namespace contort

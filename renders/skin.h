@@ -1,0 +1,68 @@
+// The skin of an imported character: the triangles of its own model, moved by the joints that its vertices hang on.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "generator/asset/skinned.h"
+#include "generator/character/character.h"
+#include "generator/character/skin_desc.h"
+#include "generator/core/result.h"
+
+namespace contort {
+
+// More are a scan, and would take longer to draw than the rest of a strip together.
+inline constexpr std::size_t kMostSkinTriangles = 60'000;
+
+struct Skin {
+  struct Influence {
+    int joint = 0;  // of the character
+    double weight = 0.0;
+    Vec3 point_m{0.0};  // where the joint's own part of the vertex is, in the joint's frame
+  };
+  std::vector<Influence> influences;  // of all vertices, in their order
+  std::vector<int> first;             // of vertex i: influences [first[i], first[i + 1])
+  std::vector<int> shared;            // of vertex i: the first one in the same place, which shares its normal
+  std::vector<int> indices;           // three to a triangle, counter-clockwise seen from outside
+  std::vector<int> owners;            // of each triangle: the joint that it hangs on most
+  std::vector<bool> moved;            // by joint: it owns a triangle
+};
+
+// Codes skin.*: no node of the model is the root, nothing hangs on the character's joints, too many triangles.
+Result<Skin> bind_skin(const SkinDesc& desc, const SkinnedAsset& asset, const Character& character);
+
+// Triangles of one group, around `origin_m`.
+struct SkinPiece {
+  int group = 0;
+  Triangles triangles;
+};
+
+// In the pose `world` (world_from_joint). `group_of_joint` says in which piece what a joint owns is; triangles that
+// have no finite place near the origin are left out, and `complete` is false then.
+struct PosedSkin {
+  Vec3 origin_m{0.0};
+  std::vector<SkinPiece> pieces;  // by rising group, none of them empty
+  bool complete = true;
+};
+PosedSkin pose_skin(const Skin& skin, std::span<const Rigid> world, const std::vector<int>& group_of_joint);
+
+// The skins of library folders. Each model is read once.
+class Wardrobe {
+ public:
+  explicit Wardrobe(std::vector<std::string> folders);
+  Wardrobe(Wardrobe&&) noexcept;
+  ~Wardrobe();
+
+  // nullptr where no folder has one. Codes: those of parse_skin, bind_skin and read_gltf, file.unreadable, skin.outside
+  // where the model's file is a link to another folder.
+  Result<std::shared_ptr<const Skin>> skin_of(const Character& character);
+
+ private:
+  struct Models;
+  std::vector<std::string> folders_;
+  std::unique_ptr<Models> models_;
+};
+
+}  // namespace contort

@@ -1,0 +1,79 @@
+#include <filesystem>
+#include <map>
+
+#include "generator/core/files.h"
+#include "generator/core/hash.h"
+#include "generator/core/json_fields.h"
+#include "generator/gltf/read.h"
+#include "renders/skin.h"
+
+namespace contort {
+namespace {
+
+namespace fs = std::filesystem;
+
+Issue in_file(const std::string& path, Issue issue) {
+  issue.text = path + ": " + issue.text;
+  return issue;
+}
+
+// Links are followed: where they lead must be the folder, too.
+Result<std::string> model_path(const std::string& skin_path, const SkinDesc& desc) {
+  std::error_code error;
+  const fs::path folder = fs::path(skin_path).parent_path();
+  const fs::path model = folder / desc.model, real = fs::weakly_canonical(model, error);
+  if (error || !fs::is_regular_file(real, error))
+    return Issue{"skin.no_model", "/model", "there is no file " + model.string()};
+  if (real.parent_path() != fs::weakly_canonical(folder, error))
+    return Issue{"skin.outside", "/model", model.string() + " is a link to another folder"};
+  return real.string();
+}
+
+}  // namespace
+
+struct Wardrobe::Models {
+  std::map<std::string, std::shared_ptr<const SkinnedAsset>> read;        // by path
+  std::map<std::string, Result<std::shared_ptr<const Skin>>> of_figures;  // by name and hash of the character
+
+  Result<std::shared_ptr<const SkinnedAsset>> model(const std::string& path) {
+    if (const auto known = read.find(path); known != read.end()) return known->second;
+    Result<SkinnedAsset> asset = read_skinned_gltf(path);
+    if (!asset) return in_file(path, asset.issue());
+    return read[path] = std::make_shared<const SkinnedAsset>(std::move(asset).value());
+  }
+
+  Result<std::shared_ptr<const Skin>> bind(const std::string& path, const Character& character) {
+    const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+    if (!text) return text.issue();
+    const Result<SkinDesc> desc = parse_skin(*text);
+    if (!desc) return in_file(path, desc.issue());
+    const Result<std::string> file = model_path(path, *desc);
+    if (!file) return in_file(path, file.issue());
+    const Result<std::shared_ptr<const SkinnedAsset>> asset = model(*file);
+    if (!asset) return asset.issue();
+    Result<Skin> skin = bind_skin(*desc, **asset, character);
+    if (!skin) return in_file(path, skin.issue());
+    return std::make_shared<const Skin>(std::move(skin).value());
+  }
+};
+
+Wardrobe::Wardrobe(std::vector<std::string> folders)
+    : folders_(std::move(folders)), models_(std::make_unique<Models>()) {}
+Wardrobe::Wardrobe(Wardrobe&&) noexcept = default;
+Wardrobe::~Wardrobe() = default;
+
+Result<std::shared_ptr<const Skin>> Wardrobe::skin_of(const Character& character) {
+  const std::string key = character.name() + " " + to_hex(character.hash());
+  if (const auto known = models_->of_figures.find(key); known != models_->of_figures.end()) return known->second;
+  Result<std::shared_ptr<const Skin>> skin = std::shared_ptr<const Skin>();
+  std::error_code error;
+  for (const std::string& folder : folders_)
+    if (const std::string path = folder + "/skins/" + character.name() + ".json"; fs::exists(path, error)) {
+      skin = models_->bind(path, character);
+      break;
+    }
+  models_->of_figures.emplace(key, skin);
+  return skin;
+}
+
+}  // namespace contort
