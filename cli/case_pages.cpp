@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -12,7 +13,9 @@
 #include "cli/report_folder.h"
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
+#include "generator/core/hash.h"
 #include "renders/case_data.h"
+#include "renders/page_call.h"
 
 namespace contort::cli {
 
@@ -36,11 +39,50 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
   }
   std::vector<ShownCase> shown;
   for (const auto& [role, stored] : cases) shown.push_back({role, stored});
-  return case_data(page.key, shown, library, settings);
+  return case_data(page.key, shown, library, settings, page.strip);
 }
 
-Result<Done> write_case(const std::string& folder, const std::string& key, const std::string& data) {
-  return write_file(folder + "/cases/" + key + ".js", case_script(key, data));
+// ---- what a file was made of
+
+// Of this program and what all cases depend on: the text of --settings and every file of the library, which a motion or
+// a table may come from. The program's own bytes, because a version says nothing while the program is worked on.
+std::string surroundings_id(const Context& context) {
+  const auto text_of = [](const std::string& path) {
+    const Result<std::string> text = read_file(path);
+    return text ? *text : "";
+  };
+  std::string ids = content_id(text_of("/proc/self/exe")) + content_id(text_of(context.settings_file));
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const std::string& folder : context.library_folders)
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+      if (entry.is_regular_file(error)) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  for (const std::string& file : files) ids += file + "\n" + content_id(text_of(file));
+  return content_id(ids);
+}
+
+std::string stamp_of(const CasePage& page, const std::string& surroundings) {
+  std::string made_of = surroundings + "\n" + page.key + "\n" + page.strip;
+  for (const std::string& file : {page.minimal, page.original, page.worst}) {
+    const Result<std::string> text = file.empty() ? std::string() : read_file(page.folder + "/" + file);
+    made_of += "\n" + (text ? content_id(*text) : std::string("missing"));
+  }
+  return content_id(made_of).substr(0, 16);
+}
+
+// What says why it cannot be shown has no stamp: it is tried again.
+bool is_there(const std::string& folder, const CasePage& page, const std::string& stamp) {
+  std::ifstream file(folder + "/cases/" + page.key + ".js");
+  std::string line;
+  return std::getline(file, line) && stamp_of_page_call(line + "\n") == stamp;
+}
+
+// ----
+
+Result<Done> write_case(const std::string& folder, const std::string& key, const std::string& data,
+                        const std::string& stamp) {
+  return write_file(folder + "/cases/" + key + ".js", case_script(key, data, stamp));
 }
 
 void warn(const std::string& what, const Issue& issue) {
@@ -50,13 +92,19 @@ void warn(const std::string& what, const Issue& issue) {
 // What cannot be shown says why, here and in its file.
 void write_problem(const std::string& folder, const std::string& key, const Issue& issue) {
   warn("the report cannot show " + key, issue);
-  if (const Result<Done> written = write_case(folder, key, case_problem(key, issue.text)); !written)
+  if (const Result<Done> written = write_case(folder, key, case_problem(key, issue.text), ""); !written)
     warn(key, written.issue());
 }
 
-void write_one(const CasePage& page, const std::string& folder, const Library& library, const CheckSettings& settings) {
+struct Stamped {
+  CasePage page;
+  std::string stamp;
+};
+
+void write_one(const Stamped& one, const std::string& folder, const Library& library, const CheckSettings& settings) {
+  const CasePage& page = one.page;
   const Result<std::string> data = data_of(page, library, settings);
-  const Result<Done> written = data ? write_case(folder, page.key, *data) : Done{};
+  const Result<Done> written = data ? write_case(folder, page.key, *data, one.stamp) : Done{};
   if (!data) write_problem(folder, page.key, data.issue());
   if (!written) warn(page.key, written.issue());
 }
@@ -74,7 +122,7 @@ Result<Done> copy_viewer(const std::string& folder) {
 }
 
 // In processes: a case that crashes this build, or never ends in it, is not worth the report.
-void write_all(const std::vector<CasePage>& pages, const std::string& folder, const Library& library,
+void write_all(const std::vector<Stamped>& pages, const std::string& folder, const Library& library,
                const CheckSettings& settings) {
   const ProgressLine line;
   const int count = static_cast<int>(pages.size());
@@ -84,7 +132,7 @@ void write_all(const std::vector<CasePage>& pages, const std::string& folder, co
   };
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   for (const int i : in_children(jobs, count, kMostSeconds, write, show))
-    write_problem(folder, pages[static_cast<std::size_t>(i)].key,
+    write_problem(folder, pages[static_cast<std::size_t>(i)].page.key,
                   {"report.case_lost", "", "playing it ended the program, or took more than a minute"});
   line.clear();
 }
@@ -98,10 +146,16 @@ void write_case_pages(const std::vector<CasePage>& pages, const std::string& fol
   if (const Result<Done> copied = copy_viewer(folder + "/viewer"); !copied)
     warn("the report has no viewer", copied.issue());
   if (const Result<Done> made = make_folder(folder + "/cases"); !made) return context.fail(made.issue(), kInternal);
+  const std::string surroundings = surroundings_id(context);
   std::set<std::string> wanted;
-  for (const CasePage& page : pages) wanted.insert(page.key + ".js");
+  std::vector<Stamped> missing;
+  for (const CasePage& page : pages) {
+    wanted.insert(page.key + ".js");
+    const std::string stamp = stamp_of(page, surroundings);
+    if (!is_there(folder, page, stamp)) missing.push_back({page, stamp});
+  }
   remove_old(folder + "/cases", is_case_file, wanted);
-  write_all(pages, folder, library, *settings);
+  write_all(missing, folder, library, *settings);
 }
 
 }  // namespace contort::cli

@@ -18,6 +18,7 @@
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
 #include "renders/skin.h"
+#include "renders/strip_views.h"
 
 namespace contort::cli {
 
@@ -39,6 +40,7 @@ struct Options {
   CheckSettings settings{};
   bool colliders = false;
   bool clips = false;  // with `many`: beside each strip
+  bool views = false;  // the same
   bool many = false;
   bool rows = false;
   bool sheet = false;
@@ -122,7 +124,10 @@ StripInput strip_of(const Shown& shown, const Options& options, const std::strin
 Result<StripDone> draw(Studio& studio, const std::string& file, const std::string& png) {
   const Result<std::unique_ptr<Shown>> shown = evaluate(studio, file);
   if (!shown) return shown.issue();
-  return studio.renderer.render(strip_of(**shown, studio.options, file), png, clip_of(studio.options, png));
+  Result<StripDone> done = studio.renderer.render(strip_of(**shown, studio.options, file), png, clip_of(studio.options, png));
+  if (!done || !studio.options.views) return done;
+  const Result<Done> written = write_strip_views(png, done->tiles);
+  return written ? done : written.issue();
 }
 
 // A file of several, and what it makes.
@@ -332,7 +337,7 @@ std::string misfit(const Options& options) {
   if (!options.clip.empty() && options.clip == options.output) return "--clip and -o are the same file";
   if (options.sheet && !options.frames.empty()) return "--sheet shows the worst frame of each FILE";
   if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
-  if (options.clips && !options.many) return "--clips needs --many";
+  if ((options.clips || options.views) && !options.many) return "--clips and --views need --many";
   if (!options.clip.empty() && (options.many || options.rows || options.sheet || !options.compared.empty()))
     return "--clip is of one FILE";
   if (!options.many && options.output.empty()) return "expected -o PNG";
@@ -360,6 +365,7 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--label", options.labels, "Title of the strip, or of the rows in turn")->allow_extra_args(false);
   app.add_option("--clip", options.clip, "A moving picture, too");
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
+  app.add_flag("--views", options.views, "With --many, beside each strip a script that says from where it is seen");
   app.add_option("--settings", options.settings_file, "Limits that are not the default ones");
   app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
   app.add_option("--compare", options.compared, "Another motion, below the first one");

@@ -26,6 +26,7 @@
 #include "generator/core/hash.h"
 #include "generator/core/json_fields.h"
 #include "renders/report.h"
+#include "renders/variety.h"
 
 namespace contort::cli {
 
@@ -61,6 +62,17 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
+std::vector<std::string> action_names(const Spec& spec) {
+  std::vector<std::string> names;
+  const auto add = [&](const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions) names.push_back(use.action);
+  };
+  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
+  return names;
+}
+
 // `settings`: the text of --settings.
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
                  const std::string& settings, const Context& context) {
@@ -84,16 +96,16 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
   row.features = bucket.features;
+  row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
     if (check.name == bucket.check) row.meaning = check.help;
   return row;
 }
 
-// Rows by how deep the failure is; ties by name, so that equal corpora give equal pages.
+// Rows in the report's order (renders/variety.h), so that equal corpora give equal pages.
 void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, Media& media, const std::string& out,
                Context& context) {
   std::vector<Issue> damaged;
-  std::vector<std::pair<double, ReportRow>> rows;
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
   const std::string settings = read ? *read : "";  // they were read before; without --settings there is no file
   for (const Bucket& bucket : corpus.buckets(damaged)) {
@@ -103,17 +115,14 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
       damaged.push_back(stored.issue());
       continue;
     }
-    rows.emplace_back(stored->expect.depth, row_of(bucket, folder, *stored, known, settings, context));
-    const ReportRow& row = rows.back().second;
+    model.rows.push_back(row_of(bucket, folder, *stored, known, settings, context));
+    const ReportRow& row = model.rows.back();
     if (!row.has_motion) continue;  // to draw it would end the renderer, too
     if (!row.strip.empty()) media.pictures.push_back({folder + "/" + bucket.min, out + "/" + row.strip});
-    media.cases.push_back({row.key, folder, bucket.min, bucket.orig, bucket.worst});
+    media.cases.push_back({row.key, folder, bucket.min, bucket.orig, bucket.worst, row.strip});
   }
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& l, const auto& r) {
-    return l.first != r.first ? l.first > r.first : l.second.bucket < r.second.bucket;
-  });
-  for (auto& [depth, row] : rows) model.rows.push_back(std::move(row));
+  order_rows(model.rows);
 }
 
 // `seen`: cases of all runs, by family.
@@ -163,29 +172,32 @@ std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
   return static_cast<std::int64_t>(pairs.size());
 }
 
-std::string clip_of(const Picture& picture) {
-  return std::filesystem::path(picture.png).replace_extension(".webp").string();
+// The strip, its moving picture, and from where it is seen. Drawn in this order.
+std::vector<std::string> files_of(const Picture& picture) {
+  const auto beside = [&](const char* kind) {
+    return std::filesystem::path(picture.png).replace_extension(kind).string();
+  };
+  return {picture.png, beside(".webp"), beside(".js")};
+}
+
+bool is_drawn(const Picture& picture) {
+  std::error_code error;
+  return std::ranges::all_of(files_of(picture), [&](const auto& path) { return std::filesystem::exists(path, error); });
 }
 
 // Pictures that are there already stay; those that no row shows any more go.
 void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   std::set<std::string> wanted;
   for (const Picture& picture : pictures)
-    for (const std::string& path : {picture.png, clip_of(picture)})
+    for (const std::string& path : files_of(picture))
       wanted.insert(std::filesystem::path(path).filename().string());
   remove_old(folder, is_picture_file, wanted);
-  std::error_code error;
-  std::erase_if(pictures, [&](const Picture& picture) {
-    return std::filesystem::exists(picture.png, error) && std::filesystem::exists(clip_of(picture), error);
-  });
+  std::erase_if(pictures, is_drawn);
 }
 
 void show_drawn(const std::vector<Picture>& pictures, const ProgressLine& line) {
   if (!line.wanted()) return;
-  std::error_code error;
-  const auto drawn = std::ranges::count_if(pictures, [&](const Picture& picture) {
-    return std::filesystem::exists(clip_of(picture), error);
-  });
+  const auto drawn = std::ranges::count_if(pictures, is_drawn);
   line.show(static_cast<double>(drawn) / static_cast<double>(pictures.size()),
             std::to_string(drawn) + " of " + std::to_string(pictures.size()) + " failures drawn");
 }
@@ -199,7 +211,7 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
       jobs, jobs,
       [&](int, int share) {
         std::vector<std::string> call = renderer_call(context);
-        call.insert(call.end(), {"--many", "--clips"});
+        call.insert(call.end(), {"--many", "--clips", "--views"});
         const std::size_t fixed = call.size();
         for (std::size_t i = static_cast<std::size_t>(share); i < pictures.size(); i += static_cast<std::size_t>(jobs))
           call.insert(call.end(), {pictures[i].case_path, pictures[i].png});

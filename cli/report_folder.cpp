@@ -25,7 +25,7 @@ bool is_key(std::string_view text) {
 bool is_case_file(const std::string& name) { return name.ends_with(".js") && is_key(fs::path(name).stem().string()); }
 
 bool is_picture_file(const std::string& name) {
-  if (!name.ends_with(".png") && !name.ends_with(".webp")) return false;
+  if (!name.ends_with(".png") && !name.ends_with(".webp") && !name.ends_with(".js")) return false;
   const std::string stem = fs::path(name).stem().string();
   const std::size_t dash = stem.rfind('-');
   return dash != stem.npos && is_hex(std::string_view(stem).substr(dash + 1), 8) && is_key(stem.substr(0, dash));

@@ -1,9 +1,11 @@
 #include "cli/single_file.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "generator/core/files.h"
 #include "renders/case_data.h"
+#include "renders/page_call.h"
 
 namespace contort::cli {
 
@@ -31,6 +33,9 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
   for (const char* name : {"viewer/viewer.css", "viewer/viewer.js"}) add(name, text_of(name));
   for (const ReportRow& row : model.rows) {
     if (!row.strip.empty()) add(row.strip, text_of(row.strip));
+    if (const std::filesystem::path strip = row.strip; !row.strip.empty())
+      add("strips/" + strip.stem().string() + ".json",
+          data_of_page_call("contortStrip", strip.stem().string(), text_of("strips/" + strip.stem().string() + ".js")));
     if (row.has_motion) add("cases/" + row.key + ".json", data_of_script(row.key, text_of("cases/" + row.key + ".js")));
   }
   if (left_out > 0)

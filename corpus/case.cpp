@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "checks/circumstances.h"
 #include "generator/core/hash.h"
 #include "generator/spec_fields.h"
 
@@ -36,6 +37,8 @@ void fields(V& v, const Expectation*) {
   v.field("motion_hash", &Expectation::motion_hash, kHash, "Hash of all frames.");
   v.field("character_hash", &Expectation::character_hash, kHash, "Hash of the assembled character.");
   v.field("trace", &Expectation::trace, {.text = Text::hex}, "Running hash, four hex digits a frame.");
+  v.field("phase", &Expectation::phase, kText,
+          "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
 }
 
 template <class V>
@@ -96,12 +99,14 @@ Expectation expectation_of(const Stage& stage, const Motion& motion, const Evalu
                      0.0,
                      {},
                      {},
+                     {},
                      {}};
   // JSON has neither infinity nor NaN; the one is stored as the other, which has its own spelling.
   if (std::isinf(finding.worst_margin)) expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   if (std::isfinite(finding.depth)) expect.depth = finding.depth;
   expect.motion_hash = to_hex(evaluation.motion_hash);
   expect.character_hash = to_hex(stage.character->hash());
+  if (!finding.check.empty()) expect.phase = phase_name(phase_of(stage.timeline, motion, finding.worst_frame));
   for (const std::uint16_t step : motion_trace(motion)) expect.trace += to_hex(step).substr(12);
   return expect;
 }

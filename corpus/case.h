@@ -25,6 +25,7 @@ struct Expectation {
   std::string motion_hash;     // 16 hex digits; "" for a crash, a timeout or memory (isolate.h)
   std::string character_hash;  // the same; another one means that the parts changed since
   std::string trace;           // motion_trace, four hex digits a frame: tells the first frame that differs
+  std::string phase{};         // of the worst frame, a name of checks/circumstances.h; "" where no motion was judged
   bool operator==(const Expectation&) const = default;
 };
 

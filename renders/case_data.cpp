@@ -7,7 +7,9 @@
 #include "generator/gltf/write.h"
 #include "renders/gzip.h"
 #include "renders/highlight.h"
+#include "renders/page_call.h"
 #include "renders/scene_fields.h"
+#include "renders/wording.h"
 
 namespace contort {
 
@@ -62,22 +64,10 @@ Result<Json> motion_json(const ShownCase& shown, const Library& library, const C
               {"curves", curves_json(evaluator.curves(*stage, about, kMostCurves))}};
 }
 
-// Without signs that could end a script element or begin a comment in it.
-std::string without_markup(const std::string& json) {
-  std::string safe;
-  safe.reserve(json.size());
-  for (const char c : json)
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  return safe;
-}
-
 }  // namespace
 
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
-                              const CheckSettings& settings) {
+                              const CheckSettings& settings, const std::string& strip) {
   const Expectation& expect = shown.front().stored.expect;
   const auto check = std::ranges::find(all_checks(), expect.check, &CheckDef::name);
   Json json = {{"format", "contort.report_case/1"},
@@ -91,6 +81,8 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
                {"worst_frame", expect.worst_frame},
                {"last_frame", expect.last_frame},
                {"motions", Json::array()}};
+  if (!strip.empty()) json["strip"] = strip;
+  if (!expect.phase.empty()) json["phase"] = phase_text(expect.phase);
   for (const ShownCase& one : shown) {
     Result<Json> motion = motion_json(one, library, settings);
     if (motion)
@@ -106,17 +98,12 @@ std::string case_problem(const std::string& key, const std::string& why) {
   return without_markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-std::string case_script(const std::string& key, const std::string& data) {
-  const std::string name = without_markup(Json(key).dump(-1, ' ', true, Json::error_handler_t::replace));
-  return "contortCase(" + name + ", " + data + ");\n";
+std::string case_script(const std::string& key, const std::string& data, const std::string& stamp) {
+  return page_call("contortCase", key, data, stamp);
 }
 
 std::string data_of_script(const std::string& key, const std::string& script) {
-  constexpr std::string_view kEnd = ");\n";
-  const std::string bare = case_script(key, "");
-  const std::string begin = bare.substr(0, bare.size() - kEnd.size());
-  if (script.size() < bare.size() || !script.starts_with(begin) || !script.ends_with(kEnd)) return "";
-  return script.substr(begin.size(), script.size() - bare.size());
+  return data_of_page_call("contortCase", key, script);
 }
 
 }  // namespace contort

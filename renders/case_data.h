@@ -21,16 +21,16 @@ struct ShownCase {
 // Margins over time that are kept of a motion: the failure's, and those that came nearest to their limits.
 inline constexpr std::size_t kMostCurves = 16;
 
-// JSON in one line, safe inside of a <script>. The first of `shown` is what the failure is told by. Codes of
-// build_stage: the library may have changed since.
+// JSON in one line, safe inside of a <script>. The first of `shown` is what the failure is told by. `strip`: path of its
+// film strip from the page, "" where there is none. Codes of build_stage: the library may have changed since.
 Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
-                              const CheckSettings& settings);
+                              const CheckSettings& settings, const std::string& strip = "");
 
 // What the viewer gets where the case cannot be shown: a sentence that says why.
 std::string case_problem(const std::string& key, const std::string& why);
 
-// The same as the file that a page loads; and back, "" where the text is no such file.
-std::string case_script(const std::string& key, const std::string& data);
+// The same as the file that a page loads (renders/page_call.h); and back, "" where the text is no such file.
+std::string case_script(const std::string& key, const std::string& data, const std::string& stamp = "");
 std::string data_of_script(const std::string& key, const std::string& script);
 
 }  // namespace contort

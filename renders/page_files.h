@@ -1,4 +1,4 @@
-// page.css and page.js of renders/page, compiled in (the build makes the .cpp), in this order.
+// page.css, rows.js and page.js of renders/page, compiled in (the build makes the .cpp), in this order.
 #pragma once
 
 #include <span>

@@ -4,6 +4,7 @@
 
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
+#include "renders/report_rest.h"
 
 namespace contort {
 namespace {
@@ -34,6 +35,7 @@ Json row_json(const ReportRow& row) {
           {"last_frame", row.last_frame},
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
           {"features", row.features},
+          {"phase", row.phase},
           {"note", row.note}};
 }
 
@@ -65,7 +67,13 @@ std::string report_json(const ReportModel& model) {
 Result<Done> write_report(const ReportModel& model, const std::string& folder) {
   if (Result<Done> made = make_folder(folder); !made) return made;
   if (Result<Done> written = write_file(folder + "/report.json", report_json(model)); !written) return written;
-  return write_file(folder + "/index.html", report_html(model));
+  const PageFiles pages = report_pages(model);
+  if (pages.size() > 1)
+    if (Result<Done> made = make_folder(folder + "/rows"); !made) return made;
+  for (const auto& [path, text] : pages)
+    if (Result<Done> written = write_file(folder + "/" + path, text); !written) return written;
+  remove_old_rest(folder, pages);
+  return Done{};
 }
 
 }  // namespace contort

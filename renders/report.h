@@ -39,6 +39,9 @@ struct ReportRow {
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
   std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // what people know about it: "ana, ticket 12"
+  std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known
+  std::vector<std::string> actions;  // of the minimal spec
+  double depth = 0.0;                // of the failure, comparable between checks
 };
 
 struct ReportModel {
@@ -57,14 +60,19 @@ struct ReportModel {
 };
 
 // For a page that has everything inside: its files by their paths from it ("viewer/viewer.js", "strips/x.png"), and of
-// each case the data alone, as "cases/<key>.json".
+// each case and strip the data alone, as "cases/<key>.json" and "strips/x.json".
 using PageFiles = std::map<std::string, std::string>;
 
-// Equal models give equal pages. Families that gate come first; else the order of the rows is kept.
+// Equal models give equal pages. Families that gate come first; else the order of the rows is kept. A page that has
+// everything inside has all rows; else the last of some hundred buckets are left to the other files of report_pages.
 std::string report_html(const ReportModel& model, const PageFiles& inside = {});
+// Files by their paths: index.html, below a megabyte, and where that has not all rows, more.html (a plain list of the
+// others) and rows/part-1.js and so on (the same for page.js, which puts them into the page).
+PageFiles report_pages(const ReportModel& model);
 std::string report_json(const ReportModel& model);
 
-// index.html and report.json in `folder`, which is made if need be. Code: file.unwritable.
+// report_pages and report.json in `folder`, which is made if need be. What an earlier, larger report had besides goes.
+// Code: file.unwritable.
 Result<Done> write_report(const ReportModel& model, const std::string& folder);
 
 }  // namespace contort

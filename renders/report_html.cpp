@@ -5,40 +5,16 @@
 #include <set>
 
 #include "generator/core/hash.h"
-#include "generator/core/base64.h"
 #include "renders/html.h"
 #include "renders/page_files.h"
 #include "renders/report.h"
+#include "renders/report_cards.h"
+#include "renders/report_rest.h"
 #include "renders/search_html.h"
 #include "renders/wording.h"
 
 namespace contort {
 namespace {
-
-// One attribute with its leading space.
-std::string attribute(std::string_view name, std::string_view value) {
-  return " " + std::string(name) + "='" + html_text(value) + "'";
-}
-
-// Rows of one family, in the order of the model.
-struct FamilyCard {
-  std::vector<const ReportRow*> rows;
-  bool gating() const {
-    return std::any_of(rows.begin(), rows.end(), [](const ReportRow* row) { return row->gating; });
-  }
-};
-
-std::vector<FamilyCard> cards_of(const ReportModel& model) {
-  std::vector<FamilyCard> cards;
-  std::map<std::string, std::size_t> card_of_family;
-  for (const ReportRow& row : model.rows) {
-    const auto [at, is_new] = card_of_family.try_emplace(row.family, cards.size());
-    if (is_new) cards.emplace_back();
-    cards[at->second].rows.push_back(&row);
-  }
-  std::stable_partition(cards.begin(), cards.end(), [](const FamilyCard& card) { return card.gating(); });
-  return cards;
-}
 
 // ---- verdict
 
@@ -91,158 +67,6 @@ std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
   return out + "</dl>\n</div>\n</header>\n";
 }
 
-// ---- cards
-
-std::string chip(const std::string& state, bool gating) {
-  static const std::set<std::string> kStyled = {"new", "regressed", "open", "quarantined", "fixed", "flaky"};
-  const std::string look = kStyled.contains(state) ? " state-" + state : "";
-  return "<span class='chip" + look + "'>" + html_text(state.empty() ? "no state" : state) +
-         (gating ? "<span class='unseen'> (gating)</span>" : "") + "</span>";
-}
-
-std::string worst_text(const ReportRow& row) {
-  const std::string time = time_text(row.worst_frame, row.rate_hz);
-  return "frame " + std::to_string(row.worst_frame) + (time.empty() ? "" : ", " + time);
-}
-
-std::string violated_text(const ReportRow& row) {
-  if (row.first_frame == row.last_frame) return "";
-  return "frames " + std::to_string(row.first_frame) + "\xE2\x80\x93" + std::to_string(row.last_frame);
-}
-
-std::string missing_text(const ReportRow& row) {
-  return row.has_motion ? "picture missing: " + row.replay_command
-                        : "no motion to show: the generator does not come to its end";
-}
-
-// Where the page finds a picture: beside it, or in itself.
-std::string picture_url(const std::string& path, const PageFiles& inside) {
-  const auto file = inside.find(path);
-  if (file == inside.end()) return html_url(path);
-  return "data:image/png;base64," + to_base64(std::as_bytes(std::span(file->second)));
-}
-
-std::string picture_html(const ReportRow& row, const std::string& path, std::string_view what,
-                         const PageFiles& inside) {
-  const std::string url = picture_url(path, inside);
-  if (url.empty()) return "<p class='missing'>" + html_text(missing_text(row)) + "</p>\n";
-  const std::string about = std::string(what) + ": " + row.check + ", " + row.subject + ", worst at " + worst_text(row);
-  const std::string image = "<img src='" + url + "' loading='lazy'" + attribute("alt", about) +
-                            attribute("data-missing", missing_text(row)) + ">";
-  return "<div class='strip'>" + (inside.empty() ? "<a href='" + url + "'>" + image + "</a>" : image) + "</div>\n";
-}
-
-std::string fact(std::string_view name, const std::string& value) {
-  if (value.empty()) return "";
-  return "<div><dt>" + std::string(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
-}
-
-std::string command_html(const std::string& command) {
-  if (command.empty()) return "";
-  return "<div class='command'><code>" + html_text(command) +
-         "</code><button type='button' class='copy' aria-label='Copy the replay command'>Copy</button></div>\n";
-}
-
-std::string details_html(std::string_view summary, const std::string& body) {
-  return "<details><summary>" + std::string(summary) + "</summary>\n" + body + "</details>\n";
-}
-
-// A page stays below a megabyte with a thousand buckets: those that come later, which gate less and are less deep, have
-// no picture before they are opened, and specs are left to the viewer.
-struct Room {
-  explicit Room(std::size_t rows) : spec_bytes(rows <= 250 ? 400'000 : 0) {}
-  std::size_t buckets = 80;  // that may still be shown with everything
-  std::size_t spec_bytes;    // that they may still write out
-};
-
-std::string open_html(const ReportRow& row, const PageFiles& inside) {
-  const bool there = row.has_motion && (inside.empty() || inside.contains("cases/" + row.key + ".json"));
-  return there && !row.key.empty() ? "<button type='button' class='open'>Look closer</button>\n" : "";
-}
-
-std::string short_bucket_html(const ReportRow& row, const PageFiles& inside) {
-  return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>worst " +
-         html_text(margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) + "; needs " +
-                   needs_text(row.features)) +
-         "</p>\n" + open_html(row, inside) + command_html(row.replay_command) + "</section>\n";
-}
-
-std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& inside) {
-  std::string out = "<section class='bucket'" + attribute("data-case", row.key) + ">\n";
-  out += picture_html(row, row.strip, "Film strip", inside);
-  if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
-    out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
-  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
-         fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
-         fact("violated in", violated_text(row)) + fact("needs", needs_text(row.features)) +
-         fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
-  out += open_html(row, inside) + command_html(row.replay_command);
-  if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
-  room.spec_bytes -= row.spec_json.size();
-  out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
-  return out + "</section>\n";
-}
-
-std::string joined(const std::set<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-std::string states_of(const FamilyCard& card) {
-  std::set<std::string> states;
-  for (const ReportRow* row : card.rows) states.insert(row->state);
-  return joined(states);
-}
-
-// Slots that a subject names: "arm_left torso" of "human: arm_left/forearm ~ torso/chest".
-std::string parts_of(const ReportRow& row) {
-  constexpr std::string_view kBetween = " ~ ";
-  std::string_view rest = row.subject;
-  if (const std::string prefix = row.character + ": "; rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
-  std::set<std::string> parts;
-  while (!rest.empty()) {
-    const std::size_t cut = std::min(rest.find(kBetween), rest.size());
-    const std::string_view name = rest.substr(0, cut);
-    parts.emplace(name.substr(0, name.find_first_of("/ ")));
-    rest.remove_prefix(std::min(cut + kBetween.size(), rest.size()));
-  }
-  return joined(parts);
-}
-
-std::string card_head(const FamilyCard& card) {
-  const ReportRow& row = *card.rows.front();
-  std::int64_t cases = 0;
-  std::string chips;
-  std::set<std::string> shown;
-  for (const ReportRow* r : card.rows) {
-    cases = std::max(cases, r->cases_seen);
-    if (shown.insert(r->state).second) chips += chip(r->state, r->gating);
-  }
-  const auto buckets = static_cast<std::int64_t>(card.rows.size());
-  return "<div class='head'>\n<h3><span class='check'>" + html_text(row.check) + "</span> <span class='subject'>" +
-         html_text(row.subject) + "</span></h3>\n<p class='summary'>" + chips + " <span>" +
-         html_text(counted(cases, "case", "cases")) +
-         (buckets > 1 ? ", " + html_text(counted(buckets, "bucket", "buckets")) : "") + "</span></p>\n</div>\n";
-}
-
-std::string card_html(const FamilyCard& card, Room& room, const PageFiles& inside) {
-  const ReportRow& row = *card.rows.front();
-  const std::string look = card.gating() ? "card gating" : "card";
-  std::string out = "<article tabindex='-1'" + attribute("class", look) + attribute("data-check", row.check) +
-                    attribute("data-character", row.character) + attribute("data-parts", parts_of(row)) +
-                    attribute("data-state", states_of(card)) + ">\n" + card_head(card);
-  std::string others;
-  for (const ReportRow* bucket : card.rows) {
-    (bucket == &row ? out : others) +=
-        room.buckets > 0 ? bucket_html(*bucket, room, inside) : short_bucket_html(*bucket, inside);
-    room.buckets -= room.buckets > 0 ? 1 : 0;
-  }
-  const auto more = static_cast<std::int64_t>(card.rows.size()) - 1;
-  if (more > 0) out += details_html(html_text(counted(more, "more bucket", "more buckets")), others);
-  return out + "</article>\n";
-}
-
 // ---- the rest of the page
 
 // page.js fills the choices from the cards.
@@ -251,17 +75,36 @@ std::string filter_html() {
       "<form class='filter' role='search'>\n<label class='words'><span>Filter</span><input type='search' id='words' "
       "autocomplete='off' spellcheck='false' placeholder='elbow, state:new, walk'></label>\n";
   for (const auto& [id, name] : {std::pair("check", "Check"), std::pair("character", "Character"),
-                                 std::pair("part", "Part"), std::pair("state", "State")})
+                                 std::pair("part", "Part"), std::pair("phase", "Phase"), std::pair("state", "State")})
     out += "<label><span>" + std::string(name) + "</span><select id='" + id + "'></select></label>\n";
   return out + "<output id='shown' aria-live='polite'></output>\n</form>\n";
 }
 
-std::string failures_html(const ReportModel& model, const PageFiles& inside) {
-  std::string out = "<section id='failures'>\n<h2>Failures</h2>\n";
-  if (model.rows.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
+// The cards that fit, and what is left in `late`.
+std::string failures_html(const std::vector<FamilyCard>& cards, const PageFiles& inside, Room room,
+                          std::vector<LateCard>& late) {
+  std::string shown;
+  std::int64_t elsewhere = 0;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    LateCard rest{static_cast<int>(i), &cards[i], {}, false};
+    if (room.bytes > 0)
+      shown += card_html(cards[i], rest, room, inside);
+    else
+      rest.rows = cards[i].rows;
+    elsewhere += static_cast<std::int64_t>(rest.rows.size());
+    if (!rest.rows.empty()) late.push_back(std::move(rest));
+  }
+  const std::string parts = elsewhere == 0 ? "" : attribute("data-row-files", std::to_string(row_script_count(late)));
+  std::string out = "<section id='failures'" + parts + ">\n<h2>Failures</h2>\n";
+  if (cards.empty()) return out + "<p class='none'>None.</p>\n</section>\n";
   out += filter_html();
-  Room room(model.rows.size());
-  for (const FamilyCard& card : cards_of(model)) out += card_html(card, room, inside);
+  if (cards.size() > 2)
+    out += "<p class='order'>Failures that nobody has looked at come first. Each next one is as unlike those above it as "
+           "can be, so the first few show most of the kinds.</p>\n";
+  out += shown;
+  if (elsewhere > 0)
+    out += "<p class='rest' id='rest'>" + html_text(counted(elsewhere, "more failure", "more failures")) +
+           " in <a href='more.html'>the plain list</a>.</p>\n";
   return out + "<p class='none' id='no-match' hidden>Nothing matches the filter.</p>\n</section>\n";
 }
 
@@ -306,6 +149,25 @@ std::string footer_html(const ReportModel& model, bool alone) {
          std::string(model.rows.empty() ? "" : kKeys) + "</p></footer>\n";
 }
 
+// For who reads a report for the first time.
+std::string words_html() {
+  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"case", "One motion that was made and checked: a character, what it was told to do, and where."},
+      {"failure", "One way to break a check, with the smallest case that does it. Also called a bucket."},
+      {"family", "Failures of one check in one place, such as a joint or two parts that run into each other."},
+      {"finding", "A case in which a family was seen. One cause can give many."},
+      {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
+      {"needs", "The actions without which the failure does not happen: where to look for its cause."},
+      {"phase", "What was going on in the worst frame, such as an interrupt that had just cut in."},
+      {"state", "new: nobody has looked at it. open: somebody looks after it. regressed: it was fixed and is back. "
+                "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time."},
+      {"gating", "It makes an automatic build fail: new and regressed failures do."}};
+  std::string out = "<details class='words-used'><summary>What the words mean</summary>\n<dl>\n";
+  for (const auto& [word, meaning] : kWords)
+    out += "<div><dt>" + std::string(word) + "</dt><dd>" + html_text(meaning) + "</dd></div>\n";
+  return out + "</dl>\n</details>\n";
+}
+
 std::string text_of(std::string_view name) {
   for (const StockFile& file : page_files())
     if (file.name == name) return std::string(file.text);
@@ -324,7 +186,7 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
          "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
          "<meta name='color-scheme' content='light dark'>\n<meta name='referrer' content='no-referrer'>\n<title>" +
          html_text(verdict.text + " \xE2\x80\x93 " + model.title) + "</title>\n<link rel='icon' href='data:,'>\n" +
-         "<style" + here + ">\n" + text_of("page.css") + "</style>\n" + "<script" + here + ">\n" + text_of("page.js") +
+         "<style" + here + ">\n" + text_of("page.css") + "</style>\n" + "<script" + here + ">\n" + text_of("rows.js") + text_of("page.js") +
          "</script>\n</head>\n";
 }
 
@@ -336,7 +198,7 @@ std::string inline_script(std::string text) {
   return text;
 }
 
-// The viewer and the cases, for page.js to find them.
+// The viewer, the cases and from where strips are seen, for page.js to find them.
 std::string inside_html(const PageFiles& inside, const std::string& nonce) {
   const std::string here = attribute("nonce", nonce);
   std::string out;
@@ -344,22 +206,60 @@ std::string inside_html(const PageFiles& inside, const std::string& nonce) {
     const std::filesystem::path name(path);
     if (name.extension() == ".css") out += "<style" + here + ">\n" + text + "</style>\n";
     if (name.extension() == ".js") out += "<script" + here + ">\n" + inline_script(text) + "</script>\n";
-    if (name.extension() == ".json")
-      out += "<script type='application/json'" + attribute("id", "case-" + name.stem().string()) + here + ">" + text +
-             "</script>\n";
+    if (name.extension() != ".json") continue;
+    const std::string kind = name.parent_path() == "strips" ? "strip-" : "case-";
+    out += "<script type='application/json'" + attribute("id", kind + name.stem().string()) + here + ">" + text +
+           "</script>\n";
   }
   return out;
 }
 
 }  // namespace
 
-std::string report_html(const ReportModel& model, const PageFiles& inside) {
+namespace {
+
+// A page of a megabyte is slow to open, over a network and in a mail's preview alike.
+constexpr std::size_t kMostBytes = 900'000, kMostCardBytes = 600'000, kLeastCardBytes = 100'000;
+constexpr std::size_t kFewRows = 250;  // that may take all of it, and have their specs on the page
+
+Room room_for(const ReportModel& model, std::size_t others, bool alone) {
+  const bool few = model.rows.size() <= kFewRows;
+  Room room;
+  room.spec_bytes = few ? 400'000 : 0;
+  room.bytes = std::clamp(kMostBytes - std::min(kMostBytes, others), kLeastCardBytes, few ? kMostBytes : kMostCardBytes);
+  if (alone) room.bytes = static_cast<std::size_t>(-1);  // There is nowhere else, and mail takes more.
+  return room;
+}
+
+std::string index_html(const ReportModel& model, const std::vector<FamilyCard>& cards, const PageFiles& inside,
+                       std::vector<LateCard>& late) {
   const Verdict verdict = verdict_of(model);
   const std::string nonce = content_id(report_json(model));
-  return head_html(model, verdict, nonce) +
-         "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" + verdict_html(model, verdict) +
-         "<main class='page'>\n" + failures_html(model, inside) + search_html(model.search) + tested_html(model) +
-         "</main>\n" + footer_html(model, !inside.empty()) + inside_html(inside, nonce) + "</body>\n</html>\n";
+  const std::string head = head_html(model, verdict, nonce) +
+                           "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" +
+                           verdict_html(model, verdict) + "<main class='page'>\n";
+  const std::string tail = search_html(model.search) + tested_html(model) + words_html() + "</main>\n" +
+                           footer_html(model, !inside.empty()) + inside_html(inside, nonce) + "</body>\n</html>\n";
+  const Room room = room_for(model, head.size() + tail.size(), !inside.empty());
+  return head + failures_html(cards, inside, room, late) + tail;
+}
+
+}  // namespace
+
+std::string report_html(const ReportModel& model, const PageFiles& inside) {
+  std::vector<LateCard> late;
+  return index_html(model, cards_of(model), inside, late);
+}
+
+PageFiles report_pages(const ReportModel& model) {
+  const std::vector<FamilyCard> cards = cards_of(model);
+  std::vector<LateCard> late;
+  PageFiles pages;
+  pages["index.html"] = index_html(model, cards, {}, late);
+  if (late.empty()) return pages;
+  pages["more.html"] = plain_list_html(model.title, late, text_of("page.css"));
+  for (auto& [path, script] : row_scripts(late)) pages[path] = std::move(script);
+  return pages;
 }
 
 }  // namespace contort

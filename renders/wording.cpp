@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "generator/core/math.h"
@@ -114,6 +115,19 @@ std::string needs_text(std::string_view features) {
     features.remove_prefix(std::min(cut + 1, features.size()));
   }
   return text;
+}
+
+std::string phase_text(std::string_view phase) {
+  static constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
+      {"impact", "after a blow"},
+      {"interrupt", "just after an interrupt"},
+      {"clip_switch", "where a clip or sequence begins or ends"},
+      {"blend", "while an action comes in or fades out"},
+      {"mid_clip", "in the middle of a clip"},
+      {"at_rest", "when no action moves"}};
+  for (const auto& [name, text] : kTexts)
+    if (name == phase) return std::string(text);
+  return std::string(phase);
 }
 
 }  // namespace contort

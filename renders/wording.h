@@ -24,6 +24,10 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 // its kind goes without saying; words that are not known stay as they are.
 std::string needs_text(std::string_view features);
 
+// What a phase (checks/circumstances.h) means: "just after an interrupt" for "interrupt"; words that are not known stay as
+// they are.
+std::string phase_text(std::string_view phase);
+
 // One line of valid UTF-8: control characters and broken sequences become a replacement character; where there are more
 // than max_chars characters the last one is an ellipsis. Text drawing and JSON refuse or misread anything else.
 std::string one_line(std::string_view text, std::size_t max_chars = static_cast<std::size_t>(-1));

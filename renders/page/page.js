@@ -2,7 +2,7 @@
 // It runs in the head, before the body is there. Texts are set with textContent only.
 (() => {
   'use strict';
-  const nonce = document.currentScript.nonce;
+  const { load, whole, textOf, forgetTexts } = window.contortPage;  // rows.js
   const root = document.documentElement;
   root.classList.add('js');
 
@@ -69,8 +69,8 @@
   // ---- filter
 
   // Name in the address and in words: element, attribute of the cards.
-  const kSelects = ['check', 'character', 'part', 'state'];
-  const kWord = /^(check|character|part|slot|state):(.*)$/;
+  const kSelects = ['check', 'character', 'part', 'phase', 'state'];
+  const kWord = /^(check|character|part|slot|phase|state):(.*)$/;
 
   const attributeOf = (card, name) =>
     (name === 'part' || name === 'slot' ? card.dataset.parts : card.dataset[name]) || '';
@@ -79,27 +79,14 @@
 
   const list = { cards: [], words: null, selects: new Map() };
 
-  // Choices are added, never taken away: what was chosen stays chosen.
+  // What was chosen stays chosen while there is such a failure.
   const fillSelect = (name, select) => {
-    const given = new Set([...select.options].map((option) => option.value));
     const values = new Set(list.cards.flatMap((card) => valuesOf(card, name)));
-    if (!given.has('')) select.append(new Option(`all ${name}s`, ''));
-    for (const value of [...values].sort()) if (!given.has(value)) select.append(new Option(value, value));
+    const chosen = select.value;
+    select.replaceChildren(new Option(`all ${name}s`, ''), ...[...values].sort().map((value) => new Option(value, value)));
+    select.value = values.has(chosen) ? chosen : '';
     // A choice of one is none.
     if (select.closest('label')) select.closest('label').hidden = values.size < 2;
-  };
-
-  // As it stands on the page, once for each card; without the buttons that live.js adds.
-  const texts = new WeakMap();
-  const reportText = (card) => {
-    if (!card.querySelector('.live-bar')) return card.textContent;
-    const copied = card.cloneNode(true);
-    for (const bar of copied.querySelectorAll('.live-bar')) bar.remove();
-    return copied.textContent;
-  };
-  const textOf = (card) => {
-    if (!texts.has(card)) texts.set(card, reportText(card).toLowerCase());
-    return texts.get(card);
   };
 
   const matches = (card, word) => {
@@ -117,7 +104,7 @@
       if (card.hidden === fits) card.hidden = !fits;
       shown += fits ? 1 : 0;
     }
-    document.getElementById('shown').textContent = `${shown} of ${list.cards.length} shown`;
+    document.getElementById('shown').textContent = `${shown} of ${list.cards.length} families shown`;
     document.getElementById('no-match').hidden = shown > 0;
   };
 
@@ -156,16 +143,16 @@
     readFilter();
   };
 
-  // ---- loading a case
+  // Rows that came later.
+  const takeRows = () => {
+    if (!list.words) return;
+    list.cards = [...document.querySelectorAll('.card')];
+    forgetTexts();
+    for (const [name, select] of list.selects) fillSelect(name, select);
+    readFilter();
+  };
 
-  const load = (tag, attributes) => new Promise((done, failed) => {
-    const element = document.createElement(tag);
-    element.nonce = nonce;
-    Object.assign(element, attributes);
-    element.onload = () => done(element);
-    element.onerror = () => { element.remove(); failed(new Error('missing')); };
-    document.head.append(element);
-  });
+  // ---- loading a case
 
   let viewerLoading = null;
   const viewer = async () => {
@@ -182,35 +169,44 @@
     return window.contortViewer;
   };
 
-  // The file of a case calls this. What nobody waits for is dropped.
+  // The files of cases and strips call this. What nobody waits for is dropped.
   const waiting = new Map();
-  window.contortCase = (key, data) => { if (waiting.has(key)) waiting.set(key, data); };
+  window.contortCase = window.contortStrip = (name, data) => { if (waiting.has(name)) waiting.set(name, data); };
 
-  const caseFromPage = (element, key) => {
+  const dataFromPage = (element, what) => {
     try {
       return JSON.parse(element.textContent);
     } catch {
-      throw new Error(`The data of case ${key} in this page is damaged.`);
+      throw new Error(`The data of ${what} in this page is damaged.`);
     }
   };
 
-  const caseFromFile = async (key) => {
-    const file = `cases/${encodeURIComponent(key)}.js`;
-    waiting.set(key, null);
+  const dataFromFile = async (file, name) => {
+    waiting.set(name, null);
     try {
       (await load('script', { src: file })).remove();
     } catch {
       throw new Error(`The file ${file} is missing: it has to be next to this page.`);
     }
-    const data = waiting.get(key);
-    waiting.delete(key);
+    const data = waiting.get(name);
+    waiting.delete(name);
     if (!data) throw new Error(`The file ${file} is damaged.`);
     return data;
   };
 
   const caseData = (key) => {
     const element = document.getElementById(`case-${key}`);
-    return element ? caseFromPage(element, key) : caseFromFile(key);
+    return element ? dataFromPage(element, `case ${key}`) : dataFromFile(`cases/${encodeURIComponent(key)}.js`, key);
+  };
+
+  // Where a case has a film strip: its picture, and how to ask from where it is seen.
+  const stripOf = (data) => {
+    const [path, name] = /^strips\/([\w.-]+)\.png$/.exec(data.strip) || [];
+    if (!path) return {};
+    const element = document.getElementById(`strip-${name}`);
+    const stripViews = async () =>
+      (element ? dataFromPage(element, 'the film strip') : dataFromFile(`strips/${encodeURIComponent(name)}.js`, name));
+    return { picture: { src: path, alt: 'Film strip' }, stripViews };
   };
 
   // ---- the open case
@@ -275,7 +271,7 @@
     return shown.panel;
   };
 
-  const optionsFor = (key, bucket, frame) => {
+  const optionsFor = (key, bucket, frame, data) => {
     const ways = buckets().filter((other) => other === bucket || isListed(other));
     const at = ways.indexOf(bucket);
     const go = (other) => (other ? () => openCase(other.dataset.case, null) : null);
@@ -287,7 +283,7 @@
       onClose: () => showList(key),
       onPrevious: go(ways[at - 1]), onNext: go(ways[at + 1]),
       position: `${at + 1} of ${ways.length}`,
-      picture: image ? { src: image.currentSrc || image.src, alt: image.alt } : null,
+      ...stripOf(data), ...(image && { picture: { src: image.currentSrc || image.src, alt: image.alt } }),
       command: command ? command.textContent : '',
     };
   };
@@ -305,7 +301,7 @@
     panel().hidden = false;
     root.classList.add('case-open');
     try {
-      shown.view = api.open(shown.panel, data, optionsFor(key, bucket, frame));
+      shown.view = api.open(shown.panel, data, optionsFor(key, bucket, frame, data));
     } catch (error) {
       throw new Error(`Case ${key} cannot be shown: ${error.message}.`);
     }
@@ -316,8 +312,11 @@
   };
 
   const openCase = async (key, frame) => {
-    const bucket = bucketOf(key);
     const failures = document.getElementById('failures') || document.body;
+    const ticket = shown.ticket = {};
+    if (!bucketOf(key)) await whole;
+    if (shown.ticket !== ticket) return;  // Another one was opened meanwhile.
+    const bucket = bucketOf(key);
     if (!bucket) {
       if (shown.key) closeCase();
       say(failures, `This report has no case ${key}.`);
@@ -325,12 +324,11 @@
     }
     say(failures, '');
     say(bucket, '');
-    const ticket = shown.ticket = {};
     const button = bucket.querySelector('.open');
     if (button) button.setAttribute('aria-busy', 'true');
     try {
       const [api, data] = await Promise.all([viewer(), caseData(key)]);
-      if (shown.ticket === ticket) present(key, bucket, frame, api, data);  // Else another one was opened meanwhile.
+      if (shown.ticket === ticket) present(key, bucket, frame, api, data); 
     } catch (error) {
       if (shown.ticket === ticket) failed(key, bucket, error.message);
     } finally {
@@ -391,5 +389,6 @@
       readAddress();
     });
     if (address.read().get('case')) readAddress();
+    whole.then((came) => { if (came) takeRows(); });
   });
 })();

@@ -71,12 +71,13 @@ Sheet::Sheet(const StripInput& input, int tiles) : input_(input), face_{input.fo
   write_header();
 }
 
-void Sheet::add_tile(const Image& picture, int frame, bool complete) {
+Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
   const int column = added_ % input_.columns, row = added_ / input_.columns;
   const int x = kGap + column * (input_.tile_width + kGap), y = kHeader + row * (input_.tile_height + kGap);
   paste(image_, picture, x, y);
   write_caption(x, y + picture.height, frame, complete);
   ++added_;
+  return {x, y};
 }
 
 void Sheet::write_header() {

@@ -18,8 +18,11 @@ class Sheet {
   int picture_height() const { return picture_height(input_); }
   static double picture_aspect(const StripInput& input);
 
-  // The next tile; `complete` false says so in its caption.
-  void add_tile(const Image& picture, int frame, bool complete);
+  // The next tile; `complete` false says so in its caption. Gives where its left upper corner is.
+  struct Corner {
+    int x = 0, y = 0;
+  };
+  Corner add_tile(const Image& picture, int frame, bool complete);
 
   // Why there is no text, if there is none.
   const std::optional<Issue>& text_issue() const { return text_issue_; }

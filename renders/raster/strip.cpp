@@ -75,16 +75,17 @@ struct Tiles {
 };
 
 Result<Image> draw_tiles(Renderer& renderer, const StripInput& input, const Plan& plan, const Tiles& tiles,
-                         std::vector<Issue>& warnings) {
+                         StripDone& done) {
   const Shots& shots = plan.shots;
   Sheet sheet(input, static_cast<int>(tiles.count));
   for (std::size_t i = tiles.first; i < tiles.first + tiles.count; ++i) {
     const Camera camera = plan.camera.at(shots.anchors[i]);
     const Result<Image> picture = renderer.draw(shots.lists[i], camera, sheet.picture_width(), sheet.picture_height());
     if (!picture) return picture;
-    sheet.add_tile(*picture, shots.frames[i], shots.lists[i].complete);
+    const auto [x, y] = sheet.add_tile(*picture, shots.frames[i], shots.lists[i].complete);
+    done.tiles.push_back({shots.frames[i], camera, x, y, picture->width, picture->height});
   }
-  if (sheet.text_issue()) warnings.push_back(*sheet.text_issue());
+  if (sheet.text_issue()) done.warnings.push_back(*sheet.text_issue());
   return std::move(sheet).image();
 }
 
@@ -96,9 +97,9 @@ Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View&
   plan.camera = frame_strip(plan.shots.outlines, plan.shots.anchors, view, Sheet::picture_aspect(input));
   renderer.set_meshes(plan.shots.meshes);
   std::vector<Image> images;
-  std::vector<Issue> warnings;  // those of the strip
+  StripDone unused;  // its warnings are those of the strip
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-    Result<Image> image = draw_tiles(renderer, input, plan, {i, 1}, warnings);
+    Result<Image> image = draw_tiles(renderer, input, plan, {i, 1}, unused);
     if (!image) return image.issue();
     images.push_back(std::move(image).value());
   }
@@ -139,8 +140,8 @@ Result<StripDone> StripRenderer::render(const StripInput& input, const std::stri
   renderer.set_meshes(plan.shots.meshes);
   const double aspect = Sheet::picture_aspect(input);
   if (Result<Done> chosen = choose_camera(renderer, input, aspect, plan); !chosen) return chosen.issue();
-  StripDone done{plan.shots.frames, plan.visible_pixels, {}};
-  const Result<Image> image = draw_tiles(renderer, input, plan, {0, plan.shots.frames.size()}, done.warnings);
+  StripDone done{plan.shots.frames, plan.visible_pixels, {}, {}};
+  const Result<Image> image = draw_tiles(renderer, input, plan, {0, plan.shots.frames.size()}, done);
   if (!image) return image.issue();
   if (Result<Done> written = write_png(*image, input.replay_command, png_path); !written) return written.issue();
   if (webp_path.empty()) return done;
@@ -156,13 +157,13 @@ Result<Image> StripRenderer::render_tile(const StripInput& whole) {
   state_->renderer->set_meshes(plan.shots.meshes);
   if (Result<Done> chosen = choose_camera(*state_->renderer, input, Sheet::picture_aspect(input), plan); !chosen)
     return chosen.issue();
-  std::vector<Issue> warnings;
-  return draw_tiles(*state_->renderer, input, plan, {0, 1}, warnings);
+  StripDone unused;
+  return draw_tiles(*state_->renderer, input, plan, {0, 1}, unused);
 }
 
 Result<StripDone> StripRenderer::render_rows(const RowsInput& input, const std::string& png_path) {
   if (Result<Done> fine = check_rows(input); !fine) return fine.issue();
-  StripDone done{input.frames, 0, {}};
+  StripDone done{input.frames, 0, {}, {}};
   const Result<Image> image = draw_rows(*state_->renderer, input, done.warnings);
   if (!image) return image.issue();
   if (Result<Done> written = write_png(*image, input.replay_command, png_path); !written) return written.issue();

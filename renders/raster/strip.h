@@ -16,6 +16,7 @@
 #include "renders/image.h"
 #include "renders/raster/gl_backend.h"
 #include "renders/shots.h"
+#include "renders/strip_views.h"
 
 namespace contort {
 
@@ -62,6 +63,7 @@ struct RowsInput {
 struct StripDone {
   std::vector<int> frames;      // What is on the tiles.
   int visible_pixels = 0;       // Of what is highlighted, at the worst frame. 0: it only shines through, if at all.
+  std::vector<StripTile> tiles; // of render: from where each is seen, and where it is in the picture
   std::vector<Issue> warnings;  // render.no_font: the picture was written, without text.
 };
 

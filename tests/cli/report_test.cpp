@@ -5,6 +5,7 @@
 
 #include "corpus/isolate.h"
 #include "tests/cli/program.h"
+#include "tests/cli/small_library.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
@@ -48,10 +49,13 @@ TEST_F(ReportOfCorpus, HasWhatTheViewerShowsOfEachBucket) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(files("cases"), std::vector<std::string>{key() + ".js"});
   const std::string script = slurp(folder_ / ("out/cases/" + key() + ".js"));
-  EXPECT_TRUE(script.starts_with("contortCase(\"" + key() + "\", {"));
+  EXPECT_TRUE(script.starts_with("// made of ")) << "what it was made of, see DIR/cases in docs/report.md";
+  EXPECT_NE(script.find("\ncontortCase(\"" + key() + "\", {"), std::string::npos);
   EXPECT_NE(script.find("\"role\":\"minimal\""), std::string::npos);
   EXPECT_NE(script.find("\"role\":\"original\""), std::string::npos);
-  EXPECT_NE(slurp(folder_ / "out/index.html").find("data-case='" + key() + "'"), std::string::npos);
+  const std::string page = slurp(folder_ / "out/index.html");
+  EXPECT_NE(page.find("data-case='" + key() + "'"), std::string::npos);
+  EXPECT_NE(page.find("data-phase='" + failing_case(bent_elbow(158), "joint_range", kElbow).expect.phase + "'"), std::string::npos);
 }
 
 // To play it would end whoever plays it.
@@ -61,23 +65,57 @@ TEST_F(ReportOfCorpus, HasNoMotionOfACaseThatEndsTheGenerator) {
   const Ran ran = report({}, "auto");
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(files("cases").size(), 1U);
-  EXPECT_EQ(files("strips").size(), 2U) << "one still, one moving";
+  EXPECT_EQ(files("strips").size(), 3U) << "one still, one moving, and from where they are seen";
   EXPECT_NE(slurp(folder_ / "out/index.html").find("no motion to show"), std::string::npos);
 }
 
 TEST_F(ReportOfCorpus, DrawsEachPictureOnceAndKeepsNoOldOnes) {
   ASSERT_EQ(report({}, "auto").code, 0);
   const std::vector<std::string> pictures = files("strips");
-  ASSERT_EQ(pictures.size(), 2U);
+  ASSERT_EQ(pictures.size(), 3U);
   const auto drawn = fs::last_write_time(folder_ / ("out/strips/" + pictures[0]));
   add(failing_case(bent_elbow(152), "joint_range", kElbow), failing_case(bent_elbow(152), "joint_range", kElbow));
   ASSERT_EQ(report({}, "auto").code, 0);
-  EXPECT_EQ(files("strips").size(), 2U) << "the bucket has another minimal case, and so other pictures";
+  EXPECT_EQ(files("strips").size(), 3U) << "the bucket has another minimal case, and so other pictures";
   EXPECT_NE(files("strips"), pictures);
   const auto again = fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0]));
   EXPECT_GT(again, drawn);
   ASSERT_EQ(report({}, "auto").code, 0);
   EXPECT_EQ(fs::last_write_time(folder_ / ("out/strips/" + files("strips")[0])), again);
+}
+
+// 0.1 s each, after a night in which nothing changed.
+TEST_F(ReportOfCorpus, MakesEachCaseOnceOfTheSame) {
+  ASSERT_EQ(report().code, 0);
+  const std::string path = folder_ / ("out/cases/" + key() + ".js");
+  const std::string made = slurp(path);
+  const auto plant = [&] { spill(path, made.substr(0, made.find('\n')) + "\nplanted"); };
+  const auto is_planted = [&] { return slurp(path).ends_with("planted"); };
+  const auto report_with = [&](const std::string& option, const std::string& value) {
+    const Ran ran =
+        contort_program({"--gl", "none", option, value, "report", corpus_.folder(), "-o", folder_ / "out"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  };
+  plant();
+  ASSERT_EQ(report().code, 0);
+  EXPECT_TRUE(is_planted()) << "nothing changed, so it was left as it is";
+  spill(folder_ / "limits.json", R"({"format":"contort.settings/1","limits":[
+    {"check":"joint_range","tolerance":0.01,"reason":"a test"}]})");
+  report_with("--settings", folder_ / "limits.json");
+  EXPECT_FALSE(is_planted()) << "margins are others by other limits";
+  ASSERT_EQ(report().code, 0);
+  EXPECT_EQ(slurp(path), made);
+  plant();
+  small::write_library(folder_ / "library");
+  report_with("--library", folder_ / "library");
+  EXPECT_FALSE(is_planted()) << "what the library has may be in the motion";
+  spill(path, made.substr(made.find('\n') + 1));
+  ASSERT_EQ(report().code, 0);
+  EXPECT_EQ(slurp(path), made) << "a file that does not say what it was made of is made again";
+  plant();
+  add(failing_case(bent_elbow(152), "joint_range", kElbow), failing_case(bent_elbow(152), "joint_range", kElbow));
+  ASSERT_EQ(report().code, 0);
+  EXPECT_FALSE(is_planted()) << "the bucket has another minimal case";
 }
 
 // A folder of a project may have cases and strips of its own.
@@ -127,7 +165,7 @@ TEST_F(ReportOfCorpus, PicturesAreOfTheLimitsThatAreGiven) {
   const Ran ran =
       contort_program({"--settings", folder_ / "limits.json", "report", corpus_.folder(), "-o", folder_ / "out"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  ASSERT_EQ(files("strips").size(), 2U);
+  ASSERT_EQ(files("strips").size(), 3U);
   EXPECT_NE(files("strips"), pictures);
   EXPECT_NE(slurp(folder_ / ("out/strips/" + files("strips")[0])), before) << "nothing is violated by these limits";
   std::ofstream(folder_ / "limits.json") << "{";

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "checks/circumstances.h"
 #include "corpus/isolate.h"
 #include "fuzz/draw.h"
 #include "generator/core/hash.h"
@@ -45,6 +46,7 @@ Case draw_case() {
   e.motion_hash = to_hex(*rc::gen::arbitrary<std::uint64_t>());
   e.character_hash = to_hex(*rc::gen::arbitrary<std::uint64_t>());
   e.trace = draw_text("0123456789abcdef", 0, 400);
+  e.phase = draw_text("abc_", 0, 12);
   c.provenance = {draw_text("0.1-beta", 0, 12),
                   *rc::gen::inRange<std::int64_t>(-1, (1LL << 53) + 1),
                   *rc::gen::inRange<std::int64_t>(-1, 99),
@@ -73,6 +75,23 @@ RC_GTEST_PROP(CaseFile, ReadsBackWhatWasWritten, ()) {
   if (!read) RC_FAIL(to_line(read.issue()));
   RC_ASSERT(same(*read, written));
   RC_ASSERT(print_case(*read) == text);
+}
+
+TEST(CaseFile, SaysWhatWasGoingOnInTheWorstFrame) {
+  const Case c = failing_case(bent_elbow(158), "joint_range", kElbow);
+  const Result<Stage> stage = build_stage(c.spec, stock_library());
+  ASSERT_TRUE(stage);
+  Evaluator evaluator;
+  evaluator.run(*stage);
+  EXPECT_EQ(c.expect.phase, phase_name(phase_of(stage->timeline, evaluator.motion(), c.expect.worst_frame)));
+  EXPECT_FALSE(c.expect.phase.empty());
+  // Cases of older builds do not say it.
+  std::string text = print_case(c);
+  const std::size_t at = text.find("\"phase\"");
+  text.erase(at, text.find('\n', at) - at);
+  const Result<Case> read = parse_case(text);
+  ASSERT_TRUE(read) << to_line(read.issue());
+  EXPECT_EQ(read->expect.phase, "");
 }
 
 // Names may have 64 letters; a pair of bodies is named by four of them.

@@ -4,6 +4,8 @@ import { closeAll } from './support.mjs';
 import './source.test.mjs';
 import './model.test.mjs';
 import './list.test.mjs';
+import './rows.test.mjs';
+import './strip.test.mjs';
 import './case.test.mjs';
 import './failures.test.mjs';
 import './access.test.mjs';

@@ -1,6 +1,7 @@
 // Makes reports for the browser tests: node fixture.mjs --contort BINARY --viewer DIR --out DIR
 //
-// OUT/report has cases of every kind, OUT/single.html one file with everything in it, OUT/large a page of 1,000 buckets.
+// OUT/report has cases of every kind, OUT/single.html one file with everything in it, OUT/large a page of 3,000 cards, most of
+// them in files beside it.
 // Motions are real ones, made by `contort generate` from docs/examples; margins are invented.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync, copyFileSync } from 'node:fs';
@@ -197,10 +198,13 @@ const html = (text) => String(text).replace(/[&<>"'\u202e]/g, (sign) => `&#${sig
 const scriptJson = (value) => JSON.stringify(value).replaceAll('<', '\\u003c').replaceAll('\u2028', '\\u2028');
 const kNonce = 'c0ffee0123456789';
 
-function card(one, state) {
+const kPhases = ['interrupt', 'mid_clip', 'blend'];
+const phaseOf = (one) => kPhases[one.key.length % 3];
+
+function card(one, state, more = '') {
   const { check, subject } = one.failure;
   const parts = [...new Set(subject.split(/[ ~]+/).filter(Boolean).map((word) => word.split('/')[0]))].join(' ');
-  return `<article tabindex='-1' class='card gating' data-check='${html(check.replaceAll(' ', '_'))}' data-state='${state}' data-character='${html(one.character)}' data-parts='${html(parts)}'>
+  return `<article tabindex='-1' class='card gating' data-check='${html(check.replaceAll(' ', '_'))}' data-state='${state}' data-character='${html(one.character)}' data-parts='${html(parts)}' data-phase='${phaseOf(one)}'>
 <div class='head'>
 <h3><span class='check'>${html(check)}</span> <span class='subject'>${html(subject)}</span></h3>
 <p class='summary'><span class='chip state-${state}'>${state}<span class='unseen'> (gating)</span></span> <span>12 cases</span></p>
@@ -214,7 +218,7 @@ function card(one, state) {
 <div class='command'><code>contort replay ${html(one.key)} &amp;&amp; echo &lt;done&gt;</code><button type='button' class='copy' aria-label='Copy the replay command'>Copy</button></div>
 <button type='button' class='open'>Look closer</button>
 </section>
-</article>
+${more}</article>
 `;
 }
 
@@ -222,12 +226,12 @@ function filterForm() {
   const select = (id, name) => `<label><span>${name}</span><select id='${id}'></select></label>\n`;
   return `<form class='filter' role='search'>
 <label class='words'><span>Filter</span><input type='search' id='words' autocomplete='off' spellcheck='false' placeholder='elbow, state:new, walk'></label>
-${select('check', 'Check')}${select('character', 'Character')}${select('part', 'Part')}${select('state', 'State')}<output id='shown' aria-live='polite'></output>
+${select('check', 'Check')}${select('character', 'Character')}${select('part', 'Part')}${select('phase', 'Phase')}${select('state', 'State')}<output id='shown' aria-live='polite'></output>
 </form>
 `;
 }
 
-function page(cards, count, more = '') {
+function page(cards, count, more = '', rows = { files: 0, note: '' }) {
   const read = (name) => readFileSync(join(root, 'renders', 'page', name), 'utf8');
   return `<!doctype html>
 <html lang='en'>
@@ -242,7 +246,7 @@ function page(cards, count, more = '') {
 <style nonce='${kNonce}'>
 ${read('page.css')}</style>
 <script nonce='${kNonce}'>
-${read('page.js')}</script>
+${read('rows.js')}${read('page.js')}</script>
 </head>
 <body>
 <a class='skip' href='#failures'>Skip to the failures</a>
@@ -257,9 +261,9 @@ ${read('page.js')}</script>
 </div>
 </header>
 <main class='page'>
-<section id='failures'>
+<section id='failures'${rows.files ? ` data-row-files='${rows.files}'` : ''}>
 <h2>Failures</h2>
-${filterForm()}${cards}<p class='none' id='no-match' hidden>Nothing matches the filter.</p>
+${filterForm()}${cards}${rows.note}<p class='none' id='no-match' hidden>Nothing matches the filter.</p>
 </section>
 </main>
 <footer class='page'><p>Made by contort.<span class='keys'> Keys: <kbd>/</kbd> filter, <kbd>j</kbd> <kbd>k</kbd> next and previous failure, <kbd>Enter</kbd> look closer.</span></p></footer>
@@ -288,8 +292,20 @@ function writeSingle(file, viewer, cases) {
   writeFileSync(file, page(cases.map((one) => card(one, 'new')).join(''), cases.length, inline));
 }
 
+// What renders/report_rest.cpp writes of a card that the page has no room for.
+const lateCard = (one, number, state) => ({
+  card: number, check: one.failure.check, subject: one.failure.subject, character: one.character,
+  parts: one.failure.subject.split('/')[0], phase: phaseOf(one), state, gating: true, count: '12 cases, 2 buckets',
+  chips: [[state, true]], more: '1 more bucket',
+  buckets: [one.key, `${one.key}0`].map((key) =>
+    ({ key, text: 'worst -0.03 m at frame 3, 0.05 s; needs walk', open: true, command: `contort replay ${key}` })),
+});
+
+const kOnPage = 400;
+const kPerFile = 500;
+
 function writeLarge(out, viewer, cases, count) {
-  for (const folder of ['strips', 'cases', 'viewer']) mkdirSync(join(out, folder), { recursive: true });
+  for (const folder of ['strips', 'cases', 'viewer', 'rows']) mkdirSync(join(out, folder), { recursive: true });
   for (const name of ['viewer.js', 'viewer.css']) copyFileSync(join(viewer, name), join(out, 'viewer', name));
   const checks = ['self_collision', 'foot_slide', 'joint_range', 'pop', 'balance'];
   const parts = ['arm_left', 'arm_right', 'leg_left', 'leg_right', 'torso', 'head'];
@@ -297,10 +313,21 @@ function writeLarge(out, viewer, cases, count) {
     key: `${checks[i % 5]}-${(i * 2654435761 >>> 0).toString(16).padStart(8, '0')}`, character: ['human', 'mech', 'dog'][i % 3],
     failure: { check: checks[i % 5], subject: `${parts[i % 6]}/joint_${i}` },
   }));
-  for (const one of many) writeFileSync(join(out, 'strips', `${one.key}.png`), tinyPng());
-  const first = { ...cases[0], key: many[0].key };
-  writeFileSync(join(out, 'cases', `${first.key}.js`), `contortCase(${scriptJson(first.key)}, ${scriptJson(caseData(first))});\n`);
-  writeFileSync(join(out, 'index.html'), page(many.map((one, i) => card(one, ['new', 'open', 'fixed'][i % 3])).join(''), count));
+  const states = ['new', 'open', 'fixed'];
+  for (const one of many.slice(0, kOnPage)) writeFileSync(join(out, 'strips', `${one.key}.png`), tinyPng());
+  for (const { key } of [many[0], many[count - 1]])
+    writeFileSync(join(out, 'cases', `${key}.js`), `contortCase(${scriptJson(key)}, ${scriptJson(caseData({ ...cases[0], key }))});\n`);
+  const late = many.slice(kOnPage).map((one, i) => lateCard(one, kOnPage + i, states[(kOnPage + i) % 3]));
+  // The first card's buckets go on in the file, too.
+  late.unshift({ card: 0, buckets: [{ key: 'late-0000', text: 'worst', open: false, command: '' }] });
+  const files = Math.ceil(late.length / kPerFile);
+  for (let i = 0; i < files; ++i)
+    writeFileSync(join(out, 'rows', `part-${i + 1}.js`), `contortRows(${scriptJson(late.slice(i * kPerFile, (i + 1) * kPerFile))});\n`);
+  const note = `<p class='rest' id='rest'>${late.length} more failures in <a href='more.html'>the plain list</a>.</p>\n`;
+  const begun = "<details data-more='0'><summary>1 more bucket</summary>\n<p class='rest'>1 of them is elsewhere.</p>\n</details>\n";
+  const cards = many.slice(0, kOnPage).map((one, i) => card(one, states[i % 3], i === 0 ? begun : ''));
+  writeFileSync(join(out, 'more.html'), '<!doctype html>\n<title>more</title>\n');
+  writeFileSync(join(out, 'index.html'), page(cards.join(''), count, '', { files, note }));
 }
 
 export function makeFixture({ contort, viewer, out }) {
@@ -311,7 +338,7 @@ export function makeFixture({ contort, viewer, out }) {
   const cases = allCases(made);
   writeReport(join(out, 'report'), viewer, cases);
   writeSingle(join(out, 'single.html'), viewer, cases.slice(0, 4));
-  writeLarge(join(out, 'large'), viewer, cases, 1000);
+  writeLarge(join(out, 'large'), viewer, cases, 3000);
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { openPage, options, urlOf } from './support.mjs';
 
 const kSelects = [['check', 'data-check'], ['character', 'data-character'], ['part', 'data-parts'],
-  ['state', 'data-state']];
+  ['phase', 'data-phase'], ['state', 'data-state']];
 const visible = (page) => page.locator('.card:visible').count();
 const total = (page) => page.locator('.card').count();
 

@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 import { options } from './support.mjs';
 
 const folder = resolve(dirname(fileURLToPath(import.meta.url)), '..', '..', 'renders', 'page');
-const sources = [join(folder, 'page.js'), ...['src', 'play', 'live'].flatMap((part) => readdirSync(join(folder, part))
+const sources = [join(folder, 'page.js'), join(folder, 'rows.js'), ...['src', 'play', 'live'].flatMap((part) => readdirSync(join(folder, part))
   .filter((name) => name.endsWith('.js')).map((name) => join(folder, part, name)))];
 // Reads the server's own page again.
 const parses = join(folder, 'live', 'refresh.js');
@@ -24,8 +24,8 @@ test('no source is longer than 400 lines', () => {
   for (const file of sources) assert.ok(readFileSync(file, 'utf8').split('\n').length <= 401, file);
 });
 
-test('page.js and page.css can be put into a C++ string', () => {
-  for (const [name, end] of [['page.js', ')js"'], ['page.css', ')css"']]) {
+test('what is in the page itself can be put into a C++ string', () => {
+  for (const [name, end] of [['page.js', ')js"'], ['rows.js', ')js"'], ['page.css', ')css"']]) {
     const text = readFileSync(join(folder, name), 'utf8');
     assert.ok(!text.includes(end), name);
     assert.ok(text.length < 60_000, name);

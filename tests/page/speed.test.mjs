@@ -1,4 +1,4 @@
-// A page of a thousand buckets, and the size of what is loaded before any case is opened.
+// A page of three thousand failures, and the size of what is loaded before any case is opened.
 import assert from 'node:assert/strict';
 import { statSync } from 'node:fs';
 import { join } from 'node:path';
@@ -20,6 +20,7 @@ for (const way of ['file', 'http']) {
       const [entry] = performance.getEntriesByType('navigation');
       return { interactive: entry.domInteractive, complete: entry.domComplete || entry.domInteractive };
     });
+    const whole = await page.evaluate(async () => { await window.contortPage.whole; return performance.now(); });
     const filtering = await page.evaluate(() => {
       const words = document.getElementById('words');
       const start = performance.now();
@@ -30,9 +31,11 @@ for (const way of ['file', 'http']) {
     });
     const cards = await page.locator('.card').count();
     t.diagnostic(`${cards} cards, interactive after ${Math.round(times.interactive)} ms, ` +
-      `complete after ${Math.round(times.complete)} ms, one filter ${Math.round(filtering)} ms, ` +
+      `complete after ${Math.round(times.complete)} ms, whole after ${Math.round(whole)} ms, one filter ${Math.round(filtering)} ms, ` +
       `page ${statSync(join(options.large, 'index.html')).size} bytes`);
+    assert.ok(statSync(join(options.large, 'index.html')).size < 1_048_576);
     assert.ok(times.interactive < 2000);
+    assert.ok(whole < 4000, 'also those that come later');
     assert.ok(filtering < 300);
     assert.deepEqual(wrong, []);
     await close();

@@ -99,11 +99,11 @@ function isWhole({ motions }) {
 
 // ---- pages
 
-// Opens a page and collects what it must not do. `more`: width, height, scheme, gl, bypassCSP, reducedMotion.
+// Opens a page and collects what it must not do. `more`: width, height, scheme, gl, bypassCSP, reducedMotion, javaScript.
 export async function openPage(url, more = {}) {
   const context = await (await browser(more.gl ?? true)).newContext({
     viewport: { width: more.width ?? 1280, height: more.height ?? 900 }, colorScheme: more.scheme ?? 'light',
-    bypassCSP: more.bypassCSP ?? false, reducedMotion: more.reducedMotion ?? 'no-preference',
+    bypassCSP: more.bypassCSP ?? false, javaScriptEnabled: more.javaScript ?? true, reducedMotion: more.reducedMotion ?? 'no-preference',
   });
   context.setDefaultTimeout(15_000);
   const page = await context.newPage();

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "generator/core/files.h"
 #include "renders/html.h"
@@ -154,23 +156,107 @@ TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
 }
 
 // Names as long as those of real parts; pictures come on top.
-TEST(Report, AThousandBucketsStayBelowAMegabyte) {
+ReportModel large_model(int count, int family_size = 1) {
   std::vector<ReportRow> rows;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < count; ++i) {
     const std::string number = std::to_string(i);
-    ReportRow row = row_of("self_collision", "human: arm_left/forearm_" + number + " ~ torso/chest", "new", true);
+    const std::string family = std::to_string(i / family_size);
+    ReportRow row = row_of("self_collision", "human: arm_left/forearm_" + family + " ~ torso/chest", "new", true);
     row.key = row.bucket = "self_collision-0123456789" + number;
     row.replay_command = "contort replay contort-out/corpus/buckets/" + row.key + "/min-0123456789abcdef.json";
-    row.features = "actions=pose,reach,walk clips=2 sequences=1 swap";
+    row.features = "actions=pose,reach,walk clips=2 sequences=1 swap", row.phase = "interrupt";
     row.clip = "strips/" + row.key + "-01234567.webp";
     row.spec_json = std::string(11'000, 'x');  // of a failure that was not shrunk
     rows.push_back(std::move(row));
   }
-  const std::string html = report_html(model_of(rows));
-  EXPECT_LT(html.size(), 1'000'000u);
-  EXPECT_EQ(count(html, "<article"), 1000u);
-  EXPECT_EQ(count(html, "class='open'"), 1000u) << "each can be looked at";
-  EXPECT_EQ(count(html, "contort replay "), 1000u + count(html, "data-missing")) << "and seen again";
+  return model_of(std::move(rows));
+}
+
+nlohmann::json rows_of(const std::string& script) {
+  EXPECT_TRUE(script.starts_with("contortRows(") && script.ends_with(");\n"));
+  return nlohmann::json::parse(script.substr(12, script.size() - 15));
+}
+
+// Whether page.js finds a place for each bucket: in a card that begins with it, or in one that has a list for more.
+bool have_places(const PageFiles& pages) {
+  std::set<int> lists;
+  for (int part = 1; pages.contains("rows/part-" + std::to_string(part) + ".js"); ++part)
+    for (const auto& card : rows_of(pages.at("rows/part-" + std::to_string(part) + ".js"))) {
+      const int number = card["card"];
+      const bool on_page =
+          pages.at("index.html").find("data-more='" + std::to_string(number) + "'") != std::string::npos;
+      if (card["buckets"].empty() || (!card.contains("check") && !on_page && !lists.contains(number))) return false;
+      if (card.contains("more")) lists.insert(number);
+    }
+  return true;
+}
+
+// All keys, from the page and then from what is loaded after it.
+std::vector<std::string> keys_of(const PageFiles& pages) {
+  std::vector<std::string> keys;
+  const std::string& html = pages.at("index.html");
+  for (std::size_t at = html.find("data-case='"); at != html.npos; at = html.find("data-case='", at + 1))
+    keys.push_back(html.substr(at + 11, html.find('\'', at + 11) - at - 11));
+  for (int part = 1; pages.contains("rows/part-" + std::to_string(part) + ".js"); ++part)
+    for (const auto& card : rows_of(pages.at("rows/part-" + std::to_string(part) + ".js")))
+      for (const auto& bucket : card["buckets"]) keys.push_back(bucket["key"]);
+  return keys;
+}
+
+TEST(Report, APageIsBelowAMegabyteAndHasEachBucketOnce) {
+  for (const int count : {1000, 3000})
+    for (const int family_size : {1, 7, count}) {
+      const ReportModel model = large_model(count, family_size);
+      const PageFiles pages = report_pages(model);
+      EXPECT_LT(pages.at("index.html").size(), 1'000'000u);
+      std::vector<std::string> keys = keys_of(pages), wanted;
+      for (const ReportRow& row : model.rows) wanted.push_back(row.key);
+      std::sort(keys.begin(), keys.end()), std::sort(wanted.begin(), wanted.end());
+      EXPECT_TRUE(have_places(pages)) << count << " buckets, " << family_size << " of each family";
+      EXPECT_EQ(keys, wanted) << count << " buckets, " << family_size << " of each family";
+    }
+}
+
+// Without scripts: what is in index.html, and the list of the others that it names.
+TEST(Report, WhoHasNoScriptsFindsEachBucketToo) {
+  const PageFiles pages = report_pages(large_model(3000));
+  const std::string& html = pages.at("index.html");
+  const std::size_t here = count(html, "<article");
+  EXPECT_GT(here, 300u);
+  EXPECT_TRUE(contains(html, "<a href='more.html'>"));
+  EXPECT_EQ(count(pages.at("more.html"), "<tr><td>"), 3000u - here);
+  EXPECT_EQ(count(pages.at("more.html"), "<code>contort replay "), 3000u - here);
+  EXPECT_FALSE(contains(pages.at("more.html"), "<script"));
+}
+
+TEST(Report, AFamilyThatIsTooLargeGoesOnInTheFilesBesideThePage) {
+  const PageFiles pages = report_pages(large_model(3000, 3000));
+  const std::string& html = pages.at("index.html");
+  EXPECT_EQ(count(html, "<article"), 1u);
+  EXPECT_TRUE(contains(html, "<details data-more='0'><summary>2\u202F999 more buckets"));
+  const auto cards = rows_of(pages.at("rows/part-1.js"));
+  EXPECT_EQ(cards.size(), 1u);
+  EXPECT_FALSE(cards[0].contains("check")) << "the card is there already";
+  EXPECT_EQ(cards[0]["card"], 0);
+}
+
+TEST(Report, ASmallOneIsOnePage) {
+  EXPECT_EQ(report_pages(large_model(200)).size(), 1u);
+  const std::string html = report_html(large_model(3000), {{"viewer/viewer.css", "x"}});
+  EXPECT_EQ(count(html, "<article"), 3000u) << "a file for mail has nothing beside it";
+}
+
+TEST(Report, TellsThePhase) {
+  ReportRow row = row_of("c", "a", "new", true);
+  row.phase = "interrupt";
+  ReportRow other = row;
+  other.phase = "mid_clip", other.key = "c-0";
+  const std::string html = report_html(model_of({row, other}));
+  EXPECT_TRUE(contains(html, "data-phase='interrupt mid_clip'"));
+  EXPECT_TRUE(contains(html, "<dd>interrupt: just after an interrupt</dd>"));
+  EXPECT_TRUE(contains(html, "<select id='phase'>"));
+  row.phase = "";
+  EXPECT_FALSE(contains(report_html(model_of({row})), "<div><dt>phase</dt><dd>interrupt"));
 }
 
 TEST(Report, ListsWhatWasTested) {
@@ -185,7 +271,7 @@ TEST(Report, ListsWhatWasTested) {
 ReportModel hostile_model() {
   ReportRow row;
   for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,
-                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character, &row.meaning})
+                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character, &row.meaning, &row.phase})
     *text = kHostile;
   row.worst_margin = std::nan("");
   row.rate_hz = std::nan("");
@@ -254,6 +340,34 @@ TEST(WriteReport, WritesBothFilesAndNothingElse) {
   EXPECT_EQ(read_file((folder / "report.json").string()).value(), report_json(model));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2);
   std::filesystem::remove_all(folder.parent_path());
+}
+
+TEST(WriteReport, RemovesWhatALargerReportHadBesides) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "contort_report_rest";
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(write_report(large_model(2500), folder.string()).ok());
+  EXPECT_TRUE(std::filesystem::exists(folder / "rows" / "part-2.js"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "more.html"));
+  std::ofstream(folder / "rows" / "part-theirs.js") << "theirs";
+  ASSERT_TRUE(write_report(large_model(10), folder.string()).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "rows" / "part-1.js"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "more.html"));
+  std::ofstream(folder / "more.html") << "theirs";
+  ASSERT_TRUE(write_report(large_model(10), folder.string()).ok());
+  EXPECT_TRUE(std::filesystem::exists(folder / "more.html"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "rows" / "part-theirs.js"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Report, TheRestIsEscapedToo) {
+  std::vector<ReportRow> rows = large_model(1500).rows;
+  rows.push_back(hostile_model().rows.front());
+  rows.back().gating = true;
+  const ReportModel model = model_of(rows);
+  const PageFiles pages = report_pages(model);
+  EXPECT_FALSE(contains(pages.at("more.html"), "<script"));
+  EXPECT_FALSE(contains(pages.at("more.html"), "' onerror"));
+  EXPECT_EQ(rows_of(pages.at("rows/part-2.js")).back()["subject"], kHostile);
 }
 
 TEST(WriteReport, RefusesAFolderThatCannotBe) {

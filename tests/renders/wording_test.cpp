@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "checks/circumstances.h"
+
 namespace contort {
 namespace {
 
@@ -59,6 +61,13 @@ TEST(NeedsText, SaysItInWords) {
   EXPECT_EQ(needs_text("actions= clips=0 sequences=0"), "no action, 0 clips, 0 sequences");
   EXPECT_EQ(needs_text("something else"), "something, else");
   EXPECT_EQ(needs_text(""), "");
+}
+
+TEST(PhaseText, SaysEachPhaseInWords) {
+  for (const std::string_view phase : phase_names()) EXPECT_NE(phase_text(phase), phase) << phase;
+  EXPECT_EQ(phase_text("interrupt"), "just after an interrupt");
+  EXPECT_EQ(phase_text("of_tomorrow"), "of_tomorrow");
+  EXPECT_EQ(phase_text(""), "");
 }
 
 }  // namespace

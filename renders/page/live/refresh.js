@@ -35,6 +35,8 @@ export class Refresh {
     const failures = document.getElementById('failures');
     const next = fresh.getElementById('failures');
     if (!failures || !next) throw new Error('it is no report');
+    // Of a report so long that further rows come from files, the list is made by loading the page.
+    if (fresh.getElementById('rest')) return this.loadAnew();
     const before = new Set(keysOf(failures));
     const after = keysOf(next);
     const anchor = this.anchor();
@@ -46,6 +48,13 @@ export class Refresh {
     const gone = [...before].filter((key) => !after.includes(key)).length;
     return ['Report updated', added ? count(added, 'new failure', 'new failures') : 'no new failure',
       gone ? `${gone} gone` : ''].filter(Boolean).join(', ').replace(', ', ': ');
+  }
+
+  // Not while somebody looks at a case or writes.
+  loadAnew() {
+    const busy = document.documentElement.classList.contains('case-open') || document.querySelector('.live-bar form');
+    if (!busy) location.reload();
+    return busy ? 'Report updated: load the page again to see it' : 'Report updated';
   }
 
   // What the reader looks at, and where on the screen it is.

@@ -8,6 +8,7 @@ import { listenForKeys } from './keys.js';
 import { Player } from './player.js';
 import { specElement } from './spec_view.js';
 import { Stage } from './stage.js';
+import { nearestTile, readStrip } from './strip_view.js';
 import { Timeline } from './timeline.js';
 
 const kSlow = 45;  // Milliseconds per picture while playing.
@@ -18,7 +19,7 @@ export class CaseView {
     this.options = options;
     this.container = container;
     this.both = false;
-    this.stage = new Stage();
+    this.stage = new Stage({ asInStrip: () => this.lookAsStrip() });
     this.player = new Player({ frame: () => this.showFrame(), playing: (on) => this.showPlaying(on) });
     this.controls = new Controls(this.data, this.calls());
     this.element = this.build();
@@ -67,7 +68,7 @@ export class CaseView {
       Home: () => calls.step(-this.motion.frameCount), End: () => calls.step(this.motion.frameCount),
       g: () => this.motion.ghostGlb && calls.set('ghost'),
       c: () => this.motion.colliders.length && calls.set('colliders'),
-      x: () => calls.set('xray'), f: () => calls.set('follow'),
+      v: () => this.lookAsStrip(), x: () => calls.set('xray'), f: () => calls.set('follow'),
       s: () => this.controls.motions.has('both') && this.chooseMotion(this.both ? 0 : 'both'),
       j: () => this.options.onNext?.(), k: () => this.options.onPrevious?.(), Escape: () => this.close(),
     };
@@ -86,6 +87,7 @@ export class CaseView {
     this.loading = true;
     this.player.setMotion(this.motion.frameCount, this.motion.rate, frame ?? Math.max(0, this.motion.worst));
     this.loading = false;
+    this.stage.stripButton.hidden = !this.hasStrip();
     const shown = [this.motion, this.other].filter(Boolean);
     this.stage.frames = this.frames();
     this.loaded = this.stage.setMotions(shown, false).then(() => { this.element.dataset.ready = String(which); });
@@ -156,6 +158,21 @@ export class CaseView {
     this.controls?.showPlaying(playing);
     // Also makes the picture sharp again.
     if (!playing && this.timeline) this.showFrame();
+  }
+
+  // The strip is of the minimal motion alone.
+  hasStrip() {
+    return Boolean(this.options.stripViews) && this.motion === this.data.motions[0] && !this.stage.flat;
+  }
+
+  async lookAsStrip() {
+    if (!this.hasStrip()) return;
+    try {
+      this.tiles ??= readStrip(await this.options.stripViews());
+      if (this.hasStrip() && this.stage.drawing) this.stage.lookAs(nearestTile(this.tiles, this.player.frame));
+    } catch (error) {
+      this.stage.say(error.message);
+    }
   }
 
   toWorst() {

@@ -13,6 +13,7 @@ let openView = null;
 //   options.onPrevious, options.onNext   where there is such a case
 //   options.position   "2 of 14"
 //   options.command    replay command; options.picture: {src, alt} of the film strip
+//   options.stripViews   where there is a strip: asks for from where it is seen (strip_view.js)
 // Throws an Error with a sentence for the reader where the data cannot be shown.
 export function open(container, data, options = {}) {
   close();

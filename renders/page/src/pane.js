@@ -38,7 +38,10 @@ export class Pane {
     this.dots = [];  // Points that are marked: {object, colour}, for drawing without WebGL.
     this.path = this.makePath();
     this.pose(this.startFrame());
-    this.radius = Math.max(0.2, figure.box().getSize(new Vector3()).length() / 2);
+    const box = figure.box();
+    this.radius = Math.max(0.2, box.getSize(new Vector3()).length() / 2);
+    // From the middle of the joints to that of what is seen: a large head is above all joints.
+    this.offset = box.getCenter(new Vector3()).sub(this.path(this.startFrame()));
     this.lights = lights(colours);
     this.obstacles = obstacleGroup(motion.obstacles, colours);
     this.ground = groundMesh(motion.ground, colours, this.middle);

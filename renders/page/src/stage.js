@@ -3,7 +3,7 @@ import { PerspectiveCamera, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { CanvasDrawing } from './draw_canvas.js';
 import { webglDrawing } from './draw_webgl.js';
-import { el, iconButton } from './dom.js';
+import { el, iconButton, textButton } from './dom.js';
 import { Pane } from './pane.js';
 import { onThemeChange, theme } from './theme.js';
 
@@ -11,17 +11,22 @@ const kNoWebgl = 'This browser cannot draw in 3-D (WebGL is switched off or miss
 const kDamaged = 'The 3-D model of this motion is missing or damaged and cannot be shown. The numbers below are complete.';
 const kLost = 'The browser took the 3-D picture away. Close this case and open it again.';
 
-// `load` makes a pane of a motion and the colours; `lost` is what is said when the browser takes the picture away.
+const kFieldOfView = 32;  // Degrees, from top to bottom.
+const kFarthest_m = 60;
+
+// `load` makes a pane of a motion and the colours; `lost` is what is said when the browser takes the picture away;
+// `asInStrip` is called when the reader wants to look from where the film strip does.
 export class Stage {
-  constructor({ load = Pane.load, lost: lostText = kLost } = {}) {
+  constructor({ load = Pane.load, lost: lostText = kLost, asInStrip } = {}) {
     this.load = load;
+    this.asInStrip = asInStrip;
     this.drawing = webglDrawing() ?? new CanvasDrawing();
     this.flat = this.drawing instanceof CanvasDrawing;
     this.drawing.lost = (lost) => { this.say(lost ? lostText : ''); this.invalidate(); };
     this.toggles = { ghost: true, colliders: false, xray: true, follow: true };
     this.panes = [];
     this.frames = [];
-    this.camera = new PerspectiveCamera(32, 1, 0.02, 400);
+    this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.02, 400);
     this.makeElement();
     this.makeControls();
     this.sizes = new ResizeObserver(() => this.resize());
@@ -34,10 +39,12 @@ export class Stage {
     this.sentence = el('p', { class: 'stage-sentence', role: 'status', text: this.flat ? kNoWebgl : '' });
     const turn = (angle) => () => this.turn(angle);
     const zoom = (factor) => () => this.zoom(factor);
+    this.stripButton = textButton('As in strip', 'v', () => this.asInStrip(), { hidden: true });
+    this.stripButton.title = 'Look from where the film strip does (key v)';
     const buttons = el('div', { class: 'view-buttons', role: 'group', 'aria-label': 'View' },
       iconButton('left', 'Turn left', '', turn(-Math.PI / 8)), iconButton('right', 'Turn right', '', turn(Math.PI / 8)),
       iconButton('plus', 'Nearer', '', zoom(0.8)), iconButton('minus', 'Farther', '', zoom(1.25)),
-      el('button', { type: 'button', text: 'Reset view', on: { click: () => this.resetView() } }));
+      this.stripButton, el('button', { type: 'button', text: 'Reset view', on: { click: () => this.resetView() } }));
     this.element = el('div', { class: 'stage' }, this.drawing.canvas, this.labels, buttons,
       el('p', { class: 'stage-scale', text: `Squares of the ground: 1 m${this.flat ? '' : ', thin lines 0.25 m'}` }));
     this.frame = el('div', {}, this.element, this.sentence);
@@ -52,7 +59,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.minDistance = 0.2;
-    this.controls.maxDistance = 60;
+    this.controls.maxDistance = kFarthest_m;
     // The wheel scrolls the page until the picture was clicked; a finger moving up or down scrolls it too.
     this.controls.enableZoom = false;
     this.focusHandler = (event) => { this.controls.enableZoom = event.type === 'focus'; };
@@ -149,13 +156,34 @@ export class Stage {
     const [pane] = this.panes;
     if (!pane) return;
     this.way = pane.direction();
+    this.setLens(kFieldOfView, kFarthest_m);
     const aspect = Math.max(0.4, this.paneWidth() / Math.max(1, this.element.clientHeight));
     const half = Math.tan(this.camera.fov * Math.PI / 360);
     const room = this.element.clientWidth < 620 ? 1.35 : 1.08;  // On a phone texts and buttons cover a part.
     const distance = room * pane.radius / Math.min(half, half * aspect);
-    this.controls.target.copy(pane.middle);
+    this.controls.target.copy(pane.middle).add(pane.offset);
     this.followed = pane.middle.clone();
-    this.camera.position.copy(pane.middle).addScaledVector(this.way, distance);
+    this.camera.position.copy(this.controls.target).addScaledVector(this.way, distance);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  setLens(degrees, farthest) {
+    this.camera.fov = degrees;
+    this.controls.maxDistance = Math.max(kFarthest_m, farthest);
+  }
+
+  // As a tile of the film strip (strip_view.js). A picture that is narrower than the tile shows all of it, smaller.
+  lookAs({ eye, target, tangent, aspect }) {
+    const [pane] = this.panes;
+    if (!pane) return;
+    const here = this.paneWidth() / Math.max(1, this.element.clientHeight);
+    const half = tangent * Math.max(1, aspect / here);
+    this.setLens(Math.atan(half) * 360 / Math.PI, eye.distanceTo(target));
+    this.way = eye.clone().sub(target).normalize();
+    this.followed = pane.middle.clone();
+    this.controls.target.copy(target);
+    this.camera.position.copy(eye);
     this.controls.update();
     this.invalidate();
   }

@@ -84,6 +84,27 @@ TEST_F(Strip, IsAPngOfTheSizeOfItsTiles) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);  // no temporary file stays
 }
 
+// For a viewer that is to look from the same place.
+TEST_F(Strip, TellsFromWhereEachTileIsSeenAndWhereItIs) {
+  const Result<StripDone> done = render_strip(input(), path("a.png"));
+  ASSERT_TRUE(done.ok()) << to_line(done.issue());
+  const Image image = read_png(path("a.png")).image;
+  ASSERT_EQ(done->tiles.size(), done->frames.size());
+  std::set<std::pair<int, int>> corners;
+  for (std::size_t i = 0; i < done->tiles.size(); ++i) {
+    const StripTile& tile = done->tiles[i];
+    EXPECT_EQ(tile.frame, done->frames[i]);
+    EXPECT_EQ(tile.width, input().tile_width);
+    EXPECT_LT(tile.height, input().tile_height) << "without its caption";
+    EXPECT_LE(tile.x + tile.width, image.width);
+    EXPECT_LE(tile.y + tile.height, image.height);
+    corners.emplace(tile.x, tile.y);
+    const Vec3 to_eye = tile.camera.eye_m - tile.camera.center_m;
+    EXPECT_NEAR(glm::dot(glm::normalize(to_eye), tile.camera.back), 1.0, 1e-12) << "it looks at its centre";
+  }
+  EXPECT_EQ(corners.size(), done->tiles.size());
+}
+
 // Two loops of it, as any reader of WebP sees it.
 TEST_F(Strip, MovesInAClip) {
   StripRenderer renderer = StripRenderer::create().value();

@@ -1,0 +1,25 @@
+// The rows for which the report's first page has no room: as data that page.js puts into the page (docs/report.md), and as
+// a plain list for those who have no scripts.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renders/report_cards.h"
+
+namespace contort {
+
+// How many files row_scripts gives.
+std::size_t row_script_count(const std::vector<LateCard>& late);
+
+// "rows/part-1.js" and so on, each a call of contortRows with some hundred rows.
+std::vector<std::pair<std::string, std::string>> row_scripts(const std::vector<LateCard>& late);
+
+// A page of its own, without scripts.
+std::string plain_list_html(const std::string& title, const std::vector<LateCard>& late, const std::string& css);
+
+// Removes what an earlier report has of these files and `pages` has not. Files that a report did not write stay.
+void remove_old_rest(const std::string& folder, const PageFiles& pages);
+
+}  // namespace contort

@@ -1,0 +1,24 @@
+// From where the tiles of a film strip are seen, for a viewer that is to show the same picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/core/result.h"
+#include "renders/camera.h"
+
+namespace contort {
+
+struct StripTile {
+  int frame = 0;
+  Camera camera{};
+  int x = 0, y = 0, width = 0, height = 0;  // of the picture without its caption, in the strip's pixels
+};
+
+// contort.strip/1 (docs/report.md): JSON in one line, safe inside of a <script>. All tiles have the same size.
+std::string strip_views_json(const std::vector<StripTile>& tiles);
+
+// The same as a script beside the strip: "x.png" has "x.js". Code file.unwritable.
+Result<Done> write_strip_views(const std::string& png, const std::vector<StripTile>& tiles);
+
+}  // namespace contort

@@ -1,0 +1,45 @@
+// Pictures of a report for its documentation: node screenshots.mjs FOLDER, with the options that run.mjs gives to tests.
+import { statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { closeAll, findCase, openCase, openPage, options, readCases, urlOf } from './support.mjs';
+
+const kMostBytes = 150_000;  // Whoever clones the project has them all.
+
+// Browsers write WebP, and know how; the best quality that is small enough.
+async function webp(page, png) {
+  for (const quality of [0.92, 0.85, 0.75, 0.6, 0.45]) {
+    const text = await page.evaluate(async ([url, wanted]) => {
+      const image = new Image();
+      image.src = url;
+      await image.decode();
+      const canvas = document.createElement('canvas');
+      Object.assign(canvas, { width: image.width, height: image.height });
+      canvas.getContext('2d').drawImage(image, 0, 0);
+      return canvas.toDataURL('image/webp', wanted);
+    }, [`data:image/png;base64,${png.toString('base64')}`, quality]);
+    const bytes = Buffer.from(text.slice(text.indexOf(',') + 1), 'base64');
+    if (bytes.length < kMostBytes) return bytes;
+  }
+  throw new Error('no quality makes this picture small enough');
+}
+
+const url = await urlOf('file', options.report);
+const cases = readCases(options.report);
+// What people see first: two parts of a body in each other, or else any failure.
+const key = findCase(cases, (data) => data.check === 'self_collision') ?? findCase(cases, () => true);
+
+async function shoot(folder, name, opened) {
+  await opened.page.waitForTimeout(600);
+  const bytes = await webp(opened.page, await opened.page.screenshot());
+  const file = join(folder, name);
+  writeFileSync(file, bytes);
+  console.log(`${file}: ${statSync(file).size} bytes`);
+  await opened.close();
+}
+
+const folder = process.argv[2];
+await shoot(folder, 'report_list.webp', await openPage(url, { width: 1200, height: 900 }));
+await shoot(folder, 'report_case.webp', await openCase(url, key, { width: 1280, height: 1000 }));
+await shoot(folder, 'report_dark.webp', await openCase(url, key, { width: 1280, height: 1000, scheme: 'dark' }));
+await shoot(folder, 'report_phone.webp', await openPage(url, { width: 390, height: 844 }));
+await closeAll();
