@@ -22,7 +22,7 @@ struct Limits {
   double calls_at_once = 120.0;   // after a pause
   int spec_bytes = 256 << 10;     // of a call's body
   int library_bytes = 1 << 20;
-  double take_s = 20.0;           // how long a take is
+  double take_s = 10.0;           // how long a take is: each command makes all of it anew
   double most_s = 60.0;           // and may become, by what is queued
   int frame_bytes = 64 << 20;     // of one motion
   double idle_s = 600.0;          // after which a session that nobody uses ends

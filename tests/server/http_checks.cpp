@@ -70,6 +70,7 @@ class Program {
   long resident() const {
     long pages = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      if (entry.path().filename().string().find_first_not_of("0123456789") != std::string::npos) continue;
       std::ifstream group(entry.path() / "stat");
       std::string text((std::istreambuf_iterator<char>(group)), {});
       const std::size_t at = text.rfind(')');
