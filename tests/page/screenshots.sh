@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# screenshots.sh PROJECT BINARIES: makes the pictures of docs/report.md, in docs/images: a short search of a stock
+# screenshots.sh PROJECT BINARIES: makes the pictures of docs/report.md and docs/server.md, in docs/images: a short search of a stock
 # character, its report, and what a browser shows of it. Beforehand the page's tests have to have run: they fetch what
 # drives the browser.
 set -euo pipefail
@@ -12,6 +12,6 @@ trap 'rm -rf "$scratch"' EXIT
 "$binaries/contort" fuzz --character human --seed 3 --cases 4 --shrink-evaluations 60 --corpus "$scratch/corpus" \
   >/dev/null || [ $? -eq 1 ]
 "$binaries/contort" report "$scratch/corpus" -o "$scratch/report"
-CONTORT_PAGE_TEST=$(printf '{"modules": "%s", "report": "%s", "chromium": "%s"}' \
-  "$binaries/page_test_modules/node_modules" "$scratch/report" "${CHROMIUM:-/usr/bin/chromium}") \
+CONTORT_PAGE_TEST=$(printf '{"modules": "%s", "report": "%s", "contort": "%s", "chromium": "%s"}' \
+  "$binaries/page_test_modules/node_modules" "$scratch/report" "$binaries/contort" "${CHROMIUM:-/usr/bin/chromium}") \
   node "$project/tests/page/screenshots.mjs" "$project/docs/images"
