@@ -44,8 +44,11 @@ WorkerEvent next_event(WorkerPool& pool) {
   return {};
 }
 
-WorkerEvent outcome_of(const std::string& task) {
-  WorkerPool pool(1, kTight, obey);
+// Time enough to eat on a machine that has much else to do.
+const WorkerLimits kPatient{30.0, kTight.bytes};
+
+WorkerEvent outcome_of(const std::string& task, const WorkerLimits& limits = kTight) {
+  WorkerPool pool(1, limits, obey);
   pool.give(0, task);
   const WorkerEvent event = next_event(pool);
   pool.give(0, "more");  // whatever happened, there is a worker again
@@ -72,7 +75,7 @@ TEST(WorkerPool, NamesTheSignalAndWhatWasBeingDone) {
 
 TEST(WorkerPool, EndsWhatHangsAndWhatEatsMemory) {
   EXPECT_EQ(outcome_of("hang").end, WorkerEnd::timed_out);
-  EXPECT_EQ(outcome_of("eat").end, WorkerEnd::out_of_memory);
+  EXPECT_EQ(outcome_of("eat", kPatient).end, WorkerEnd::out_of_memory);
 }
 
 TEST(WorkerPool, WaitsForWhatShowsThatItIsAlive) {
