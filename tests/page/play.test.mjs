@@ -250,7 +250,7 @@ test('loading the page again goes on with the session', need, async () => {
   assert.ok(await page.evaluate(() => !window.contortPlay.tracks.of.get('dynamic').frames[3]));
   await page.evaluate(() => window.contortPlay.look(3));
   await page.waitForFunction(() => window.contortPlay.tracks.of.get('dynamic').frames[3]);
-  assert.match(await page.locator('.frame-text').textContent(), /frame 3 .*looking back/);
+  await page.waitForFunction(() => /frame 3 .*looking back/.test(document.querySelector('.frame-text').textContent));
   assert.deepEqual(wrong, []);
   await close();
 });
