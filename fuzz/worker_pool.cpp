@@ -16,6 +16,7 @@
 #include <new>
 #include <system_error>
 
+#include "fuzz/whole_bytes.h"
 #include "generator/core/assert.h"
 
 namespace contort {
@@ -33,31 +34,11 @@ constexpr double kLookEvery_s = 0.05;  // at limits: a look costs a file of /pro
 // Messages are a length and as many bytes.
 using Length = std::uint64_t;
 
-bool send_all(int socket, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t sent = ::send(socket, data, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    data += sent, size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
 bool send_message(int socket, const std::string& text) {
   const Length length = text.size();
   char head[sizeof length];
   std::memcpy(head, &length, sizeof length);
   return send_all(socket, head, sizeof head) && send_all(socket, text.data(), text.size());
-}
-
-bool receive_all(int socket, char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t got = ::recv(socket, data, size, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    data += got, size -= static_cast<std::size_t>(got);
-  }
-  return true;
 }
 
 bool receive_message(int socket, std::string& text) {

@@ -15,6 +15,8 @@
 #include <system_error>
 #include <vector>
 
+#include "fuzz/whole_bytes.h"
+
 namespace contort::server {
 
 namespace {
@@ -27,28 +29,6 @@ struct Header {
   std::uint64_t length = 0;
   std::uint64_t kind = 0;  // to the broker an Urgency, from it a WorkerEnd
 };
-
-bool send_all(int socket, const void* data, std::size_t size) {
-  const char* next = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::send(socket, next, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    next += sent, size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-bool receive_all(int socket, void* data, std::size_t size) {
-  char* next = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t got = ::recv(socket, next, size, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    next += got, size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
 
 bool send_message(int socket, std::uint64_t id, std::uint8_t kind, const std::string& text) {
   const Header header{id, text.size(), kind};
