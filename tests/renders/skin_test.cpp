@@ -97,7 +97,7 @@ TEST_F(SkinTest, LiesAtRestWhereTheModelHasIt) {
 TEST_F(SkinTest, MovesWithItsJoints) {
   const std::vector<Vec3> rest = corners(world()), bent = corners(world("arm_left/elbow", 1.0));
   for (std::size_t b = 0; b < person().size(); ++b) {
-    const std::string& name = person()[b].name;
+    const std::string name = person()[b].name;
     const bool moves = name == "LeftForeArm" || name == "LeftHand";
     double most = 0.0;
     for (std::size_t i = 36 * b; i < 36 * (b + 1); ++i) most = std::max(most, glm::length(bent[i] - rest[i]));
