@@ -69,6 +69,7 @@ Json limits_json(const server::Limits& limits) {
           {"streams", limits.streams},
           {"streams_of_client", limits.streams_of_client},
           {"calls_per_s", limits.calls_per_s},
+          {"cpu_s_per_minute", limits.cpu_s_per_minute},
           {"spec_bytes", limits.spec_bytes},
           {"library_bytes", limits.library_bytes},
           {"take_s", limits.take_s},
@@ -198,6 +199,8 @@ void add_limits(CLI::App& command, Options& options) {
   add("--streams", limits.streams, "Streams at a time");
   add("--streams-per-client", limits.streams_of_client, "Of one address");
   add("--calls-per-second", limits.calls_per_s, "Of one address, on average");
+  add("--cpu-per-client", limits.cpu_s_per_minute,
+      "Seconds of the CPU in a minute, for one address, on average; five times as many after a pause");
   add("--idle-seconds", limits.idle_s, "After which a session that nobody uses ends");
   add("--waiting-tasks", options.workers.most_waiting, "Motions that wait for a worker");
   add("--task-seconds", options.workers.each.seconds, "Time of one motion");

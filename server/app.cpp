@@ -1,6 +1,7 @@
 #include "server/app.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -14,6 +15,12 @@ namespace {
 
 constexpr std::size_t kJobsTold = 100;
 constexpr auto kPatience = std::chrono::seconds(1);
+
+// A second is what a refusal asks for; a client whose account is empty needs more.
+void wait_for_cpu(Answer& answer, double wait_s) {
+  for (auto& [name, value] : answer.headers)
+    if (name == "Retry-After" && wait_s > 1.0) value = std::to_string(static_cast<int>(std::ceil(wait_s)));
+}
 
 Time now() { return std::chrono::steady_clock::now(); }
 
@@ -85,9 +92,9 @@ bool News::closed() const {
 App::App(AppConfig config, Engine& engine)
     : config_(std::move(config)),
       engine_(engine),
-      rate_(engine.limits().calls_per_s, engine.limits().calls_at_once),
+      calls_left_(engine.limits().calls_per_s, engine.limits().calls_at_once),
       sessions_(engine),
-      jobs_(engine.limits().jobs, [this](const Job& job) { news_.job(job); }) {
+      jobs_(engine.limits().jobs, [this](const Job& job) { tell(job); }) {
   if (!config_.corpus.empty()) triage_.emplace(config_.corpus, config_.program);
 }
 
@@ -98,16 +105,26 @@ Answer App::answer(const Request& request) {
   Answer answer;
   try {
     Result<Done> admitted = admit(request, config_.guard);
-    if (admitted && request.path.starts_with("/api")) admitted = rate_.count(request.client, now());
+    if (admitted && request.path.starts_with("/api") && !calls_left_.take(request.client, 1.0, now()))
+      admitted = Issue{"limit.calls", "", "too many calls in a short time"};
     if (admitted && closed_) admitted = Issue{"full.closing", "", "the server ends"};
     answer = admitted ? dispatch(*this, request) : refusal(admitted.issue());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contort: internal error: %s\n", error.what());
     answer = refusal({"file.internal", "", "an internal error; the server's log has more"});
   }
+  if (answer.status == 429) wait_for_cpu(answer, engine_.wait_s(request.client));
   if (answer.status >= 500 && answer.status != 503) ++failed_;
   if (answer.status >= 400) ++refused_;
   return answer;
+}
+
+void App::tell(const Job& job) {
+  if (job.state == JobState::done || job.state == JobState::failed) {
+    if (!job.client.empty()) engine_.spend(job.client, job.cpu_s);
+    job_cpu_us_ += static_cast<std::int64_t>(1e6 * job.cpu_s);
+  }
+  news_.job(job);
 }
 
 void App::tick() {
@@ -140,8 +157,8 @@ Result<const Triage*> App::writable_corpus() const {
 Result<std::string> App::make_report() {
   if (!triage_ || config_.report.empty()) return Issue{"corpus.none", "", "this server has no corpus to report"};
   const Jobs::Work work = triage_->report_work(config_.report);
-  return jobs_.add("report", "", [this, work](const std::function<bool()>& stop) {
-    Result<Jobs::Outcome> outcome = work(stop);
+  return jobs_.add("report", "", "", [this, work](Jobs::Running& running) {
+    Result<Jobs::Outcome> outcome = work(running);
     if (outcome) news_.report();
     return outcome;
   });
@@ -214,7 +231,8 @@ std::string App::metrics() const {
          line("tasks_waiting", "gauge", load.waiting) + line("tasks_running", "gauge", load.running) +
          line("tasks_done_total", "counter", static_cast<double>(load.done)) +
          line("tasks_ended_badly_total", "counter", static_cast<double>(load.ended_badly)) +
-         line("task_seconds_total", "counter", load.busy_s) + line("jobs_waiting", "gauge", jobs_.waiting());
+         line("task_seconds_total", "counter", load.worker_s) + line("jobs_waiting", "gauge", jobs_.waiting()) +
+         line("job_cpu_seconds_total", "counter", 1e-6 * static_cast<double>(job_cpu_us_));
 }
 
 }  // namespace contort::server

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/allowance.h"
 #include "server/guard.h"
 #include "server/jobs.h"
 #include "server/request.h"
@@ -88,15 +89,17 @@ class App {
   Answer stream(const std::string& client, std::function<std::vector<Event>(bool& more)> next);
 
  private:
+  void tell(const Job& job);
+
   AppConfig config_;
   Engine& engine_;
-  CallRate rate_;
+  std::atomic<bool> closed_ = false;
+  std::atomic<std::int64_t> calls_ = 0, refused_ = 0, failed_ = 0, job_cpu_us_ = 0;
+  Allowance calls_left_;
   std::optional<Triage> triage_;
   News news_;
   Sessions sessions_;
   Jobs jobs_;
-  std::atomic<bool> closed_ = false;
-  std::atomic<std::int64_t> calls_ = 0, refused_ = 0, failed_ = 0;
   mutable std::mutex libraries_mutex_;
   std::map<std::string, std::string> libraries_;  // id to folder
 };

@@ -22,16 +22,22 @@ namespace contort::server {
 namespace {
 
 constexpr int kLook_ms = 50;  // at limits of workers
+const Issue kGone{"work.gone", "", "the worker processes have ended"};
 
 // Between front and broker: this, then as many bytes of text.
 struct Header {
   std::uint64_t id = 0;
   std::uint64_t length = 0;
   std::uint64_t kind = 0;  // to the broker an Urgency, from it a WorkerEnd
+  double worker_s = 0.0;   // from the broker
 };
 
-bool send_message(int socket, std::uint64_t id, std::uint8_t kind, const std::string& text) {
-  const Header header{id, text.size(), kind};
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool send_message(int socket, Header header, const std::string& text) {
+  header.length = text.size();
   return send_all(socket, &header, sizeof header) && send_all(socket, text.data(), text.size());
 }
 
@@ -45,7 +51,7 @@ bool receive_message(int socket, Header& header, std::string& text) {
 class BrokerProcess {
  public:
   BrokerProcess(int socket, const BrokerLimits& limits, WorkerPool::Work work)
-      : socket_(socket), pool_(limits.workers, limits.each, std::move(work)), ids_(static_cast<std::size_t>(limits.workers)) {}
+      : socket_(socket), pool_(limits.workers, limits.each, std::move(work)), given_(static_cast<std::size_t>(limits.workers)) {}
 
   // Until the front hangs up.
   void run() {
@@ -60,6 +66,10 @@ class BrokerProcess {
   struct Queued {
     std::uint64_t id;
     std::string task;
+  };
+  struct Given {
+    std::uint64_t id = 0;
+    double since_s = 0.0;
   };
 
   bool take_tasks() {
@@ -78,21 +88,21 @@ class BrokerProcess {
       while (!queue.empty()) {
         const std::optional<int> worker = pool_.idle_worker();
         if (!worker) return;
-        ids_[static_cast<std::size_t>(*worker)] = queue.front().id;
+        given_[static_cast<std::size_t>(*worker)] = {queue.front().id, now_s()};
         pool_.give(*worker, queue.front().task);
         queue.pop_front();
       }
   }
 
   bool tell(const WorkerEvent& event) {
-    return send_message(socket_, ids_[static_cast<std::size_t>(event.worker)], static_cast<std::uint8_t>(event.end),
-                        event.text);
+    const Given& given = given_[static_cast<std::size_t>(event.worker)];
+    return send_message(socket_, {given.id, 0, static_cast<std::uint64_t>(event.end), now_s() - given.since_s}, event.text);
   }
 
   int socket_;
   WorkerPool pool_;
-  std::vector<std::uint64_t> ids_;  // by worker: its task
-  std::deque<Queued> queues_[2];    // by urgency
+  std::vector<Given> given_;      // by worker
+  std::deque<Queued> queues_[2];  // by urgency
 };
 
 Result<std::string> result_of(WorkerEnd end, std::string text) {
@@ -104,10 +114,6 @@ Result<std::string> result_of(WorkerEnd end, std::string text) {
     case WorkerEnd::out_of_memory: break;
   }
   return Issue{"work.memory", "", "this took more memory than a task may"};
-}
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -142,25 +148,22 @@ Broker::~Broker() {
   ::waitpid(pid_, nullptr, 0);
 }
 
-Result<std::string> Broker::run(const std::string& task, Urgency urgency) {
+BrokerReply Broker::run(const std::string& task, Urgency urgency) {
   Waiting mine;
   std::unique_lock lock(mutex_);
-  if (gone_) return Issue{"work.gone", "", "the worker processes have ended"};
+  if (gone_) return {kGone};
   if (static_cast<int>(waiting_.size()) >= limits_.workers + limits_.most_waiting)
-    return Issue{"work.busy", "", "too much is waiting to be generated"};
+    return {Issue{"work.busy", "", "too much is waiting to be generated"}};
   const std::uint64_t id = next_id_++;
   waiting_[id] = &mine;
   lock.unlock();
-  const double since = now_s();
   {
     const std::lock_guard sending(sending_);
-    if (!send_message(socket_, id, static_cast<std::uint8_t>(urgency), task))
-      finish(id, Issue{"work.gone", "", "the worker processes have ended"});
+    if (!send_message(socket_, {id, 0, static_cast<std::uint64_t>(urgency), 0.0}, task)) finish(id, {kGone});
   }
   lock.lock();
   changed_.wait(lock, [&] { return mine.done; });
-  load_.busy_s += now_s() - since;
-  return std::move(mine.result);
+  return std::move(mine.reply);
 }
 
 BrokerLoad Broker::load() const {
@@ -172,11 +175,11 @@ BrokerLoad Broker::load() const {
   return load;
 }
 
-void Broker::finish(std::uint64_t id, Result<std::string> result) {
+void Broker::finish(std::uint64_t id, BrokerReply reply) {
   const std::lock_guard lock(mutex_);
   const auto found = waiting_.find(id);
   if (found == waiting_.end()) return;
-  found->second->result = std::move(result);
+  found->second->reply = std::move(reply);
   found->second->done = true;
   waiting_.erase(found);
   changed_.notify_all();
@@ -190,13 +193,14 @@ void Broker::read_replies() {
     {
       const std::lock_guard lock(mutex_);
       ++(end == WorkerEnd::replied ? load_.done : load_.ended_badly);
+      load_.worker_s += header.worker_s;
     }
-    finish(header.id, result_of(end, std::move(text)));
+    finish(header.id, {result_of(end, std::move(text)), header.worker_s});
   }
   const std::lock_guard lock(mutex_);
   gone_ = true;
   for (const auto& [id, waiting] : waiting_) {
-    waiting->result = Issue{"work.gone", "", "the worker processes have ended"};
+    waiting->reply = {kGone};
     waiting->done = true;
   }
   waiting_.clear();

@@ -25,12 +25,18 @@ struct BrokerLimits {
   int most_waiting = 64;  // tasks without a worker
 };
 
+// How a task ended, and how long a worker had it.
+struct BrokerReply {
+  Result<std::string> text = Issue{};
+  double worker_s = 0.0;
+};
+
 struct BrokerLoad {
   int waiting = 0;
   int running = 0;
   std::int64_t done = 0;
   std::int64_t ended_badly = 0;  // crashed, over the time, over the memory
-  double busy_s = 0.0;           // time in workers, as the front saw it
+  double worker_s = 0.0;         // of all tasks
 };
 
 class Broker {
@@ -44,18 +50,18 @@ class Broker {
 
   // Waits for the reply; from any thread. Codes work.busy (too many wait), work.crash, work.timeout, work.memory,
   // work.gone (the broker has ended).
-  Result<std::string> run(const std::string& task, Urgency urgency);
+  BrokerReply run(const std::string& task, Urgency urgency);
 
   BrokerLoad load() const;
 
  private:
   struct Waiting {
     bool done = false;
-    Result<std::string> result = Issue{};
+    BrokerReply reply;
   };
 
   void read_replies();
-  void finish(std::uint64_t id, Result<std::string> result);
+  void finish(std::uint64_t id, BrokerReply reply);
 
   BrokerLimits limits_;
   int pid_ = -1;

@@ -37,9 +37,10 @@ Answer change_bucket(App& app, const Call& call, Result<Bucket> (*edit)(const Bu
 Answer start(App& app, const Call& call, const char* kind, Result<Jobs::Work> (Triage::*work)(const std::string&) const) {
   const Result<const Triage*> corpus = app.writable_corpus();
   if (!corpus) return refusal(corpus.issue());
+  if (const Result<Done> may = app.engine().may_work(call.request.client); !may) return refusal(may.issue());
   const Result<Jobs::Work> made = ((*corpus)->*work)(call.id("bucket"));
   if (!made) return refusal(made.issue());
-  return job_answer(app, app.jobs().add(kind, call.id("bucket"), *made));
+  return job_answer(app, app.jobs().add(kind, call.id("bucket"), call.request.client, *made));
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ Answer motion_file(App& app, const Call& call) {
   const std::optional<Mode> mode = mode_of(call, **session);
   const std::optional<Spec> spec = mode ? (*session)->spec_of((*session)->take(), *mode) : std::nullopt;
   if (!spec) return refusal(kNoMode);
-  const Worked worked = app.engine().run({TaskKind::model_file, *spec, 0, 0, (*session)->desc().library, "", ""});
+  const Worked worked = app.engine().run({TaskKind::model_file, *spec, 0, 0, (*session)->desc().library, "", ""}, call.request.client);
   if (!worked.reply) return refusal(worked.reply.issue());
   Answer answer = json_answer(worked.reply->bytes);
   answer.type = "model/gltf-binary";
@@ -183,7 +183,8 @@ Answer keep_case(App& app, const Call& call) {
   if (!(*session)->desc().library.empty())
     return refusal({"session.own_library", "", "cases of registered libraries cannot be replayed from a corpus; start the "
                                                "server with --library DIR"});
-  const Worked worked = app.engine().run({TaskKind::make_case, *spec, 0, 0, "", body->check, body->subject});
+  const Worked worked = app.engine().run({TaskKind::make_case, *spec, 0, 0, "", body->check, body->subject},
+                                         call.request.client);
   if (!worked.reply) return refusal(worked.reply.issue());
   const Result<Case> made = parse_case(worked.reply->head);
   const Result<std::string> kept = made ? (*corpus)->keep(*made) : Result<std::string>(made.issue());

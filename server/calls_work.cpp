@@ -44,7 +44,7 @@ Result<Worked> work(App& app, const Call& call, TaskKind kind) {
   const Result<std::string> library = app.library_folder(body->library);
   if (!library) return library.issue();
   const int most = static_cast<int>(app.engine().limits().most_s * body->spec.rate_hz) + 1;
-  Worked worked = app.engine().run({kind, body->spec, 0, most, *library, "", ""});
+  Worked worked = app.engine().run({kind, body->spec, 0, most, *library, "", ""}, call.request.client);
   if (!worked.reply) return worked.reply.issue();
   return worked;
 }
@@ -88,7 +88,7 @@ Answer register_library(App& app, const Call& call) {
   Spec probe;
   probe.character.name = "human";
   const Result<std::string> folder = app.library_folder(*id);
-  const Worked worked = app.engine().run({TaskKind::model, probe, 0, 0, *folder, "", ""});
+  const Worked worked = app.engine().run({TaskKind::model, probe, 0, 0, *folder, "", ""}, call.request.client);
   if (!worked.reply) return refusal(app.forget_library(*id, worked.reply.issue()));
   return text_answer(Json{{"library", *id}}.dump());
 }

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace contort::server {
@@ -24,6 +25,15 @@ std::string work(Worker& worker, const std::string& text) {
   return std::to_string(static_cast<long long>(1e6 * (cpu_s() - since_s))) + " " + answer;
 }
 
+Worked worked_of(const BrokerReply& reply) {
+  if (!reply.text) return {reply.text.issue(), reply.worker_s};
+  const std::string& answer = *reply.text;
+  const std::size_t end = std::min(answer.find(' '), answer.size());
+  return {parse_reply(end == answer.size() ? "" : answer.substr(end + 1)), 1e-6 * std::strtod(answer.c_str(), nullptr)};
+}
+
+Time now() { return std::chrono::steady_clock::now(); }
+
 WorkerPool::Work make_work(const Library& library, const CheckSettings& settings, const std::string& tool) {
   auto worker = std::make_shared<Worker>(library, settings, tool);
   return [worker](const std::string& task, WorkerSlot&) { return work(*worker, task); };
@@ -33,7 +43,10 @@ WorkerPool::Work make_work(const Library& library, const CheckSettings& settings
 
 Engine::Engine(const Limits& limits, const BrokerLimits& workers, const Library& library, const CheckSettings& settings,
                const std::string& tool)
-    : limits_(limits), broker_(workers, make_work(library, settings, tool)), thread_([this] { do_later(); }) {}
+    : limits_(limits),
+      cpu_left_(limits.cpu_s_per_minute / 60.0, limits.cpu_s_per_minute * limits.cpu_minutes_at_once),
+      broker_(workers, make_work(library, settings, tool)),
+      thread_([this] { do_later(); }) {}
 
 Engine::~Engine() {
   {
@@ -45,12 +58,23 @@ Engine::~Engine() {
   thread_.join();
 }
 
-Worked Engine::run(const Task& task, Urgency urgency) {
-  const Result<std::string> answer = broker_.run(print_task(task), urgency);
-  if (!answer) return {answer.issue(), 0.0};
-  const std::size_t end = std::min(answer->find(' '), answer->size());
-  return {parse_reply(end == answer->size() ? "" : answer->substr(end + 1)), 1e-6 * std::strtod(answer->c_str(), nullptr)};
+Worked Engine::run(const Task& task, const std::string& client, Urgency urgency) {
+  if (const Result<Done> may = may_work(client); !may && urgency == Urgency::now) return {may.issue(), 0.0};
+  Worked worked = worked_of(broker_.run(print_task(task), urgency));
+  spend(client, worked.cpu_s);
+  return worked;
 }
+
+Result<Done> Engine::may_work(const std::string& client) {
+  const double wait = wait_s(client);
+  if (wait <= 0.0) return Done{};
+  return Issue{"limit.cpu", "", "this client has used the time of the CPU that it may; there is more in " +
+                                    std::to_string(static_cast<int>(std::ceil(wait))) + " s"};
+}
+
+void Engine::spend(const std::string& client, double cpu_s) { cpu_left_.spend(client, cpu_s, now()); }
+
+double Engine::wait_s(const std::string& client) { return cpu_left_.wait_s(client, now()); }
 
 void Engine::later(const std::string& key, std::function<void()> work) {
   {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "server/allowance.h"
 #include "server/broker.h"
 #include "server/work.h"
 
@@ -20,6 +21,8 @@ struct Limits {
   int streams_of_client = 16;
   double calls_per_s = 30.0;      // of one client, on average
   double calls_at_once = 120.0;   // after a pause
+  double cpu_s_per_minute = 60.0; // of one client's motions and jobs, on average
+  double cpu_minutes_at_once = 5; // of these, after a pause
   int spec_bytes = 256 << 10;     // of a call's body
   int library_bytes = 1 << 20;
   double take_s = 10.0;           // how long a take is: each command makes all of it anew
@@ -29,7 +32,7 @@ struct Limits {
   int jobs = 16;                  // that wait
 };
 
-// Every code that a task can end with, and the time it took of a worker's CPU.
+// Every code that a task can end with, and what it took of a worker's CPU: of its time, where it did not end well.
 struct Worked {
   Result<Reply> reply;
   double cpu_s = 0.0;
@@ -42,7 +45,14 @@ class Engine {
          const std::string& tool);
   ~Engine();
 
-  Worked run(const Task& task, Urgency urgency = Urgency::now);
+  // What it takes is on the client's account. Codes of Broker::run and Worker::run; limit.cpu for what is urgent, where
+  // nothing is left (what can wait is a part of something that was begun).
+  Worked run(const Task& task, const std::string& client, Urgency urgency = Urgency::now);
+
+  // For work elsewhere. Code limit.cpu.
+  Result<Done> may_work(const std::string& client);
+  void spend(const std::string& client, double cpu_s);
+  double wait_s(const std::string& client);  // until there is something left
 
   // Calls `work` soon, in another thread; equal keys that still wait are one.
   void later(const std::string& key, std::function<void()> work);
@@ -54,6 +64,7 @@ class Engine {
   void do_later();
 
   Limits limits_;
+  Allowance cpu_left_;
   Broker broker_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -7,7 +7,6 @@ namespace contort::server {
 namespace {
 
 constexpr std::size_t kMostPath = 1024;
-constexpr std::size_t kMostClients = 4096;  // that are remembered
 
 bool writes(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }
 
@@ -55,27 +54,6 @@ Result<Done> admit(const Request& request, const GuardConfig& config) {
   if (writes(request) && !request.header("sec-fetch-site").empty() && request.header("sec-fetch-site") != "same-origin")
     return Issue{"guard.origin", "", "pages of other servers may not call this one"};
   return Done{};
-}
-
-Result<Done> CallRate::count(const std::string& client, Time now) {
-  const std::lock_guard lock(mutex_);
-  if (clients_.size() >= kMostClients) forget_quiet(now);
-  const auto [found, is_new] = clients_.try_emplace(client, Left{at_once_, now});
-  Left& left = found->second;
-  const double passed_s = std::chrono::duration<double>(now - left.since).count();
-  left.calls = std::min(at_once_, left.calls + per_s_ * passed_s);
-  left.since = now;
-  if (left.calls < 1.0) return Issue{"limit.calls", "", "too many calls in a short time"};
-  left.calls -= 1.0;
-  return Done{};
-}
-
-void CallRate::forget_quiet(Time now) {
-  std::erase_if(clients_, [&](const auto& entry) {
-    const double passed_s = std::chrono::duration<double>(now - entry.second.since).count();
-    return entry.second.calls + per_s_ * passed_s >= at_once_;
-  });
-  if (clients_.size() >= kMostClients) clients_.clear();
 }
 
 }  // namespace contort::server

@@ -27,6 +27,7 @@ std::string print_job(const Job& job) {
                      {"bucket", job.about},
                      {"state", std::string(kStates[static_cast<std::size_t>(job.state)])},
                      {"seconds", on_lattice(seconds, 100)},
+                     {"cpu_s", on_lattice(job.cpu_s, 100)},
                      {"text", job.text},
                      {"result", result ? *result : Json()}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -44,7 +45,8 @@ Jobs::~Jobs() {
   thread_.join();
 }
 
-Result<std::string> Jobs::add(const std::string& kind, const std::string& about, Work work) {
+Result<std::string> Jobs::add(const std::string& kind, const std::string& about, const std::string& client,
+                              Work work) {
   Job job;
   {
     const std::lock_guard lock(mutex_);
@@ -52,7 +54,7 @@ Result<std::string> Jobs::add(const std::string& kind, const std::string& about,
       if (other.state == JobState::queued && other.kind == kind && other.about == about) return id;
     if (static_cast<int>(queue_.size()) >= most_waiting_)
       return Issue{"full.jobs", "", "as many jobs wait as may; try again in a while"};
-    job.id = std::to_string(next_++), job.kind = kind, job.about = about;
+    job.id = std::to_string(next_++), job.kind = kind, job.about = about, job.client = client;
     jobs_[job.id] = job;
     queue_.emplace_back(job.id, std::move(work));
   }
@@ -100,10 +102,11 @@ void Jobs::run() {
     lock.unlock();
     const Time since = std::chrono::steady_clock::now();
     update(id, [&](Job& job) { job.state = JobState::running, job.since = since; });
-    const Result<Outcome> outcome = work(stop);
+    Running running{stop};
+    const Result<Outcome> outcome = work(running);
     update(id, [&](Job& job) {
       job.state = outcome ? JobState::done : JobState::failed;
-      job.seconds = seconds_since(since);
+      job.seconds = seconds_since(since), job.cpu_s = running.cpu_s;
       job.text = outcome ? outcome->text : to_line(outcome.issue());
       if (outcome) job.result = outcome->result;
     });

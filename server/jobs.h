@@ -21,31 +21,38 @@ struct Job {
   std::string id;
   std::string kind;    // report, shrink, replay
   std::string about;   // a bucket; ""
+  std::string client;  // who wants it; "": the server itself
   JobState state = JobState::queued;
   std::string text;    // a sentence for people
   std::string result;  // JSON; "" while there is none
   Time since{};        // when it began to run
   double seconds = 0.0;
+  double cpu_s = 0.0;  // of the programs that it ran
 };
 
-// {job, kind, bucket, state, seconds, text, result}
+// {job, kind, bucket, state, seconds, cpu_s, text, result}
 std::string print_job(const Job& job);
 
 class Jobs {
  public:
-  // What a job does: its sentence and JSON, or why it failed. Looks at `stop` while it works.
+  // What a job has while it works: whether it is still wanted, and where it says what it took.
+  struct Running {
+    std::function<bool()> stop;
+    double cpu_s = 0.0;
+  };
+  // Its sentence and JSON, or why it failed.
   struct Outcome {
     std::string text;
     std::string result;
   };
-  using Work = std::function<Result<Outcome>(const std::function<bool()>& stop)>;
+  using Work = std::function<Result<Outcome>(Running&)>;
 
   // `most_waiting` at the most. `changed` is called from the jobs' thread.
   Jobs(int most_waiting, std::function<void(const Job&)> changed);
   ~Jobs();  // what runs is stopped
 
   // Its id. One of the same kind about the same that still waits is that one. Code full.jobs.
-  Result<std::string> add(const std::string& kind, const std::string& about, Work work);
+  Result<std::string> add(const std::string& kind, const std::string& about, const std::string& client, Work work);
   // Code job.not_found: of those that have ended the last hundred are remembered.
   Result<Job> find(const std::string& id) const;
   int waiting() const;

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,6 +63,10 @@ pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe
   return failed == 0 ? pid : -1;
 }
 
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 }  // namespace
@@ -85,9 +90,11 @@ Result<Ran> run_program(const std::vector<std::string>& command, double seconds,
     ::kill(-pid, SIGKILL);
   }
   int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (::wait4(pid, &status, 0, &used) < 0 && errno == EINTR) {
   }
   ran.code = code_of(status);
+  ran.cpu_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   return ran;
 }
 

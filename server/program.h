@@ -14,6 +14,7 @@ struct Ran {
   bool killed = false; // it took too long, or was no longer wanted
   std::string out;     // the end of what it printed, each
   std::string err;
+  double cpu_s = 0.0;  // its own, and that of its children that ended before it
 };
 
 // Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so. Code work.no_process.

@@ -44,7 +44,7 @@ Result<PlayedTake> Session::made(int number, const Spec& spec, const std::vector
     Task task{TaskKind::play, spec, static_cast<int>(engine_.limits().take_s * spec.rate_hz) + 1,
               static_cast<int>(engine_.limits().most_s * spec.rate_hz) + 1, desc_.library, "", ""};
     task.spec.dynamics.mode = mode;
-    const Worked worked = engine_.run(task);
+    const Worked worked = engine_.run(task, desc_.client);
     {
       const std::lock_guard lock(mutex_);
       cpu_s_ += worked.cpu_s;
@@ -61,7 +61,7 @@ Result<PlayedTake> Session::made(int number, const Spec& spec, const std::vector
 }
 
 Result<std::string> Session::made_model(const Spec& spec) {
-  const Worked worked = engine_.run({TaskKind::model, spec, 0, 0, desc_.library, "", ""});
+  const Worked worked = engine_.run({TaskKind::model, spec, 0, 0, desc_.library, "", ""}, desc_.client);
   if (!worked.reply) return worked.reply.issue();
   const Result<Json> head = json_fields::parse_document(worked.reply->head);
   if (!head) return head.issue();
@@ -110,7 +110,7 @@ void Session::judge() {
     lock.unlock();
     Task task{TaskKind::judge, spec, 0, 0, desc_.library, "", ""};
     task.spec.dynamics.mode = mode;
-    const Worked worked = engine_.run(task, Urgency::later);
+    const Worked worked = engine_.run(task, desc_.client, Urgency::later);
     lock.lock();
     cpu_s_ += worked.cpu_s;
     if (revision != revision_) return;
@@ -247,6 +247,7 @@ void Session::roll() {
   if (!command.owns_lock() || !has_ended()) return;
   std::unique_lock lock(mutex_);
   if (!next_ || next_for_ != revision_) {  // it could not be made: stand still
+    next_for_ = -1;  // who plays again asks again
     clock_.set(last_frame(), false, now());
     ++clock_version_;
     changed_.notify_all();

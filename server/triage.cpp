@@ -46,6 +46,12 @@ Issue failed(const Ran& ran) {
   return {"job.failed", "", why.empty() ? "it ended with code " + std::to_string(ran.code) : why};
 }
 
+Result<Ran> run_job(const std::vector<std::string>& command, double seconds, Jobs::Running& running) {
+  Result<Ran> ran = run_program(command, seconds, running.stop);
+  if (ran) running.cpu_s += ran->cpu_s;
+  return ran;
+}
+
 bool is_raw(const Bucket& bucket) {
   return bucket.runs == std::vector<std::string>{kRun} && bucket.state == BucketState::fresh &&
          bucket.min.substr(bucket.min.find('-') + 1) == bucket.orig.substr(bucket.orig.find('-') + 1);
@@ -112,8 +118,8 @@ Result<Jobs::Work> Triage::replay_work(const std::string& name) const {
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"replay", "--json"});
   for (const std::string& file : files_of(*bucket)) command.push_back(corpus->folder_of(*bucket) + "/" + file);
-  return Jobs::Work([command](const std::function<bool()>& stop) -> Result<Jobs::Outcome> {
-    const Result<Ran> ran = run_program(command, kReplay_s, stop);
+  return Jobs::Work([command](Jobs::Running& running) -> Result<Jobs::Outcome> {
+    const Result<Ran> ran = run_job(command, kReplay_s, running);
     if (!ran) return ran.issue();
     const Result<Json> json = json_fields::parse_document(ran->out);
     if (ran->killed || !json) return failed(*ran);
@@ -125,10 +131,10 @@ Result<Jobs::Work> Triage::shrink_work(const std::string& name) const {
   const Result<Corpus> corpus = Corpus::open(folder_);
   if (!corpus) return corpus.issue();
   if (const Result<Bucket> bucket = find(*corpus, name); !bucket) return bucket.issue();
-  return Jobs::Work([this, name](const std::function<bool()>& stop) { return shrink(name, stop); });
+  return Jobs::Work([this, name](Jobs::Running& running) { return shrink(name, running); });
 }
 
-Result<Jobs::Outcome> Triage::shrink(const std::string& name, const std::function<bool()>& stop) const {
+Result<Jobs::Outcome> Triage::shrink(const std::string& name, Jobs::Running& running) const {
   const Result<Corpus> corpus = Corpus::open(folder_);
   if (!corpus) return corpus.issue();
   const Result<Bucket> bucket = find(*corpus, name);
@@ -140,7 +146,7 @@ Result<Jobs::Outcome> Triage::shrink(const std::string& name, const std::functio
       (fs::temp_directory_path() / ("contort-shrink-" + std::to_string(::getpid()) + "-" + bucket->id + ".json")).string();
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"shrink", input, "-o", output, "--json"});
-  const Result<Ran> ran = run_program(command, kShrink_s, stop);
+  const Result<Ran> ran = run_job(command, kShrink_s, running);
   const Result<Case> minimal = ran && ran->code == 0 ? read_case(output) : Result<Case>(Issue{});
   std::error_code error;
   fs::remove(output, error);
@@ -164,8 +170,8 @@ Result<Jobs::Outcome> Triage::store(const Corpus& corpus, const Bucket& from, co
 Jobs::Work Triage::report_work(const std::string& into) const {
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"report", folder_, "-o", into});
-  return [command](const std::function<bool()>& stop) -> Result<Jobs::Outcome> {
-    const Result<Ran> ran = run_program(command, kReport_s, stop);
+  return [command](Jobs::Running& running) -> Result<Jobs::Outcome> {
+    const Result<Ran> ran = run_job(command, kReport_s, running);
     if (!ran) return ran.issue();
     if (ran->killed || ran->code != 0) return failed(*ran);
     return Jobs::Outcome{last_line(ran->out), ""};

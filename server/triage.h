@@ -37,7 +37,7 @@ class Triage {
 
  private:
   Result<Bucket> find(const Corpus& corpus, const std::string& name) const;
-  Result<Jobs::Outcome> shrink(const std::string& bucket, const std::function<bool()>& stop) const;
+  Result<Jobs::Outcome> shrink(const std::string& bucket, Jobs::Running& running) const;
   Result<Jobs::Outcome> store(const Corpus& corpus, const Bucket& from, const Case& original, const Case& minimal) const;
 
   std::string folder_;

@@ -182,6 +182,52 @@ TEST(Calls, AreLimitedByTheirRate) {
   EXPECT_EQ(refused.headers[0].first, "Retry-After");
 }
 
+// A motion is made, and only then it is known what it took: the next one waits.
+TEST(Cpu, IsLimitedForEachClient) {
+  Limits limits;
+  limits.cpu_s_per_minute = 0.006, limits.cpu_minutes_at_once = 0.1;
+  Server server(limits, false);
+  const Json body = {{"spec", standing("mech", "dynamic")}};
+  EXPECT_EQ(server.post("/api/evaluate", body).status, 200);
+  const Answer refused = server.post("/api/evaluate", body);
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(code_of(refused), "limit.cpu");
+  EXPECT_EQ(refused.headers[0].first, "Retry-After");
+  EXPECT_GT(std::stoi(refused.headers[0].second), 1) << refused.body;
+  EXPECT_EQ(server.call("GET", "/api/catalogue").status, 200) << "what generates nothing";
+  server.client = "127.0.0.2";
+  EXPECT_EQ(server.post("/api/evaluate", body).status, 200);
+}
+
+// The figure stands still at the end of its take, and goes on when it is told to once there is time again.
+TEST(Cpu, ASessionGoesOnWhenThereIsSomeAgain) {
+  Server server;
+  const std::string session = open(server, standing());
+  server.engine->spend(server.client, 1e3);
+  EXPECT_EQ(server.post(session + "/clock", {{"step", 36000}}).status, 200);
+  EXPECT_EQ(server.post(session + "/clock", {{"play", true}}).status, 200);
+  const Answer stream = server.call("GET", session + "/stream");
+  EXPECT_EQ(last(listen(stream), "problem")["code"], "limit.cpu");
+  EXPECT_EQ(server.get(session)["take"], 1);
+  server.engine->spend(server.client, -1e3);
+  EXPECT_EQ(server.post(session + "/clock", {{"play", true}}).status, 200);
+  listen(stream);
+  EXPECT_EQ(server.get(session)["take"], 2);
+}
+
+TEST(Cpu, OfWhatEndedBadlyCountsToo) {
+  BrokerLimits workers;
+  workers.each.seconds = 0.1;
+  Limits limits;
+  limits.cpu_s_per_minute = 0.06, limits.cpu_minutes_at_once = 1;
+  Server server(limits, false, false, workers);
+  Json long_one = standing("mech", "dynamic", 240);
+  long_one["sequences"] = {sequence("crouch", "waist", 14000)};
+  const Answer too_long = server.post("/api/evaluate", {{"spec", long_one}});
+  EXPECT_EQ(code_of(too_long), "work.timeout") << too_long.body;
+  EXPECT_EQ(code_of(server.post("/api/evaluate", {{"spec", standing("human")}})), "limit.cpu");
+}
+
 TEST(Calls, ThatDoNotExistAreRefused) {
   Server server({}, false);
   EXPECT_EQ(server.call("GET", "/api/nothing").status, 404);
@@ -263,6 +309,20 @@ TEST(Triage, WhatASessionShowsCanBeKeptShrunkReplayedAndAcknowledged) {
   EXPECT_EQ(server.post(bucket + "/quarantine", {{"owner", "ana"}, {"reason", "x"}, {"expires", "2027-03-01"}}).status, 200);
   std::vector<Issue> damaged;
   EXPECT_EQ(Corpus::open(server.folder / "corpus")->buckets(damaged)[0].state, BucketState::quarantined) << "it is on the disk";
+}
+
+TEST(Cpu, OfAJobIsTheClientsWhoAskedForIt) {
+  Limits limits;
+  limits.cpu_s_per_minute = 0.06, limits.cpu_minutes_at_once = 500;
+  Server server(limits);
+  const std::string replay = "/api/corpus/" + keep(server) + "/replay";
+  server.client = "127.0.0.2";
+  server.engine->spend(server.client, 30.0 - 0.002);
+  const Json job = wait_for(server, server.post(replay, Json::object()));
+  EXPECT_GT(job["cpu_s"], 0.0) << job;
+  EXPECT_EQ(code_of(server.post(replay, Json::object())), "limit.cpu");
+  server.client = "127.0.0.1";
+  EXPECT_EQ(server.post(replay, Json::object()).status, 202);
 }
 
 TEST(Triage, AReadOnlyServerChangesNothing) {

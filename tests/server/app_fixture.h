@@ -21,6 +21,7 @@ struct Server {
   Limits limits;
   std::unique_ptr<Engine> engine;
   std::unique_ptr<App> app;
+  std::string client = "127.0.0.1";
 
   explicit Server(const Limits& wanted = {}, bool with_corpus = true, bool read_only = false,
                   const BrokerLimits& workers = {}) : limits(wanted) {
@@ -43,7 +44,7 @@ struct Server {
 
   Answer call(const std::string& method, const std::string& path, const std::string& body = "") const {
     Request request;
-    request.method = method, request.path = path, request.body = body, request.client = "127.0.0.1";
+    request.method = method, request.path = path, request.body = body, request.client = client;
     request.headers = {{"host", kHost}, {"content-type", "application/json"}};
     if (const std::size_t at = path.find('?'); at != std::string::npos) {
       request.path = path.substr(0, at);

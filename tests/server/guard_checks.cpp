@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "server/allowance.h"
 #include "server/files.h"
 #include "tests/corpus/temp_folder.h"
 
@@ -98,14 +99,34 @@ TEST(Guard, RefusesLongAddresses) {
   EXPECT_EQ(code(admit(get("/" + std::string(5000, 'a')), kOpen)), "call.too_long");
 }
 
-TEST(CallRate, RefillsAsTimeGoesBy) {
-  CallRate rate(10, 3);
+TEST(Allowance, RefillsAsTimeGoesBy) {
+  Allowance calls(10, 3);
   const Time begin{};
-  for (int i = 0; i < 3; ++i) EXPECT_TRUE(rate.count("a", begin));
-  EXPECT_EQ(code(rate.count("a", begin)), "limit.calls");
-  EXPECT_TRUE(rate.count("b", begin)) << "others are not meant";
-  EXPECT_TRUE(rate.count("a", begin + std::chrono::milliseconds(110)));
-  EXPECT_EQ(code(rate.count("a", begin + std::chrono::milliseconds(120))), "limit.calls");
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(calls.take("a", 1, begin));
+  EXPECT_FALSE(calls.take("a", 1, begin));
+  EXPECT_TRUE(calls.take("b", 1, begin)) << "others are not meant";
+  EXPECT_TRUE(calls.take("a", 1, begin + std::chrono::milliseconds(110)));
+  EXPECT_FALSE(calls.take("a", 1, begin + std::chrono::milliseconds(120)));
+  EXPECT_DOUBLE_EQ(calls.left("a", begin + std::chrono::hours(1)), 3.0) << "a long pause gives no more than that";
+}
+
+TEST(Allowance, MayBeOwed) {
+  Allowance cpu_s(0.5, 10);
+  const Time begin{};
+  cpu_s.spend("a", 12, begin);
+  EXPECT_DOUBLE_EQ(cpu_s.left("a", begin), -2.0);
+  EXPECT_DOUBLE_EQ(cpu_s.wait_s("a", begin), 4.0);
+  EXPECT_DOUBLE_EQ(cpu_s.wait_s("a", begin + std::chrono::seconds(3)), 1.0);
+  EXPECT_DOUBLE_EQ(cpu_s.wait_s("a", begin + std::chrono::seconds(5)), 0.0);
+  EXPECT_DOUBLE_EQ(cpu_s.wait_s("b", begin), 0.0);
+}
+
+TEST(Allowance, ForgetsWhoHasAllOfItAndNobodyElse) {
+  Allowance calls(1, 2);
+  const Time begin{};
+  calls.spend("busy", 2, begin);
+  for (int i = 0; i < 5000; ++i) EXPECT_TRUE(calls.take("client " + std::to_string(i), 0, begin));
+  EXPECT_FALSE(calls.take("busy", 1, begin));
 }
 
 class Folder : public testing::Test {

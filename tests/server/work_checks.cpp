@@ -94,10 +94,10 @@ TEST(Broker, ATaskThatEndsItsWorkerCostsNothingElse) {
   BrokerLimits limits;
   limits.each.seconds = 0.3;
   Broker broker(limits, misbehave);
-  EXPECT_EQ(*broker.run("this", Urgency::now), "did this");
-  EXPECT_EQ(broker.run("crash", Urgency::now).issue().code, "work.crash");
-  EXPECT_EQ(broker.run("hang", Urgency::now).issue().code, "work.timeout");
-  EXPECT_EQ(*broker.run("that", Urgency::later), "did that");
+  EXPECT_EQ(*broker.run("this", Urgency::now).text, "did this");
+  EXPECT_EQ(broker.run("crash", Urgency::now).text.issue().code, "work.crash");
+  EXPECT_EQ(broker.run("hang", Urgency::now).text.issue().code, "work.timeout");
+  EXPECT_EQ(*broker.run("that", Urgency::later).text, "did that");
   EXPECT_EQ(broker.load().ended_badly, 2);
 }
 
@@ -109,7 +109,7 @@ TEST(Broker, ManyThreadsGetTheirOwnReplies) {
     threads.emplace_back([&, t] {
       for (int i = 0; i < 200; ++i) {
         const std::string task = std::to_string(t) + "/" + std::to_string(i) + std::string(static_cast<std::size_t>(i * 50), 'x');
-        const Result<std::string> reply = broker.run(task, i % 2 == 0 ? Urgency::now : Urgency::later);
+        const Result<std::string> reply = broker.run(task, i % 2 == 0 ? Urgency::now : Urgency::later).text;
         if (reply && *reply == "did " + task) ++right;
       }
     });
@@ -125,7 +125,7 @@ TEST(Broker, SaysSoWhenTooMuchWaits) {
   std::atomic<int> busy = 0;
   for (int t = 0; t < 6; ++t)
     threads.emplace_back([&] {
-      const Result<std::string> reply = broker.run("hang", Urgency::now);
+      const Result<std::string> reply = broker.run("hang", Urgency::now).text;
       if (reply.issue().code == "work.busy") ++busy;
     });
   for (std::thread& thread : threads) thread.join();

@@ -1,0 +1,38 @@
+// What each client may use of something: so much per second on average, and more after a pause (a bucket of tokens).
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "server/played.h"
+
+namespace contort::server {
+
+class Allowance {
+ public:
+  Allowance(double per_s, double at_once) : per_s_(per_s), at_once_(at_once) {}
+
+  // What `client` has left now. Below zero where it spent more than it had, as the cost of some things is known afterwards.
+  double left(const std::string& client, Time now);
+  void spend(const std::string& client, double amount, Time now);
+  // Spends it if there is as much.
+  bool take(const std::string& client, double amount, Time now);
+  // Until something is left.
+  double wait_s(const std::string& client, Time now);
+
+ private:
+  struct Account {
+    double left = 0.0;
+    Time since{};
+  };
+  Account& account_of(const std::string& client, Time now);  // with mutex_ held
+  void forget_full(Time now);
+
+  double per_s_;
+  double at_once_;
+  std::mutex mutex_;
+  std::map<std::string, Account> accounts_;
+};
+
+}  // namespace contort::server
