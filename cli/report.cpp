@@ -25,6 +25,7 @@
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/json_fields.h"
+#include "renders/needs.h"
 #include "renders/report.h"
 #include "renders/variety.h"
 
@@ -95,7 +96,7 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
-  row.features = bucket.features;
+  row.features = bucket.features, row.needs = needs_of(stored.spec);
   row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
     if (check.name == bucket.check) row.meaning = check.help;

@@ -7,6 +7,7 @@
 #include "generator/gltf/write.h"
 #include "renders/gzip.h"
 #include "renders/highlight.h"
+#include "renders/needs.h"
 #include "renders/page_call.h"
 #include "renders/scene_fields.h"
 #include "renders/wording.h"
@@ -75,6 +76,7 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
                {"check", expect.check},
                {"subject", expect.subject},
                {"unit", expect.unit},
+               {"needs", needs_of(shown.front().stored.spec)},
                {"meaning", check == all_checks().end() ? "" : check->help},
                {"worst_margin", number(expect.worst_margin)},
                {"first_frame", expect.first_frame},

@@ -35,6 +35,7 @@ Json row_json(const ReportRow& row) {
           {"last_frame", row.last_frame},
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
           {"features", row.features},
+          {"needs", row.needs},
           {"phase", row.phase},
           {"note", row.note}};
 }

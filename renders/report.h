@@ -35,7 +35,8 @@ struct ReportRow {
   int worst_frame = 0;
   int last_frame = 0;
   double rate_hz = 60.0;
-  std::string features;   // what survived shrinking: "walk + aim_at, interrupt"
+  std::string features;   // of the bucket: what its id is made of beside the family
+  std::string needs;      // of the minimal spec, in words (renders/needs.h)
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
   std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // what people know about it: "ana, ticket 12"

@@ -86,7 +86,7 @@ std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& insid
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
   out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
          fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
-         fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("needs", needs_text(row.features)) +
+         fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("needs", row.needs) +
          fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
@@ -202,7 +202,7 @@ std::string count_of(const FamilyCard& card) {
 std::string short_text(const ReportRow& row) {
   const std::string phase = phase_text(row.phase);
   return "worst " + margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) +
-         (phase.empty() ? "" : ", " + phase) + "; needs " + needs_text(row.features);
+         (phase.empty() ? "" : ", " + phase) + "; needs " + row.needs;
 }
 
 bool can_be_opened(const ReportRow& row, const PageFiles& inside) {

@@ -87,36 +87,6 @@ std::string one_line(std::string_view text, std::size_t max_chars) {
   return line;
 }
 
-namespace {
-
-std::string need(std::string_view word) {
-  constexpr std::string_view kActions = "actions=";
-  if (word.starts_with(kActions)) {
-    std::string text;
-    for (const char c : word.substr(kActions.size())) text += c == ',' ? std::string(" + ") : std::string(1, c);
-    return text.empty() ? "no action" : text;
-  }
-  if (word == "swap") return "a swapped part";
-  if (word == "attachment") return "an attached object";
-  const std::size_t equals = word.find('=');
-  if (equals == word.npos) return std::string(word);
-  const std::string_view count = word.substr(equals + 1);
-  return count == "1" ? "" : std::string(count) + " " + std::string(word.substr(0, equals));
-}
-
-}  // namespace
-
-std::string needs_text(std::string_view features) {
-  std::string text;
-  while (!features.empty()) {
-    const std::size_t cut = std::min(features.find(' '), features.size());
-    const std::string one = need(features.substr(0, cut));
-    if (!one.empty()) text += (text.empty() ? "" : ", ") + one;
-    features.remove_prefix(std::min(cut + 1, features.size()));
-  }
-  return text;
-}
-
 std::string phase_text(std::string_view phase) {
   static constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
       {"impact", "after a blow"},

@@ -20,10 +20,6 @@ std::string count_text(std::int64_t count);
 // "1 case", "3 cases".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
 
-// What a minimal spec needs in order to fail, out of features_of: "crouch + pose, 2 clips, a swapped part". What is one of
-// its kind goes without saying; words that are not known stay as they are.
-std::string needs_text(std::string_view features);
-
 // What a phase (checks/circumstances.h) means: "just after an interrupt" for "interrupt"; words that are not known stay as
 // they are.
 std::string phase_text(std::string_view phase);

@@ -63,7 +63,7 @@ Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& 
   for (std::size_t i = 0; i < desc.impacts.size(); ++i) {
     Result<Blow> blow = build_blow(desc.impacts[i], character, start, "/impacts/" + std::to_string(i));
     if (!blow) return blow.issue();
-    setup.blows.push_back(*blow);
+    if (blow->impulse_N_s != Vec3(0.0)) setup.blows.push_back(*blow);  // one of nothing happens to nobody
   }
   setup.figure = build_figure(character, legs, loads);
   setup.touches = touch_points(character, setup.figure);

@@ -174,6 +174,17 @@ TEST(Simulate, ALoadThatIsBearableAnywayChangesNothing) {
   for (const double added : played(spec).response.control) ASSERT_EQ(added, 0.0);
 }
 
+// It once counted as a blow after which joints have to be back at their targets in time.
+TEST(Simulate, ABlowOfNothingIsNone) {
+  Spec spec = standing("human", Mode::dynamic, 60);
+  spec.dynamics.loads = {{"hand_left", "grip", {0, 0, 0}, {0.3, 0.3, 0.3}, 25.0}};
+  const Motion without = played(spec);
+  spec.dynamics.impacts = {{20, "torso", "", Vec3(0.0), Vec3(0.0)}};
+  const Motion with = played(spec);
+  EXPECT_TRUE(with.response.impacts.empty());
+  EXPECT_EQ(motion_hash(with), motion_hash(without));
+}
+
 // Clamping joints one by one once tore the feet apart: with weak legs the squat is slower, but its soles stay.
 TEST(Simulate, WithLittleStrengthASquatIsHeldBackAsAWhole) {
   Spec spec = standing("human", Mode::dynamic, 30);

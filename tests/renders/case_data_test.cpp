@@ -111,6 +111,13 @@ TEST(CaseData, SaysWhyWhereACaseCannotBeShown) {
   EXPECT_EQ(data_of({{"minimal", unknown}})["meaning"], "");
 }
 
+TEST(CaseData, SaysWhatTheMinimalSpecNeeds) {
+  const Case minimal = failing_case(bent_elbow(158), "joint_range", kElbow);
+  Case original = minimal;
+  original.spec.environment.ground = StepsGround{};
+  EXPECT_EQ(data_of({{"minimal", minimal}, {"original", original}})["needs"], "pose");
+}
+
 TEST(CaseData, AKeyStaysAString) {
   EXPECT_EQ(case_script("a\"</script>\xE2\x80\xA8", "{}"), "contortCase(\"a\\\"\\u003c/script>\\u2028\", {});\n");
 }

@@ -33,7 +33,7 @@ ReportRow row_of(const std::string& check, const std::string& subject, const std
   row.replay_command = "contort replay corpus/" + row.bucket + "/min.json";
   row.strip = "strips/" + row.bucket + ".png";
   row.first_frame = 40, row.worst_frame = 55, row.last_frame = 80;
-  row.features = "reach";
+  row.needs = "reach";
   return row;
 }
 
@@ -164,7 +164,7 @@ ReportModel large_model(int count, int family_size = 1) {
     ReportRow row = row_of("self_collision", "human: arm_left/forearm_" + family + " ~ torso/chest", "new", true);
     row.key = row.bucket = "self_collision-0123456789" + number;
     row.replay_command = "contort replay contort-out/corpus/buckets/" + row.key + "/min-0123456789abcdef.json";
-    row.features = "actions=pose,reach,walk clips=2 sequences=1 swap", row.phase = "interrupt";
+    row.needs = "pose + reach + walk, 2 clips, a swapped part", row.phase = "interrupt";
     row.clip = "strips/" + row.key + "-01234567.webp";
     row.spec_json = std::string(11'000, 'x');  // of a failure that was not shrunk
     rows.push_back(std::move(row));

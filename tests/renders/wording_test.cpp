@@ -54,15 +54,6 @@ RC_GTEST_PROP(OneLine, ChangesItsOwnResultNoMore, (const std::string& bytes)) {
   RC_ASSERT(one_line(one_line(bytes)) == one_line(bytes));
 }
 
-TEST(NeedsText, SaysItInWords) {
-  EXPECT_EQ(needs_text("actions=hit_reaction clips=1 sequences=1"), "hit_reaction");
-  EXPECT_EQ(needs_text("actions=crouch,pose clips=2 sequences=3+ swap attachment"),
-            "crouch + pose, 2 clips, 3+ sequences, a swapped part, an attached object");
-  EXPECT_EQ(needs_text("actions= clips=0 sequences=0"), "no action, 0 clips, 0 sequences");
-  EXPECT_EQ(needs_text("something else"), "something, else");
-  EXPECT_EQ(needs_text(""), "");
-}
-
 TEST(PhaseText, SaysEachPhaseInWords) {
   for (const std::string_view phase : phase_names()) EXPECT_NE(phase_text(phase), phase) << phase;
   EXPECT_EQ(phase_text("interrupt"), "just after an interrupt");

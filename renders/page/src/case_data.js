@@ -83,6 +83,7 @@ export function readCase(data) {
   if (motions.length === 0) throw new Damaged('it holds no motion');
   return {
     key: text(data.key), check: shown(data.check), subject: shown(data.subject), unit: shown(data.unit),
-    meaning: shown(data.meaning), phase: shown(data.phase), worstMargin: finite(data.worst_margin) ? data.worst_margin : NaN, motions,
+    meaning: shown(data.meaning), phase: shown(data.phase), needs: shown(data.needs),
+    worstMargin: finite(data.worst_margin) ? data.worst_margin : NaN, motions,
   };
 }

@@ -13,7 +13,7 @@ export function factsElement(data, motion) {
   return el('dl', { class: 'case-facts' },
     fact(motion.role === 'worst' ? 'worst margin (minimal case)' : 'worst margin', margin(data.worstMargin, data.unit)),
     fact('worst at', worst), fact('violated in', motion.worst >= 0 ? interval(motion.first, motion.last) : ''),
-    fact('when', motion.role === 'minimal' ? data.phase : ''),
+    fact('when', motion.role === 'minimal' ? data.phase : ''), fact('needs', motion.role === 'minimal' ? data.needs : ''),
     fact('frames', length));
 }
 

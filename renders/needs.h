@@ -1,0 +1,14 @@
+// What a minimal spec needs in order to fail, in words for people.
+#pragma once
+
+#include <string>
+
+#include "generator/spec.h"
+
+namespace contort {
+
+// "crouch + pose, 2 clips, an interrupt, mech_leg_reverse as leg_left, rifle, mode dynamic, a blow, steps". What every spec has,
+// or has one of, goes without saying.
+std::string needs_of(const Spec& spec);
+
+}  // namespace contort
