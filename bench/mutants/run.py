@@ -7,6 +7,7 @@ import hashlib
 import json
 import math
 import os
+import re
 import shutil
 import statistics
 import subprocess
@@ -17,6 +18,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+PROFILES = HERE / "profiles"
 CLEAN = "clean"
 ARMS = {"mixture": {}, "uniform": {"guided": 0, "uniform": 1}}
 FIRST_CHUNK = 256  # cases; every further chunk begins anew with four times as many
@@ -55,6 +57,9 @@ class Mutant:
         self.is_equivalent = "-equivalent_" in self.name
         self.about, diff = path.read_text().split("\n", 1)
         self.id = short_hash(diff.encode())
+        named = re.search(r" Profile: (\w+)\.$", self.about)
+        self.profile = named.group(1) if named else ""
+        self.race = None  # which has what was measured of it
 
 
 class Builds:
@@ -104,29 +109,16 @@ class Builds:
         return built.returncode == 0
 
 
-class Bench:
-    def __init__(self, args):
-        self.args = args
-        self.out = args.out.resolve()
-        self.mutants = [Mutant(path) for path in sorted(HERE.glob("*.patch"))]
-        if args.only:
-            self.mutants = [m for m in self.mutants if any(word in m.name for word in args.only)]
-        self.builds = Builds(self.out, args.build_jobs)
+class Race:
+    """Mutants that are looked for with one profile, and what the clean generator shows with it."""
+
+    def __init__(self, args, builds, profile, mutants):
+        self.args, self.builds, self.mutants = args, builds, mutants
+        self.out = builds.out
         self.seeds = range(1, args.seeds + 1)
         self.baseline = set()  # families of the clean generator
-
-    # ---- what is run
-
-    def build(self):
-        self.builds.prepare()
-        if not self.builds.make(CLEAN, CLEAN):
-            sys.exit("the clean tree does not compile")
-        self.mutants = [m for m in self.mutants if self.builds.make(m.name, m.id, m.path)]
-
-    def write_profiles(self):
-        built_in = json.loads(must([self.builds.binary(CLEAN), "list", "profiles", "--json"]))
-        named = {entry["name"]: entry["profile"] for entry in built_in}
-        profile = named.get(self.args.profile) or json.loads(Path(self.args.profile).read_text())
+        for mutant in mutants:
+            mutant.race = self
         text = json.dumps(profile, sort_keys=True)
         self.results = self.out / "results" / f"{profile['name']}-{short_hash(text.encode())}"
         for mode, arms in ARMS.items():
@@ -198,7 +190,7 @@ class Bench:
         if not self.known(path, CLEAN):
             with tempfile.TemporaryDirectory(dir=self.out) as corpus:
                 record = self.fuzz(CLEAN, mode, seed, self.args.cases, corpus, (1, 0))
-            write_json(path, self.result(CLEAN, families=sorted(record["families"]), failing=record["failing"]))
+            write_json(path, self.result(CLEAN, families=sorted(record.get("families", {})), failing=record.get("failing", 0)))
 
     def load_baseline(self):
         for mode in ARMS:
@@ -216,7 +208,7 @@ class Bench:
     def first_detection(self, name, mode, seed, cases):
         with tempfile.TemporaryDirectory(dir=self.out) as corpus:
             record = self.fuzz(name, mode, seed, cases, corpus, (1, 0))
-            found = sorted((count.get("first_index", 0), family) for family, count in record["families"].items()
+            found = sorted((count["first_indices"][0], family) for family, count in record.get("families", {}).items()
                            if family not in self.baseline)
             for index, family in found:
                 spec = self.stored_case(corpus, family)
@@ -265,36 +257,7 @@ class Bench:
         known = set(json.loads(self.bucket_path(CLEAN).read_text())["buckets"])
         return [b for b in json.loads(path.read_text())["buckets"] if b not in known]
 
-    # ---- all of it
-
-    def run_all(self, jobs):
-        with concurrent.futures.ThreadPoolExecutor(self.args.jobs) as pool:
-            for done in concurrent.futures.as_completed([pool.submit(*job) for job in jobs]):
-                try:
-                    done.result()
-                except Exception as error:  # one run that fails must not end the bench
-                    say(f"no result: {error!r}")
-
-    def run(self):
-        self.build()
-        self.write_profiles()
-        if self.args.build_only:
-            return
-        if not self.args.table:
-            self.measure()
-        self.load_baseline()
-        print("\n".join(self.table()))
-
-    def measure(self):
-        both = [(mode, seed) for seed in self.seeds for mode in self.args.modes]
-        self.run_all([(self.run_clean, mode, seed) for mode, seed in both])
-        self.load_baseline()
-        self.run_all([(self.race, m, mode, seed) for mode, seed in both for m in self.mutants])
-        if self.args.buckets:
-            faults = [(self.find_buckets, m.name, m.id) for m in self.mutants if not m.is_equivalent]
-            self.run_all([(self.find_buckets, CLEAN, CLEAN)] + faults)
-
-    # ---- the table
+    # ---- what was measured
 
     def counts(self, mutant, mode):
         """Cases to detection of each seed that was run; none where it was not found."""
@@ -306,23 +269,6 @@ class Bench:
                 counts.append(found if found and found <= self.args.cases else None)
         return counts
 
-    def median(self, counts):
-        if not counts:
-            return ""
-        middle = statistics.median([math.inf if c is None else c for c in counts])
-        return f"> {self.args.cases}" if middle == math.inf else f"{middle:g}"
-
-    def table(self):
-        lines = ["| mutant | found (mixture) | median cases, mixture | median cases, uniform | seen first by | buckets |",
-                 "|---|---|---|---|---|---|"]
-        for mutant in self.mutants:
-            mixture, uniform = self.counts(mutant, "mixture"), self.counts(mutant, "uniform")
-            own = self.own_buckets(mutant.name)
-            lines.append(f"| {mutant.name} | {sum(c is not None for c in mixture)} of {len(mixture)} | "
-                         f"{self.median(mixture)} | {self.median(uniform)} | {self.seen_by(mutant)} | "
-                         f"{'' if own is None else len(own)} |")
-        return lines + [""] + self.summary()
-
     def seen_by(self, mutant):
         checks = {}
         for mode in ARMS:
@@ -333,13 +279,92 @@ class Bench:
                     checks[check] = checks.get(check, 0) + 1
         return ", ".join(sorted(checks, key=lambda check: (-checks[check], check)))
 
+
+class Bench:
+    """All mutants, each with the profile that its first line names, unless the command line says one."""
+
+    def __init__(self, args):
+        self.args = args
+        self.mutants = [Mutant(path) for path in sorted(HERE.glob("*.patch"))]
+        if args.only:
+            self.mutants = [m for m in self.mutants if any(word in m.name for word in args.only)]
+        self.builds = Builds(args.out.resolve(), args.build_jobs)
+        self.races = []
+
+    def build(self):
+        self.builds.prepare()
+        if not self.builds.make(CLEAN, CLEAN):
+            sys.exit("the clean tree does not compile")
+        self.mutants = [m for m in self.mutants if self.builds.make(m.name, m.id, m.path)]
+
+    def profile_of(self, mutant):
+        return self.args.profile or str(PROFILES / f"{mutant.profile}.json")
+
+    def make_races(self):
+        built_in = json.loads(must([self.builds.binary(CLEAN), "list", "profiles", "--json"]))
+        named = {entry["name"]: entry["profile"] for entry in built_in}
+        by_profile = {}
+        for mutant in self.mutants:
+            by_profile.setdefault(self.profile_of(mutant), []).append(mutant)
+        for name, mutants in sorted(by_profile.items()):
+            profile = named.get(name) or json.loads(Path(name).read_text())
+            self.races.append(Race(self.args, self.builds, profile, mutants))
+
+    def run_all(self, jobs):
+        with concurrent.futures.ThreadPoolExecutor(self.args.jobs) as pool:
+            for done in concurrent.futures.as_completed([pool.submit(*job) for job in jobs]):
+                try:
+                    done.result()
+                except Exception as error:  # one run that fails must not end the bench
+                    say(f"no result: {error!r}")
+
+    def run(self):
+        self.build()
+        if self.args.build_only:
+            return
+        self.make_races()
+        if not self.args.table:
+            self.measure()
+        for race in self.races:
+            race.load_baseline()
+        print("\n".join(self.table()))
+
+    def measure(self):
+        seeds = range(1, self.args.seeds + 1)
+        self.run_all([(race.run_clean, mode, seed) for seed in seeds for mode in self.args.modes for race in self.races])
+        for race in self.races:
+            race.load_baseline()
+        self.run_all([(m.race.race, m, mode, seed) for seed in seeds for mode in self.args.modes for m in self.mutants])
+        if self.args.buckets:
+            faults = [(m.race.find_buckets, m.name, m.id) for m in self.mutants if not m.is_equivalent]
+            self.run_all([(race.find_buckets, CLEAN, CLEAN) for race in self.races] + faults)
+
+    # ---- the table
+
+    def median(self, counts):
+        if not counts:
+            return ""
+        middle = statistics.median([math.inf if c is None else c for c in counts])
+        return f"> {self.args.cases}" if middle == math.inf else f"{middle:g}"
+
+    def table(self):
+        lines = ["| mutant | found (mixture) | median cases, mixture | median cases, uniform | seen first by | buckets |",
+                 "|---|---|---|---|---|---|"]
+        for mutant in self.mutants:
+            mixture, uniform = mutant.race.counts(mutant, "mixture"), mutant.race.counts(mutant, "uniform")
+            own = mutant.race.own_buckets(mutant.name)
+            lines.append(f"| {mutant.name} | {sum(c is not None for c in mixture)} of {len(mixture)} | "
+                         f"{self.median(mixture)} | {self.median(uniform)} | {mutant.race.seen_by(mutant)} | "
+                         f"{'' if own is None else len(own)} |")
+        return lines + [""] + self.summary()
+
     def summary(self):
         faults = [m for m in self.mutants if not m.is_equivalent]
-        runs = {m.name: self.counts(m, "mixture") for m in faults}
+        runs = {m.name: m.race.counts(m, "mixture") for m in faults}
         often = [m for m in faults if runs[m.name] and
                  sum(c is not None for c in runs[m.name]) >= 0.9 * len(runs[m.name])]
         wrong = [m.name for m in self.mutants if m.is_equivalent and
-                 any(c is not None for mode in ARMS for c in self.counts(m, mode))]
+                 any(c is not None for mode in ARMS for c in m.race.counts(m, mode))]
         lines = [f"* Found in at least 90 % of the seeds: {len(often)} of {len(faults)}.",
                  f"* Geometric mean of uniform / mixture, cases to detection with {self.args.cases} for a miss: "
                  f"{self.speed_up(faults)}.",
@@ -350,7 +375,7 @@ class Bench:
     def speed_up(self, faults):
         ratios = []
         for mutant in faults:
-            mixture, uniform = self.counts(mutant, "mixture"), self.counts(mutant, "uniform")
+            mixture, uniform = mutant.race.counts(mutant, "mixture"), mutant.race.counts(mutant, "uniform")
             if not mixture or not uniform or not any(mixture + uniform):
                 continue
             mean = [statistics.fmean([c or self.args.cases for c in counts]) for counts in (mixture, uniform)]
@@ -358,7 +383,7 @@ class Bench:
         return f"{statistics.geometric_mean(ratios):.2f} ({len(ratios)} mutants)" if ratios else "not measured"
 
     def bucket_summary(self, faults):
-        measured = {m.name: self.own_buckets(m.name) for m in faults}
+        measured = {m.name: m.race.own_buckets(m.name) for m in faults}
         measured = {name: own for name, own in measured.items() if own}
         if not measured:
             return []
@@ -374,7 +399,7 @@ class Bench:
 def parse_args():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("--out", type=Path, default=ROOT / "contort-out/mutants", help="builds and results are kept here")
-    parser.add_argument("--profile", default="tame", help="of the fuzzer, by name or a file")
+    parser.add_argument("--profile", help="of the fuzzer, by name or a file, for all mutants instead of each one's own")
     parser.add_argument("--seeds", type=int, default=3, help="seeds 1 to this one")
     parser.add_argument("--cases", type=int, default=3000, help="of one run, at most")
     parser.add_argument("--modes", nargs="+", choices=list(ARMS), default=list(ARMS))
@@ -399,6 +424,8 @@ def check_patches():
         files = [line[6:] for line in mutant.path.read_text().split("\n") if line.startswith("+++ b/")]
         if not mutant.about or mutant.about.startswith("---") or not all(f.startswith("generator/") for f in files):
             bad.append(f"{mutant.name}: no first line, or not of the generator")
+        if not (PROFILES / f"{mutant.profile}.json").exists():
+            bad.append(f"{mutant.name}: its first line ends with no profile of bench/mutants/profiles")
         applied = run(["git", "apply", "--check", mutant.path], cwd=ROOT)
         if applied.returncode != 0:
             bad.append(f"{mutant.name}: {applied.stderr.strip()}")
