@@ -8,6 +8,7 @@
 #include "corpus/replay.h"
 #include "fuzz/case_fields.h"
 #include "fuzz/compose.h"
+#include "fuzz/departures.h"
 #include "fuzz/labels.h"
 #include "generator/core/hash.h"
 
@@ -178,6 +179,7 @@ Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot
   config.checks = config_.checks;
   config.isolation = isolation();
   config.guarded = guarded;
+  config.allowed = within(config_.draw.profile, original.spec, library_);
   config.before_run = [&](const Spec& spec) {
     slot.note(print_spec(spec));
     if (config_.shrink.before_run) config_.shrink.before_run(spec);

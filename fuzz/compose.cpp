@@ -81,7 +81,7 @@ ClipDesc compose_clip(const RawClip& raw, const Stock& stock) {
   clip.speed = speed_of(raw.speed, stock.features);
   const bool may_stretch = stock.features.profile().speeds && !stock.features.omits("stretch");
   if (pick(raw.stretch, 5) == 0 && may_stretch)
-    clip.duration_frames = between(raw.stretch * 5 % (kLattice + 1), 20, 120);
+    clip.duration_frames = between(raw.stretch * 5 % (kLattice + 1), kShortestStretch, kLongestStretch);
   for (const RawAction& action : raw.actions) clip.actions.push_back(compose_action(action, stock));
   return clip;
 }

@@ -24,6 +24,7 @@ struct ShrinkConfig {
   Isolation isolation;                // for cases that end their process
   bool guarded = false;               // a candidate is known to end its process: each is tried in another one first
   BeforeRun before_run;               // may be empty
+  std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty
   std::function<bool()> out_of_time;  // asked before every evaluation; may be empty. Makes results differ.
 };
 

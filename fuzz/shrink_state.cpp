@@ -62,7 +62,7 @@ bool ShrinkState::confirm() {
 bool ShrinkState::accept(Spec candidate) {
   if (candidate == best_.spec) return false;
   const std::string text = print_spec(candidate);
-  if (tried_.contains(text)) return false;
+  if (tried_.contains(text) || !allows(candidate)) return false;
   std::optional<TrialResult> shown = run(candidate);
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;

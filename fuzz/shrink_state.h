@@ -21,6 +21,8 @@ class ShrinkState {
   // Makes the candidate the smallest one if it builds, fails in the family, and deeply enough.
   bool accept(Spec candidate);
 
+  bool allows(const Spec& candidate) const { return !config_.allowed || config_.allowed(candidate); }
+
   // Whether it fails in the family, however deep. False once the budget is spent.
   bool fails(const Spec& candidate);
 

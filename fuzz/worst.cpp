@@ -39,7 +39,7 @@ class Climb {
     Spec candidate = worst_.spec;
     set_place(candidate, place, on_lattice(value, place.steps_per_unit));
     if (candidate == worst_.spec || state_.evaluations() - first_evaluation_ >= kMostEvaluations) return false;
-    if (!tried_.insert(print_spec(candidate)).second) return false;
+    if (!tried_.insert(print_spec(candidate)).second || !state_.allows(candidate)) return false;
     const std::optional<TrialResult> shown = state_.run(candidate);
     if (!shown || !shown->fails || shown->depth <= depth_) return false;
     worst_.spec = candidate;

@@ -1,0 +1,104 @@
+#include "fuzz/departures.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "fuzz/compose.h"
+#include "fuzz/compose_turns.h"
+#include "generator/actions/action.h"
+
+namespace contort {
+
+namespace {
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::ranges::find(names, name) != names.end();
+}
+
+// A rule has one limit for all of a vector, or one for each of its numbers. Without a value (NaN) nothing is outside.
+bool is_outside(const DrawRule& rule, const ParamValue& value) {
+  const auto beyond = [&](double number, std::size_t i) {
+    return number < rule.low[std::min(i, rule.low.size() - 1)] || number > rule.high[std::min(i, rule.high.size() - 1)];
+  };
+  if (const double* number = std::get_if<double>(&value)) return beyond(*number, 0);
+  const Vec3* vector = std::get_if<Vec3>(&value);
+  return vector != nullptr && (beyond(vector->x, 0) || beyond(vector->y, 1) || beyond(vector->z, 2));
+}
+
+class Departures {
+ public:
+  Departures(const Profile& profile, const Character* character) : profile_(profile), character_(character) {}
+
+  int count(const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips) {
+      if (clip.duration_frames != 0) count_if(!profile_.speeds || clip.duration_frames < kShortestStretch ||
+                                                clip.duration_frames > kLongestStretch);
+      count_if(!profile_.speeds && clip.speed != 1.0);
+      for (const ActionUse& use : clip.actions) count(use);
+    }
+    if (character_ != nullptr && !profile_.overlaps && is_known_) {
+      SequenceDesc in_turns = sequence;
+      take_turns(*character_, in_turns);
+      count_if(in_turns != sequence);
+    }
+    return count_;
+  }
+
+ private:
+  void count_if(bool departs) { count_ += departs ? 1 : 0; }
+
+  void count(const ActionUse& use) {
+    count_if(!is_among(profile_.actions, use.action) || !is_among(profile_.slots, use.slot) ||
+             profile_.never(use.slot, use.action));
+    count_if(use.duration_frames < profile_.shortest_frames || use.duration_frames > profile_.longest_frames);
+    count_if(!profile_.speeds && use.speed != 1.0);
+    if (character_ == nullptr) return;
+    const int part = character_->find_part(use.slot);
+    const std::optional<Action> action =
+        part < 0 ? std::nullopt
+                 : find_action(*character_, character_->parts()[static_cast<std::size_t>(part)], use.action);
+    is_known_ = is_known_ && action;
+    if (action) count(use, *action, character_->parts()[static_cast<std::size_t>(part)]);
+  }
+
+  void count(const ActionUse& use, const Action& action, const Part& part) {
+    const auto rule_for = [&](std::string_view param) { return profile_.rule_for(use.slot, use.action, param); };
+    if (const DrawRule* rule = rule_for("blend_in_frames"); rule != nullptr && action.def->timing == Timing::course)
+      count_if(is_outside(*rule, static_cast<double>(use.blend_in_frames)));
+    if (const DrawRule* rule = rule_for("blend_out_frames"); rule != nullptr && action.def->layer != Layer::overwrite)
+      count_if(is_outside(*rule, static_cast<double>(use.blend_out_frames)));
+    for (const ParamDef& def : params_of(action, *character_, part)) {
+      const DrawRule* rule = rule_for(def.name);
+      const auto given = use.params.find(def.name);
+      const bool is_left_out = def.optional || (action.desc != nullptr && action.desc->params.contains(def.name));
+      if (rule == nullptr || (given == use.params.end() && is_left_out)) continue;
+      count_if(is_outside(*rule, given == use.params.end() ? def.preset : given->second));
+    }
+  }
+
+  const Profile& profile_;
+  const Character* character_;
+  bool is_known_ = true;  // all actions are: they can take turns
+  int count_ = 0;
+};
+
+}  // namespace
+
+int departures(const Spec& spec, const Profile& profile, const Library& library) {
+  const bool asks_character = !profile.overlaps || !profile.rules.empty();
+  const Result<Character> character =
+      asks_character ? build_character(spec.character, library) : Result<Character>(Issue{});
+  Departures found(profile, character ? &*character : nullptr);
+  int count = 0;
+  for (const SequenceDesc& sequence : spec.sequences) count = found.count(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) count = found.count(interrupt.sequence);
+  return count;
+}
+
+std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, const Library& library) {
+  return [profile, &library, most = departures(original, profile, library)](const Spec& spec) {
+    return departures(spec, profile, library) <= most;
+  };
+}
+
+}  // namespace contort
