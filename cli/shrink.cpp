@@ -11,6 +11,7 @@
 #include "cli/print.h"
 #include "corpus/corpus.h"
 #include "corpus/replay.h"
+#include "fuzz/departures.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
@@ -23,6 +24,7 @@ struct Options {
   std::string output;
   std::string worst;
   std::string time;
+  std::string profile;
   bool json = false;
   ShrinkConfig config;
 };
@@ -43,6 +45,22 @@ std::optional<Case> failing_now(const Options& options, const Library& library, 
   Case failing = std::move(stored).value();
   failing.expect = now.now;
   return failing;
+}
+
+// The profile that it has to stay within: of the command line, else the built-in one that found the case, else none.
+Result<std::optional<Profile>> profile_of(const Options& options, const Case& original) {
+  const std::string& found_with = original.provenance.profile;
+  if (!options.profile.empty()) {
+    Result<Profile> profile = load_profile(options.profile);
+    if (!profile) return profile.issue();
+    return std::optional(std::move(profile).value());
+  }
+  for (const Profile& profile : built_in_profiles())
+    if (profile.name == found_with) return std::optional(profile);
+  if (!found_with.empty())
+    std::fprintf(stderr, "contort: it was found with the profile %s; --profile FILE stays within that\n",
+                 json_fields::quoted(found_with).c_str());
+  return std::optional<Profile>();
 }
 
 // The configuration of one shrink; its time runs from now on.
@@ -89,11 +107,15 @@ void run(const Options& options, Context& context) {
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
-  const Result<ShrinkConfig> config = configure(options, *settings);
-  if (!config) return context.fail(config.issue());
+  const Result<ShrinkConfig> configured = configure(options, *settings);
+  if (!configured) return context.fail(configured.issue());
   const std::optional<Case> original = failing_now(options, *library, *settings, context);
   if (!original) return;
-  const Shrunk shrunk = shrink(*original, *library, *config);
+  const Result<std::optional<Profile>> profile = profile_of(options, *original);
+  if (!profile) return context.fail(profile.issue());
+  ShrinkConfig config = *configured;
+  if (*profile) config.allowed = within(**profile, original->spec, *library);
+  const Shrunk shrunk = shrink(*original, *library, config);
   if (shrunk.stopped == "flaky" || shrunk.stopped == "gone")
     return context.fail({"shrink.flaky", "", options.input + " shows something else each time: nothing is shrunk"},
                         kInconclusive);
@@ -118,6 +140,8 @@ void add_shrink(CLI::App& app, Context& context) {
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
   command->add_option("--time,--shrink-time", options->time,
                       "Stop after this time: 45s, 10m; results then depend on the machine");
+  command->add_option("--profile", options->profile,
+                      "Stay within what it draws (default: the built-in one that found the case): a name or a file");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")
       ->check(CLI::Range(0, 36000))

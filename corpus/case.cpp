@@ -50,6 +50,8 @@ void fields(V& v, const Provenance*) {
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
   v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");
   v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
+  v.field("profile", &Provenance::profile, {.text = Text::prose, .may_be_empty = true},
+          "Profile of the run, by name; empty: it draws everything.");
   v.field("met_shrinking", &Provenance::met_shrinking, {.text = Text::prose, .may_be_empty = true},
           "Family of the failure whose shrinking met this one; empty: the case itself showed it.");
 }

@@ -38,6 +38,7 @@ struct Provenance {
   int shrink_evaluations = 0;
   std::string shrink_stopped;   // "fixpoint", "evaluations", "time", "flaky" or "gone"
   double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
+  std::string profile;        // of the run, by name; shrinking stays within it. "": it draws everything
   std::string met_shrinking;  // family of the failure whose shrinking met this one; "" where the case itself showed it
   bool operator==(const Provenance&) const = default;
 };

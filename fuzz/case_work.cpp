@@ -136,8 +136,7 @@ CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   const std::optional<Case> again = shown_again(task, spec);
   if (!again) return report;
   Lead lead{run_name(config_), *again, {}};
-  lead.original.provenance.tool = config_.tool;
-  lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
+  lead.original.provenance = provenance_in(config_, task.lineage.back());
   report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
   Result<std::string> kept = keep_lead(corpus_, lead);
   if (kept && report.confirmed) kept = shrink_lead(task, lead, report, slot);

@@ -218,8 +218,7 @@ class Run {
   // again, or else it is not confirmed.
   void shrink_guarded(CaseTask task, const WorkerEvent& event) {
     Lead lead{state_.record.name, case_of_ending(event), {}};
-    lead.original.provenance.tool = config_.tool;
-    lead.original.provenance.seed = config_.seed, lead.original.provenance.index = task.lineage.back();
+    lead.original.provenance = provenance_in(config_, task.lineage.back());
     lead.original.provenance.met_shrinking = task.family;
     if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) return fail(kept.issue());
     task.ending = family_of(lead.original);
@@ -326,6 +325,13 @@ class Run {
 };
 
 }  // namespace
+
+Provenance provenance_in(const RunConfig& config, std::int64_t index) {
+  Provenance from;
+  from.tool = config.tool, from.seed = config.seed, from.index = index;
+  if (config.draw.profile != Profile{}) from.profile = config.draw.profile.name;
+  return from;
+}
 
 std::string run_name(const RunConfig& config) {
   std::string text = print_profile(config.draw.profile) + config.settings;

@@ -68,6 +68,9 @@ struct RunResult {
 // "seed_7_0123abcd". Another seed, other seeds, characters or limits, or another profile are another run.
 std::string run_name(const RunConfig& config);
 
+// Of a case that the run drew.
+Provenance provenance_in(const RunConfig& config, std::int64_t index);
+
 // `progress` is called now and then. `stop` is asked often; when it answers true the run ends early and keeps what it
 // found. The caller must have no other threads.
 RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,

@@ -109,7 +109,7 @@ class Generation {
     // One that starts in this frame has moved nothing yet: what had the layer ends as if nobody came.
     const bool follows = stack.ik.action >= 0 && ik.action >= 0 && ik.since < frame_;
     if (stack.ik.action >= 0 && ik.action != stack.ik.action && !follows &&
-        (places_foot(stack.ik, p) || !(planned(stack.ik).blend_out > 0.0)))
+        (places_foot(stack.ik, p) || not_blended_out(planned(stack.ik), content(run_of(stack.ik), frame_ - 1)) > 0.0))
       settle(p, stack.overwrite);
     take_over(stack.overwrite, winner(stack.overwrite, Layer::overwrite, p), p, s_.base, s_.from_overwrite);
     if (stack.overwrite.action >= 0) move(p, stack.overwrite, s_.from_overwrite, s_.from_overwrite, s_.base);

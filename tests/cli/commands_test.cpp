@@ -296,6 +296,33 @@ TEST_F(Commands, ShrinkingAgainWritesTheSameFile) {
   EXPECT_NE(contort_program({"replay", worst}).out.find("same "), std::string::npos);
 }
 
+// Its 150 frames are what the profile asks for: at least 120.
+TEST_F(Commands, ShrinkStaysWithinTheProfileThatFoundTheCase) {
+  Case stored = elbow_case(270, 150);
+  const auto frames_of = [&](const std::vector<std::string>& more, std::string* said = nullptr) {
+    std::vector<std::string> call = {"shrink", file("case.json", print_case(stored)), "-o", folder_ / "min.json"};
+    call.insert(call.end(), more.begin(), more.end());
+    const Ran ran = contort_program(call);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    if (said != nullptr) *said = ran.err;
+    return read_case(folder_ / "min.json")->spec.sequences[0].clips[0].actions[0].duration_frames;
+  };
+  EXPECT_EQ(frames_of({}), 30);
+  EXPECT_GE(frames_of({"--profile", "tame"}), 120);
+  stored.provenance.profile = "tame";
+  EXPECT_GE(frames_of({}), 120);
+  const std::string longer = file("longer.json", R"({"format": "contort.profile/1", "name": "mine", "shortest_frames": 140,
+                                                     "longest_frames": 200})");
+  EXPECT_GE(frames_of({"--profile", longer}), 140);
+  stored.provenance.profile = "mine";
+  std::string said;
+  EXPECT_EQ(frames_of({}, &said), 30);
+  EXPECT_NE(said.find("\"mine\""), std::string::npos) << said;
+  const Ran unknown = contort_program({"shrink", file("case.json", print_case(stored)), "--profile", "nothing"});
+  EXPECT_NE(unknown.code, 0);
+  EXPECT_NE(unknown.err.find("profile.unknown"), std::string::npos) << unknown.err;
+}
+
 TEST_F(Commands, ShrinkTellsAScriptWhatItDid) {
   const std::string smaller = folder_ / "small.json";
   const Ran ran = contort_program({"shrink", file("case.json", print_case(elbow_case(270))), "-o", smaller, "--json"});

@@ -253,6 +253,20 @@ TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
   }
 }
 
+// What fades out hands nothing over at its end, but here it has not faded: the head was back at rest one frame after the cut.
+TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
+  ActionUse look = use("look_at", "head", 0, 60, {{"target_m", Vec3(1.0, 1.5, 2.0)}});
+  look.blend_in_frames = look.blend_out_frames = 20;
+  for (const int frame : {30, 50}) {  // in full, and while it fades
+    InterruptDesc by = interrupt(frame, {elbow(0, 30, 50)});
+    by.resume = false;
+    const Motion cut = play_interrupted({look}, by);
+    const double held = coord(cut, frame, human(), "head/neck_rot");
+    EXPECT_GT(std::fabs(held), 10 * kDeg) << frame;
+    for (int f = frame; f < cut.frame_count; ++f) ASSERT_EQ(coord(cut, f, human(), "head/neck_rot"), held) << f;
+  }
+}
+
 // Cut in the middle of a stride; when the walk goes on it stands with both feet at home, and would be there at once.
 // The farthest that a hip or knee turns from one frame to the next.
 double fastest_of_legs(const Motion& motion) {
