@@ -269,7 +269,9 @@ class Run {
     if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());
   }
 
+  // The workers are gone, and under the run's lock there are no others; other shards, which share the folder, have own ones.
   void finish() {
+    if (config_.shard.count == 1) drop_half_written(corpus_, state_.record.name);
     tidy_leads(corpus_, state_.record.name);
     // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
     // say.

@@ -12,6 +12,7 @@
 #include "corpus/runs.h"
 #include "fuzz/parallel.h"
 #include "fuzz/run_state.h"
+#include "generator/core/files.h"
 #include "tests/fuzz/small_runs.h"
 
 namespace contort {
@@ -148,6 +149,18 @@ TEST_F(Runs, ThatAreStoppedAndResumedAgainAndAgainLeaveTheSameBytes) {
   int stops = 0;
   while (run_until(100 + 60 * stops, config, broken).interrupted) ASSERT_LT(++stops, 200);
   EXPECT_GT(stops, 2);
+  EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
+}
+
+// A worker that was killed between writing and renaming: its file stayed for good, and the folder with it.
+TEST_F(Runs, RemoveWhatWasLeftHalfWritten) {
+  const Corpus whole = create(folder_ / "whole"), broken = create(folder_ / "broken");
+  const RunConfig config = config_of(200, 2);
+  run(config, whole);
+  const std::string leads = broken.folder() + "/leads/" + run_name(config);
+  ASSERT_TRUE(make_folder(leads));
+  spill(leads + "/0195173a7857-0000000000000014.json.27217.part", "{");
+  run(config, broken);
   EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
 }
 
