@@ -63,17 +63,6 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
-std::vector<std::string> action_names(const Spec& spec) {
-  std::vector<std::string> names;
-  const auto add = [&](const SequenceDesc& sequence) {
-    for (const ClipDesc& clip : sequence.clips)
-      for (const ActionUse& use : clip.actions) names.push_back(use.action);
-  };
-  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
-  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
-  return names;
-}
-
 // `settings`: the text of --settings.
 ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
                  const std::string& settings, const Context& context) {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <set>
-#include <vector>
 
 #include "renders/wording.h"
 
@@ -18,13 +17,8 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 }
 
 std::string actions_of(const Spec& spec) {
-  std::set<std::string> actions;
-  const auto add = [&](const SequenceDesc& sequence) {
-    for (const ClipDesc& clip : sequence.clips)
-      for (const ActionUse& use : clip.actions) actions.insert(use.action);
-  };
-  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
-  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
+  const std::vector<std::string> names = action_names(spec);
+  const std::set<std::string> actions(names.begin(), names.end());
   if (!spec.recording.name.empty()) return "the recording " + one_line(spec.recording.name);
   return actions.empty() ? "no action" : joined({actions.begin(), actions.end()}, " + ");
 }
@@ -67,6 +61,17 @@ std::string rate_text(double rate_hz) {
 }
 
 }  // namespace
+
+std::vector<std::string> action_names(const Spec& spec) {
+  std::vector<std::string> names;
+  const auto add = [&](const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions) names.push_back(use.action);
+  };
+  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
+  return names;
+}
 
 std::string needs_of(const Spec& spec) {
   std::vector<std::string> needs = {actions_of(spec)};

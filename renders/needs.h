@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "generator/spec.h"
 
@@ -10,5 +11,8 @@ namespace contort {
 // "crouch + pose, 2 clips, an interrupt, mech_leg_reverse as leg_left, rifle, mode dynamic, a blow, steps". What every spec has,
 // or has one of, goes without saying.
 std::string needs_of(const Spec& spec);
+
+// Of all that may be played, interrupts last; each as often as it is used.
+std::vector<std::string> action_names(const Spec& spec);
 
 }  // namespace contort
