@@ -10,6 +10,7 @@
 #include <set>
 
 #include "corpus/runs.h"
+#include "fuzz/departures.h"
 #include "fuzz/parallel.h"
 #include "fuzz/run_state.h"
 #include "generator/core/files.h"
@@ -150,6 +151,23 @@ TEST_F(Runs, ThatAreStoppedAndResumedAgainAndAgainLeaveTheSameBytes) {
   while (run_until(100 + 60 * stops, config, broken).interrupted) ASSERT_LT(++stops, 200);
   EXPECT_GT(stops, 2);
   EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
+}
+
+TEST_F(Runs, ShrinkWithinTheirProfile) {
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig config = config_of(200, 2);
+  config.draw.profile.name = "long", config.draw.profile.shortest_frames = 60;
+  config.shrink.max_evaluations = 60;
+  run(config, corpus);
+  std::vector<Issue> damaged;
+  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  EXPECT_FALSE(buckets.empty());
+  for (const Bucket& bucket : buckets)
+    for (const std::string& file : {bucket.min, bucket.worst}) {
+      const Case stored = read_case(corpus.folder_of(bucket) + "/" + file).value();
+      EXPECT_EQ(departures(stored.spec, config.draw.profile, library()), 0) << pretty_spec(stored.spec);
+      EXPECT_EQ(stored.provenance.profile, "long");
+    }
 }
 
 // A worker that was killed between writing and renaming: its file stayed for good, and the folder with it.
