@@ -113,6 +113,12 @@ test('a push falls into the next report', need, async (t) => {
   assert.ok(JSON.stringify(aimed.spec).includes('"aim"'));
 
   await page.getByLabel('A drag of 1 m is, N s').fill('4000');
+  // The camera follows a mean of frames before and after: it moves when the aim's have come.
+  await page.waitForFunction(() => {
+    const { session, tracks } = window.contortPlay;
+    return [...tracks.of.values()].every(({ revision }) => revision >= session.state.revision);
+  });
+  await settle(page);
   const torso = await placeOn(page, 'torso/');
   await page.mouse.move(torso.x, torso.y);
   await page.mouse.down();
