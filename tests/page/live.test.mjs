@@ -80,8 +80,11 @@ test('acknowledge, quarantine and note send what was written', need, async () =>
 test('replay and shrink show how far they are, errors their sentence', need, async () => {
   const { page, close } = await openLive();
   const row = bucket(page);
+  mock.held = true;
   await row.getByRole('button', { name: 'Shrink' }).click();
   await row.getByText('Shrink: running').waitFor();
+  mock.held();
+  mock.held = null;
   await row.getByText('Shrink: done').waitFor();
   mock.faults.push({ path: '/replay', status: 409, text: `It runs already ${kHostile}.`, times: 1 });
   await row.getByRole('button', { name: 'Replay', exact: true }).click();

@@ -35,6 +35,7 @@ export class MockServer {
     this.faults = [];  // {path, status, code, text, times, retry_after}
     this.corpus = new Map();
     this.jobs = new Map();
+    this.held = null;  // true: the next job runs until what is put here then is called
     this.listeners = new Set();
     this.next = 1;
     this.reports = 0;
@@ -166,12 +167,15 @@ export class MockServer {
     return this.corpus.get(id);
   }
 
+  // Runs for a while, or until `held` is called where there is one.
   job(kind, work) {
     const id = `j${this.next++}`;
     const job = { job: id, kind, state: 'queued', seconds: 0, text: '', result: null };
     this.jobs.set(id, job);
     setTimeout(() => Object.assign(job, { state: 'running', text: 'half done', seconds: 0.3 }), 300);
-    setTimeout(() => { Object.assign(job, { state: 'done', text: `${kind} is done`, seconds: 0.9, result: work() }); this.tell('job', job); }, 900);
+    const finish = () => { Object.assign(job, { state: 'done', text: `${kind} is done`, seconds: 0.9, result: work() }); this.tell('job', job); };
+    if (this.held) this.held = finish;
+    else setTimeout(finish, 900);
     return { job: id };
   }
 

@@ -40,6 +40,7 @@ const sessionOf = () => [...mock.sessions.values()].at(-1);
 const pause = async (page) => {
   await page.locator('.controls .play', { hasText: 'Pause' }).click();
   await page.waitForSelector('.controls .play:has-text("Play")');
+  await settle(page);
 };
 
 // Until the page shows what the last command made: frames after the clock's, too, as the camera follows a mean of both.
@@ -74,13 +75,13 @@ test('a session opens and its frames are shown as they come', need, async () => 
   await pause(page);
   const shown = Number(/frame (\d+)/.exec(await page.locator('.frame-text').textContent())[1]);
   assert.ok(Math.abs(shown - session.frame()) <= 12, `${shown} is about ${session.frame()}`);
-  const off = await page.evaluate((frame) => {
-    const { stage, tracks } = window.contortPlay;
+  const off = await page.evaluate(() => {
+    const { stage, tracks, frame } = window.contortPlay;
     const [pane] = stage.panes;
     const sent = tracks.pose(pane.mode, frame);
     return pane.order.reduce((most, joint, i) => Math.max(most,
       Math.abs(joint.position.x - sent[7 * i]), Math.abs(joint.quaternion.x - sent[7 * i + 3])), 0);
-  }, shown);
+  });
   assert.ok(off < 1e-6, 'the joints are where the server said');
   assert.deepEqual(wrong, []);
   await close();
