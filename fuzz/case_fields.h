@@ -59,6 +59,12 @@ void fields(V& v, const PoolEntry*) {
 }
 
 template <class V>
+void fields(V& v, const TargetPool*) {
+  v.field("nearest", &TargetPool::nearest, {.max_count = 100}, "Cases that came nearest, in that order.");
+  v.field("farthest", &TargetPool::farthest, {.low = 0}, "Greatest margin that was seen.");
+}
+
+template <class V>
 void fields(V& v, const Island*) {
   v.field("pools", &Island::pools, {.max_count = 100000, .key_text = json_fields::Text::prose}, "By family.");
   v.field("retired", &Island::retired, case_rules::kFamilies, "Families that are broken.");
@@ -66,7 +72,7 @@ void fields(V& v, const Island*) {
 
 template <class V>
 void fields(V& v, const RunState*) {
-  v.constant("format", "contort.state/1");
+  v.constant("format", "contort.state/2");
   v.field("plan", &RunState::plan, case_rules::kProse, "What the run was asked for.");
   v.field("next", &RunState::next, run_rules::kTotal, "First case of the next round.");
   v.field("record", &RunState::record, {.required = true}, "What was done so far.");

@@ -46,12 +46,12 @@ const Finding* deepest_of(const std::string& character, const std::vector<Findin
 
 }  // namespace
 
-const std::vector<std::int8_t>& TargetIslands::of(const CheckDef& check, const Character& character,
-                                                  std::size_t subjects) {
-  std::vector<std::int8_t>& islands = known_[{check.name, character.name(), character.hash()}];
-  for (std::size_t s = islands.size(); s < subjects; ++s)
-    islands.push_back(static_cast<std::int8_t>(island_of_target(target_of(check, character, s))));
-  return islands;
+const std::vector<std::int8_t>& TargetGroups::of(const CheckDef& check, const Character& character,
+                                                 std::size_t subjects) {
+  std::vector<std::int8_t>& groups = known_[{check.name, character.name(), character.hash()}];
+  for (std::size_t s = groups.size(); s < subjects; ++s)
+    groups.push_back(static_cast<std::int8_t>(group_of_target(target_of(check, character, s))));
+  return groups;
 }
 
 CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus)
@@ -65,7 +65,7 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
 Spec CaseWork::spec_of(const CaseTask& task) const {
   const std::int64_t index = task.lineage.back();
   if (is_seed(config_, index)) return config_.seeds[static_cast<std::size_t>(index)];
-  return compose(raw_of(odds_of(config_.seed, config_.draw.profile), task.lineage), config_.draw, library_);
+  return compose(raw_of(config_.draw, library_, config_.seed, task.lineage), config_.draw, library_);
 }
 
 CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
@@ -82,18 +82,18 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
   const std::int64_t index = task.lineage.back();
-  if (!is_seed(config_, index)) report.near = near_misses(*stage->character, island_of(index));
+  if (!is_seed(config_, index)) report.near = near_misses(*stage->character, group_of(index));
   return report;
 }
 
-// Of the subjects that fall to `island`, those that came within reach of their limit and did not break it.
-std::vector<NearMiss> CaseWork::near_misses(const Character& character, int island) {
+// Of the subjects of `group`, those that came within reach of their limit and did not break it.
+std::vector<NearMiss> CaseWork::near_misses(const Character& character, int group) {
   std::vector<NearMiss> near;
   for (const SmallestMargins& margins : evaluator_.smallest_margins()) {
-    const std::vector<std::int8_t>& islands = islands_.of(*margins.check, character, margins.of_subject.size());
+    const std::vector<std::int8_t>& groups = groups_.of(*margins.check, character, margins.of_subject.size());
     for (std::size_t s = 0; s < margins.of_subject.size(); ++s) {
       const double margin = margins.of_subject[s] / margins.check->scale;
-      if (islands[s] == island && margin >= 0.0 && margin <= kWithinReach)
+      if (groups[s] == group && margin >= 0.0 && margin <= kWithinReach)
         near.push_back({target_of(*margins.check, character, s), margin});
     }
   }

@@ -33,7 +33,7 @@ struct CaseReport {
   std::string motion_hash;
   std::vector<std::string> tested;  // labels of what the case was made of
   std::vector<std::string> broken;  // families, in order of their first frame
-  std::vector<NearMiss> near;       // of the island's subjects
+  std::vector<NearMiss> near;       // of the subjects of the island's group
   std::vector<WaiverUse> waivers;
   bool confirmed = false;  // of a settled failure: the second time was bit for bit the first
   std::vector<std::string> met;       // families of other leads that its shrinking left
@@ -45,9 +45,9 @@ std::string print_task(const CaseTask& task);
 CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
 
-// Which island each subject falls to. Remembered, by all that names it: naming and hashing them for each case was 1 %
-// of a run.
-class TargetIslands {
+// Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each case
+// was 1 % of a run.
+class TargetGroups {
  public:
   const std::vector<std::int8_t>& of(const CheckDef& check, const Character& character, std::size_t subjects);
 
@@ -63,7 +63,7 @@ class CaseWork {
 
  private:
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
-  std::vector<NearMiss> near_misses(const Character& character, int island);
+  std::vector<NearMiss> near_misses(const Character& character, int group);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   Spec spec_of(const CaseTask& task) const;
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
@@ -76,7 +76,7 @@ class CaseWork {
   const Library& library_;
   const Corpus& corpus_;
   Evaluator evaluator_;
-  TargetIslands islands_;
+  TargetGroups groups_;
 };
 
 }  // namespace contort

@@ -1,51 +1,79 @@
 #include "fuzz/islands.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "fuzz/dice.h"
 #include "generator/core/hash.h"
 
 namespace contort {
 
 namespace {
 
-constexpr std::size_t kPool = 3;         // cases of one subject
+constexpr std::size_t kPool = 3;          // cases of one subject
 constexpr std::size_t kLongestLine = 24;  // ancestors: making a case again takes as many mutations
+constexpr int kTournament = 4;            // subjects, of which the most promising one is chosen
 constexpr std::uint64_t kParentStream = 0x706172656e74ULL;
+
+bool insert_sorted(std::vector<std::string>& list, const std::string& text) {
+  const auto at = std::ranges::lower_bound(list, text);
+  if (at != list.end() && *at == text) return false;
+  list.insert(at, text);
+  return true;
+}
+
+void keep_nearest(std::vector<PoolEntry>& nearest, const PoolEntry& entry) {
+  const auto at = std::ranges::lower_bound(nearest, entry.margin, {}, &PoolEntry::margin);
+  if (at != nearest.end() && at->margin == entry.margin) return;
+  nearest.insert(at, entry);
+  if (nearest.size() > kPool) nearest.pop_back();
+}
 
 }  // namespace
 
-int island_of_target(const std::string& family) {
+int group_of_target(const std::string& family) {
   Hash64 hash;
   hash.add(std::string_view(family));
-  return static_cast<int>((hash.value() >> 16) % kIslands);
+  return static_cast<int>((hash.value() >> 16) % kTargetGroups);
+}
+
+double TargetPool::remoteness() const {
+  if (nearest.empty() || farthest <= nearest.front().margin) return std::numeric_limits<double>::infinity();
+  return nearest.front().margin / (farthest - nearest.front().margin);
+}
+
+// The best of a few that are thrown evenly: all get their turn, the promising ones more often.
+const TargetPool* Island::promising(Dice& dice) const {
+  std::vector<const TargetPool*> open;
+  for (const auto& [family, pool] : pools)
+    if (std::isfinite(pool.remoteness())) open.push_back(&pool);
+  if (open.empty()) return nullptr;
+  const TargetPool* best = open[static_cast<std::size_t>(dice.below(static_cast<int>(open.size())))];
+  for (int i = 1; i < kTournament; ++i) {
+    const TargetPool* other = open[static_cast<std::size_t>(dice.below(static_cast<int>(open.size())))];
+    if (other->remoteness() < best->remoteness()) best = other;
+  }
+  return best;
 }
 
 Lineage Island::lineage_of(const Odds& odds, std::int64_t index) const {
-  if (pools.empty() || !wants_guidance(odds, index)) return {index};
+  if (!wants_guidance(odds, index)) return {index};
   Dice dice(odds.seed, index, kParentStream);
-  const std::vector<PoolEntry>& pool = std::next(pools.begin(), dice.below(static_cast<int>(pools.size())))->second;
-  Lineage lineage = pool[static_cast<std::size_t>(dice.below(static_cast<int>(pool.size())))].lineage;
+  const TargetPool* pool = promising(dice);
+  if (pool == nullptr) return {index};
+  Lineage lineage = pool->nearest[static_cast<std::size_t>(dice.below(static_cast<int>(pool->nearest.size())))].lineage;
   lineage.push_back(index);
   return lineage;
 }
 
 void Island::learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<std::string>& broken) {
-  for (const std::string& family : broken) {
-    if (island_of_target(family) != island_of(lineage.back())) continue;
-    if (const auto at = std::ranges::lower_bound(retired, family); at == retired.end() || *at != family) {
-      retired.insert(at, family);
-      pools.erase(family);
-    }
-  }
-  if (lineage.size() >= kLongestLine) return;
+  for (const std::string& family : broken)
+    if (group_of_target(family) == group_of(lineage.back()) && insert_sorted(retired, family)) pools.erase(family);
   for (const NearMiss& miss : near) {
     if (std::ranges::binary_search(retired, miss.family)) continue;
-    std::vector<PoolEntry>& pool = pools[miss.family];
-    const auto at = std::ranges::upper_bound(pool, miss.margin, {}, &PoolEntry::margin);
-    if (at == pool.end() && pool.size() >= kPool) continue;
-    pool.insert(at, {miss.margin, lineage});
-    if (pool.size() > kPool) pool.pop_back();
+    TargetPool& pool = pools[miss.family];
+    pool.farthest = std::max(pool.farthest, miss.margin);
+    if (lineage.size() < kLongestLine) keep_nearest(pool.nearest, {miss.margin, lineage});
   }
 }
 

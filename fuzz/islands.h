@@ -1,9 +1,10 @@
 // The search's memory. The cases of a run are spread over 64 islands that never hear of each other, so a run gives the
-// same cases for any number of threads and machines. An island is guided by the subjects that its number falls to: it
-// keeps the cases that came nearest to each one's limit, and mutates them until the limit is broken.
+// same cases for any number of threads and machines. Every subject of a check falls to one of eight groups, and each
+// island is guided by the subjects of one: it keeps the cases that came nearest to each one's limit, and mutates them
+// until the limit is broken.
 //
-// Margins are compared in their check's scale and pools are chosen evenly: one sum over all checks would let the unit of
-// one mask the others (Zhang, Hasuo and Arcaini, CAV 2019).
+// Margins are compared in their check's scale, and one subject is chosen at a time: one sum over all checks would let
+// the unit of one mask the others (Zhang, Hasuo and Arcaini, CAV 2019).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/dice.h"
 #include "fuzz/lineage.h"
 
 namespace contort {
@@ -19,10 +21,13 @@ inline constexpr int kIslands = 64;
 inline constexpr int kGeneration = 4;                  // cases of one island between two looks at its pools
 inline constexpr int kRound = kIslands * kGeneration;  // cases of a run between two looks
 
+inline constexpr int kTargetGroups = 8;
+
 inline int island_of(std::int64_t index) { return static_cast<int>(index / kGeneration % kIslands); }
+inline int group_of(std::int64_t index) { return island_of(index) % kTargetGroups; }
 
 // Subjects are families: "joint_range|human|arm_left/elbow max".
-int island_of_target(const std::string& family);
+int group_of_target(const std::string& family);
 
 // How near a case came.
 struct NearMiss {
@@ -37,9 +42,19 @@ struct PoolEntry {
   bool operator==(const PoolEntry&) const = default;
 };
 
+// What an island knows of one subject.
+struct TargetPool {
+  std::vector<PoolEntry> nearest;  // nearest first, no two as near: what a mutation leaves as it was is no news
+  double farthest = 0.0;           // margin seen
+  bool operator==(const TargetPool&) const = default;
+
+  // How far the limit is, in what the margin was seen to vary by; infinite where nothing moves it. Small is promising.
+  double remoteness() const;
+};
+
 class Island {
  public:
-  // The ancestry of case `index`: a mutation of one of the pool where there is any and the case wants it.
+  // The ancestry of case `index`: a mutation of one of a promising pool, where there is any and the case wants it.
   Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
   // What a case showed, in the order of cases.
@@ -48,8 +63,11 @@ class Island {
   bool operator==(const Island&) const = default;
 
   // Open for whoever stores them.
-  std::map<std::string, std::vector<PoolEntry>> pools;  // by family; nearest first
-  std::vector<std::string> retired;                     // broken, sorted: nothing is left to be found near them
+  std::map<std::string, TargetPool> pools;  // by family
+  std::vector<std::string> retired;         // broken, sorted: nothing is left to be found near them
+
+ private:
+  const TargetPool* promising(Dice& dice) const;
 };
 
 }  // namespace contort

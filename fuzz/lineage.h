@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/draw.h"
 #include "fuzz/profile.h"
 #include "fuzz/raw.h"
 
@@ -27,13 +28,15 @@ struct Odds {
 };
 inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, profile.guided, profile.uniform}; }
 
-// How case `index` is made. Where there is nothing to be guided by yet, `unguided` is the arm instead.
+// How case `index` is made. Guidance comes into its share little by little: what few cases have come near to is no
+// nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);
 Arm unguided(const Odds& odds, std::int64_t index);
 inline Arm arm_of(const Odds& odds, const Lineage& lineage) {
   return lineage.size() > 1 ? Arm::guided : unguided(odds, lineage.front());
 }
 
-RawSpec raw_of(const Odds& odds, const Lineage& lineage);
+// A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in it.
+RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage);
 
 }  // namespace contort

@@ -18,9 +18,11 @@ int& one_number(List& numbers, Dice& dice) {
   return numbers[static_cast<std::size_t>(dice.below(static_cast<int>(numbers.size())))];
 }
 
+// Of a sequence, or now and then of one that interrupts.
 RawClip* one_clip(RawSpec& raw, Dice& dice) {
-  if (raw.sequences.empty()) return nullptr;
-  std::vector<RawClip>& clips = one_of(raw.sequences, dice);
+  const bool interrupts = !raw.interrupts.empty() && dice.one_in(5);
+  if (!interrupts && raw.sequences.empty()) return nullptr;
+  std::vector<RawClip>& clips = interrupts ? one_of(raw.interrupts, dice).clips : one_of(raw.sequences, dice);
   return clips.empty() ? nullptr : &one_of(clips, dice);
 }
 
@@ -41,6 +43,13 @@ int& number_of_action(RawAction& action, Dice& dice) {
   return dice.one_in(2) ? *own[dice.below(7)] : one_value(action, dice);
 }
 
+// When it comes matters most.
+int& number_of_interrupt(RawInterrupt& interrupt, Dice& dice) {
+  int* const own[] = {&interrupt.what,  &interrupt.what,  &interrupt.event,
+                      &interrupt.enter, &interrupt.after, &interrupt.resume};
+  return *own[dice.below(6)];
+}
+
 int& number_of_scene(RawSpec& raw, Dice& dice) {
   switch (dice.below(7)) {
     case 0: return raw.hold;
@@ -58,9 +67,11 @@ int& number_of_clip(RawClip& clip, Dice& dice) {
   return *own[dice.below(3)];
 }
 
-// Mostly of an action: that is where the motion is.
+// Mostly of an action: that is where the motion is. A scene without blows or interrupts has numbers of them, too; changes
+// to those are thrown again (lineage.h).
 int& one_number_of(RawSpec& raw, Dice& dice) {
-  if (dice.one_in(6)) return number_of_scene(raw, dice);
+  if (dice.one_in(5)) return number_of_scene(raw, dice);
+  if (!raw.interrupts.empty() && dice.one_in(5)) return number_of_interrupt(one_of(raw.interrupts, dice), dice);
   if (RawClip* clip = dice.one_in(6) ? one_clip(raw, dice) : nullptr) return number_of_clip(*clip, dice);
   if (RawAction* action = one_action(raw, dice)) return number_of_action(*action, dice);
   return number_of_scene(raw, dice);

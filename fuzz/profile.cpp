@@ -54,7 +54,8 @@ void fields(V& v, const Profile*) {
   v.field("range", &Profile::range, {.low = 0.01, .high = 1},
           "Poses are drawn from this middle share of every joint's range.");
   v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
-  v.field("guided", &Profile::guided, kOdds, "Share of the cases that are mutations of one that came near a limit.");
+  v.field("guided", &Profile::guided, kOdds,
+          "Share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
   v.field("uniform", &Profile::uniform, kOdds,
           "Share of the others that are drawn evenly; the rest has corner values, features left out, both or neither.");
   v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53},
