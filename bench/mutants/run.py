@@ -206,29 +206,36 @@ class Race:
         yield self.args.cases
 
     def first_detection(self, name, mode, seed, cases):
+        """The first case that is news; and the first of a family, the same or an earlier one, that differs at all."""
+        differs = {}
         with tempfile.TemporaryDirectory(dir=self.out) as corpus:
             record = self.fuzz(name, mode, seed, cases, corpus, (1, 0))
-            found = sorted((count["first_indices"][0], family) for family, count in record.get("families", {}).items()
-                           if family not in self.baseline)
-            for index, family in found:
+            seen = sorted((count["first_indices"][0], family) for family, count in record.get("families", {}).items())
+            for index, family in seen:
+                if differs and family in self.baseline:
+                    continue
                 spec = self.stored_case(corpus, family)
-                if spec is not None and not self.is_on_clean(spec, family):
-                    return {"found": index + 1, "family": family, "arm": record["families"][family].get("first_arm")}
-        return None
+                if spec is None or self.is_on_clean(spec, family):
+                    continue
+                differs = differs or {"differs": index + 1}
+                if family not in self.baseline:
+                    return {"found": index + 1, "family": family,
+                            "arm": record["families"][family].get("first_arm"), **differs}
+        return differs
 
     def race(self, mutant, mode, seed):
         path = self.path(mutant.name, mode, seed)
         if self.known(path, mutant.id):
             return
         started = time.monotonic()
-        detection = None
+        detection = {}
         for cases in self.chunks():
             detection = self.first_detection(mutant.name, mode, seed, cases)
-            if detection:
+            if "found" in detection:
                 break
-        write_json(path, self.result(mutant.id, **(detection or {}), seconds=round(time.monotonic() - started, 1)))
-        what = f"case {detection['found']}, {detection['family']}" if detection else "not found"
-        say(f"{mutant.name} {mode} seed {seed}: {what}")
+        write_json(path, self.result(mutant.id, **detection, seconds=round(time.monotonic() - started, 1)))
+        what = f"case {detection['found']}, {detection['family']}" if "found" in detection else "not found"
+        say(f"{mutant.name} {mode} seed {seed}: {what}; differs in case {detection.get('differs', 'none')}")
 
     # ---- buckets
 
@@ -259,14 +266,14 @@ class Race:
 
     # ---- what was measured
 
-    def counts(self, mutant, mode):
+    def counts(self, mutant, mode, what="found"):
         """Cases to detection of each seed that was run; none where it was not found."""
         counts = []
         for seed in self.seeds:
             result = self.known(self.path(mutant.name, mode, seed), mutant.id)
             if result:
-                found = result.get("found")
-                counts.append(found if found and found <= self.args.cases else None)
+                first = result.get(what)
+                counts.append(first if first and first <= self.args.cases else None)
         return counts
 
     def seen_by(self, mutant):
@@ -348,13 +355,15 @@ class Bench:
         return f"> {self.args.cases}" if middle == math.inf else f"{middle:g}"
 
     def table(self):
-        lines = ["| mutant | found (mixture) | median cases, mixture | median cases, uniform | seen first by | buckets |",
-                 "|---|---|---|---|---|---|"]
+        lines = ["| mutant | found (mixture) | median cases, mixture | median cases, uniform | seen first by | differs, mixture | "
+                 "differs, uniform | buckets |", "|---|---|---|---|---|---|---|---|"]
         for mutant in self.mutants:
             mixture, uniform = mutant.race.counts(mutant, "mixture"), mutant.race.counts(mutant, "uniform")
             own = mutant.race.own_buckets(mutant.name)
             lines.append(f"| {mutant.name} | {sum(c is not None for c in mixture)} of {len(mixture)} | "
                          f"{self.median(mixture)} | {self.median(uniform)} | {mutant.race.seen_by(mutant)} | "
+                         f"{self.median(mutant.race.counts(mutant, 'mixture', 'differs'))} | "
+                         f"{self.median(mutant.race.counts(mutant, 'uniform', 'differs'))} | "
                          f"{'' if own is None else len(own)} |")
         return lines + [""] + self.summary()
 
@@ -368,14 +377,15 @@ class Bench:
         lines = [f"* Found in at least 90 % of the seeds: {len(often)} of {len(faults)}.",
                  f"* Geometric mean of uniform / mixture, cases to detection with {self.args.cases} for a miss: "
                  f"{self.speed_up(faults)}.",
+                 f"* The same of the first case that differs from the clean generator's: {self.speed_up(faults, 'differs')}.",
                  f"* Equivalent mutants reported: {len(wrong)} of {len(self.mutants) - len(faults)}"
                  f"{' (' + ', '.join(wrong) + ')' if wrong else ''}."]
         return lines + self.bucket_summary(faults)
 
-    def speed_up(self, faults):
+    def speed_up(self, faults, what="found"):
         ratios = []
         for mutant in faults:
-            mixture, uniform = mutant.race.counts(mutant, "mixture"), mutant.race.counts(mutant, "uniform")
+            mixture, uniform = (mutant.race.counts(mutant, mode, what) for mode in ("mixture", "uniform"))
             if not mixture or not uniform or not any(mixture + uniform):
                 continue
             mean = [statistics.fmean([c or self.args.cases for c in counts]) for counts in (mixture, uniform)]
