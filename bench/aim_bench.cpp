@@ -67,7 +67,7 @@ bool violates_range(const Character& character, const std::vector<double>& row) 
   motion.coords = row;
   const auto check = std::ranges::find(all_checks(), "joint_range", &CheckDef::name);
   MarginFold fold(check->subject_count(character), 0, check->resolution);
-  check->measure({character, motion, {}, {}}, fold);
+  check->measure({character, motion, {}, {}, {}}, fold);
   return !fold.episodes().empty();
 }
 

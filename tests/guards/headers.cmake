@@ -21,3 +21,19 @@ target_compile_definitions(contort_headers PRIVATE
 add_test(NAME Guards.HeadersCompileAlone
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_headers)
 set_tests_properties(Guards.HeadersCompileAlone PROPERTIES TIMEOUT 600 RUN_SERIAL ON)
+
+# Benches compile: nobody runs them every day, and what they measure changes under them.
+file(GLOB BENCHES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/bench/*.cpp)
+find_path(MUJOCO_INCLUDE mujoco/mujoco.h)
+if(NOT MUJOCO_INCLUDE)
+  list(FILTER BENCHES EXCLUDE REGEX dynamics_bench)
+endif()
+add_library(contort_bench_objects OBJECT EXCLUDE_FROM_ALL ${BENCHES})
+target_include_directories(contort_bench_objects PRIVATE ${CMAKE_SOURCE_DIR})
+target_compile_options(contort_bench_objects PRIVATE -Wall -Wextra -Wshadow -Wconversion -Werror -Wno-unused-function -O0 -g0)
+target_compile_definitions(contort_bench_objects PRIVATE
+  CONTORT_ASSERTS CONTORT_HAS_MUJOCO CONTORT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CONTORT_BINARY_DIR="${CMAKE_BINARY_DIR}")
+
+add_test(NAME Guards.BenchesCompile
+  COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_bench_objects)
+set_tests_properties(Guards.BenchesCompile PROPERTIES TIMEOUT 600 RUN_SERIAL ON)
