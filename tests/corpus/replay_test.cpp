@@ -158,9 +158,9 @@ Case ended_case(Ending::Kind kind, const std::string& signal = "") {
   return ending_case(bent_elbow(100), {kind, signal, ""});
 }
 
-Verdict verdict_of_ending(const Case& stored, const std::function<Replay()>& work) {
+Verdict verdict_of_ending(const Case& stored, const std::function<Replay()>& work, int seconds = 20) {
   Isolation isolation;
-  isolation.seconds = 1;
+  isolation.seconds = seconds;
   isolation.silent = true;
   return replay_ending(stored, work, isolation).verdict;
 }
@@ -173,7 +173,7 @@ TEST(ReplayOfAnEnding, TheSameEndIsTheSameAndAnotherOneIsDifferent) {
   EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::crash, "SIGABRT"), abort), Verdict::same);
   EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::crash, "SIGSEGV"), abort), Verdict::different);
   EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::timeout), abort), Verdict::different);
-  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::timeout), hang), Verdict::same);
+  EXPECT_EQ(verdict_of_ending(ended_case(Ending::Kind::timeout), hang, 1), Verdict::same);
 }
 
 TEST(ReplayOfAnEnding, WhatFinishesNowIsReplayedAsUsual) {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -158,7 +158,7 @@ std::map<std::string, std::string> stored_verdicts() {
 
 TEST(SharedAssets, EveryFileGetsTheSameCleanAnswerQuickly) {
   SKIP_WITHOUT_ASSETS();
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const std::map<std::string, std::string> stored = stored_verdicts();
   for (const std::string& path : all_gltf_files()) {
     const std::string name = path.substr(kAssets.size() + 6);
@@ -168,8 +168,8 @@ TEST(SharedAssets, EveryFileGetsTheSameCleanAnswerQuickly) {
     EXPECT_TRUE(expected != stored.end() && expected->second == verdict)
         << "new line: " << name << "\t" << verdict << (asset.ok() ? "" : "  " + to_line(asset.issue()));
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(seconds.count(), 30.0);  // 1 s alone on a machine; 5 s under ASan beside others
+  const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_LT(cpu_s, 30.0);  // measured: 1 s, 5 s under ASan
 }
 
 // Files that the Khronos validator finds no error in, and that we refuse all the same.

@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <set>
 
@@ -149,11 +149,11 @@ TEST(Variety, ThreeThousandTakeNoTime) {
     rows.back().subject = "human: arm_" + std::to_string(i % 70) + "/joint_" + std::to_string(i % 300) + " max";
     rows.back().actions = {"walk", "action_" + std::to_string(i % 11)};
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   order_rows(rows);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_EQ(rows.size(), 3000U);
-  EXPECT_LT(took.count(), 2.0);
+  EXPECT_LT(cpu_s, 2.0);
 }
 
 }  // namespace

@@ -268,7 +268,7 @@ Json broken() {
 std::string keep(const Server& server) {
   const std::string session = open(server, broken());
   Json findings;
-  for (int i = 0; i < 100 && findings.empty(); ++i) {
+  for (int i = 0; i < 1200 && findings.empty(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     findings = server.get(session)["findings"].value("kinematic", Json::array());
   }
@@ -281,7 +281,7 @@ std::string keep(const Server& server) {
 Json wait_for(const Server& server, const Answer& started) {
   EXPECT_EQ(started.status, 202) << started.body;
   Json job = Json::parse(started.body);
-  for (int i = 0; i < 600 && (job["state"] == "queued" || job["state"] == "running"); ++i) {
+  for (int i = 0; i < 3000 && (job["state"] == "queued" || job["state"] == "running"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     job = server.get("/api/jobs/" + job["job"].get<std::string>());
   }

@@ -221,7 +221,7 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   const std::string session = Json::parse(opened->body)["session"];
   const std::string sequence = R"({"clips":[{"actions":[{"action":"crouch","slot":"waist","duration_frames":20}]}]})";
   std::string subject, check;
-  for (int i = 0; i < 100 && check.empty(); ++i) {
+  for (int i = 0; i < 1200 && check.empty(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const Json findings = Json::parse(client.Get("/api/sessions/" + session)->body)["findings"].value("kinematic", Json::array());
     if (!findings.empty()) check = findings[0]["check"], subject = findings[0]["subject"];

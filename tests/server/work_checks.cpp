@@ -90,15 +90,24 @@ std::string misbehave(const std::string& task, WorkerSlot&) {
   return "did " + task;
 }
 
-TEST(Broker, ATaskThatEndsItsWorkerCostsNothingElse) {
+// Time enough for a sanitizer to print where a crash was, on a machine that has much else to do.
+TEST(Broker, ATaskThatCrashesItsWorkerCostsNothingElse) {
   BrokerLimits limits;
-  limits.each.seconds = 0.3;
+  limits.each.seconds = 60.0;
   Broker broker(limits, misbehave);
   EXPECT_EQ(*broker.run("this", Urgency::now).text, "did this");
   EXPECT_EQ(broker.run("crash", Urgency::now).text.issue().code, "work.crash");
+  EXPECT_EQ(*broker.run("that", Urgency::later).text, "did that");
+  EXPECT_EQ(broker.load().ended_badly, 1);
+}
+
+TEST(Broker, ATaskThatHangsCostsItsTimeAndNothingElse) {
+  BrokerLimits limits;
+  limits.each.seconds = 2.0;
+  Broker broker(limits, misbehave);
   EXPECT_EQ(broker.run("hang", Urgency::now).text.issue().code, "work.timeout");
   EXPECT_EQ(*broker.run("that", Urgency::later).text, "did that");
-  EXPECT_EQ(broker.load().ended_badly, 2);
+  EXPECT_EQ(broker.load().ended_badly, 1);
 }
 
 TEST(Broker, ManyThreadsGetTheirOwnReplies) {
@@ -119,7 +128,7 @@ TEST(Broker, ManyThreadsGetTheirOwnReplies) {
 
 TEST(Broker, SaysSoWhenTooMuchWaits) {
   BrokerLimits limits;
-  limits.workers = 1, limits.most_waiting = 1, limits.each.seconds = 1.0;
+  limits.workers = 1, limits.most_waiting = 1, limits.each.seconds = 3.0;
   Broker broker(limits, misbehave);
   std::vector<std::thread> threads;
   std::atomic<int> busy = 0;
