@@ -13,8 +13,8 @@ enum Stream : std::uint64_t { kChoice, kChange };
 
 constexpr int kThrows = 8;  // of one mutation
 
-// Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed a sixth
-// fewer families than even draws did (docs/fuzzing.md).
+// Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
+// families, and even draws 144 (docs/fuzzing.md).
 constexpr double kLearning = 4096.0;
 
 // `config` and `library` say what the numbers mean.
