@@ -1,14 +1,20 @@
 // Signed distances of 171 pairs of 19 capsules, every pose another one, beside FCL (double) and Bullet (float) where
-// these are installed. Slices of ours and the peer's alternate in one process; printed are medians.
+// these are installed: all pairs at once, with each kind of instructions that the machine has, and one pair at a time.
+// Slices of ours and the peer's alternate in one process; printed are medians.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <functional>
 #include <memory>
 #include <random>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "checks/distance.h"
+#include "checks/round_distances.h"
 
 #ifdef CONTORT_HAS_FCL
 #include <fcl/narrowphase/distance.h>
@@ -34,11 +40,14 @@ std::vector<Pose> random_poses() {
     return Vec3(x, y, z);
   };
   std::vector<Pose> poses(kPoses);
-  for (Pose& pose : poses)
-    for (int i = 0; i < kCapsules; ++i) {
-      const Vec3 center = in_cube(0.7), half = in_cube(0.15);
+  for (int i = 0; i < kCapsules; ++i) {
+    const Vec3 first = in_cube(0.15);
+    const double half_length_m = std::sqrt(glm::dot(first, first));
+    for (Pose& pose : poses) {
+      const Vec3 center = in_cube(0.7), half = half_length_m * unit_or(in_cube(1.0), Vec3(1, 0, 0));
       pose.push_back(solid_of(Capsule{center - half, center + half, 0.05}));
     }
+  }
   return poses;
 }
 
@@ -48,7 +57,45 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double least_of_ours(const Pose& pose) {
+// What varies from pose to pose, by capsule.
+struct Place {
+  Vec3 center_m, axis;
+};
+
+std::vector<Place> places_of(const Pose& pose) {
+  std::vector<Place> places;
+  for (const Solid& capsule : pose) places.push_back({capsule.center_m, capsule.axis});
+  return places;
+}
+
+// All pairs of the same capsules, place after place.
+class AllPairs {
+ public:
+  AllPairs(Pose capsules, const RoundKernel& kernel) : capsules_(std::move(capsules)), kernel_(kernel) {
+    for (int a = 0; a < kCapsules; ++a)
+      for (int b = a + 1; b < kCapsules; ++b) pairs_.push_back({a, b});
+    distances_m_.resize(pairs_.size());
+  }
+
+  double least_at(const std::vector<Place>& places) {
+    for (std::size_t i = 0; i < capsules_.size(); ++i)
+      capsules_[i].center_m = places[i].center_m, capsules_[i].axis = places[i].axis;
+    round_distances(capsules_, pairs_, distances_m_, kernel_);
+    double least = 1e9;
+    for (std::size_t first = 0, count = kCapsules - 1; count > 0;
+         first += count--)  // rows, which need not wait for one another
+      least = std::min(least, std::ranges::min(std::span(distances_m_).subspan(first, count)));
+    return least;
+  }
+
+ private:
+  Pose capsules_;
+  const RoundKernel& kernel_;
+  std::vector<ColliderPair> pairs_;
+  std::vector<double> distances_m_;
+};
+
+double least_of_pairs(const Pose& pose) {
   double least = 1e9;
   for (std::size_t i = 0; i < pose.size(); ++i)
     for (std::size_t k = i + 1; k < pose.size(); ++k) least = std::min(least, signed_distance(pose[i], pose[k], 1e9));
@@ -69,26 +116,24 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void compare(const char* peer_name, const Measure& ours, const Measure& peer) {
+void compare(const std::string& name, const char* peer_name, const Measure& ours, const Measure& peer) {
   std::vector<double> own_us, peer_us, ratios;
   double own_sum = 0.0, peer_sum = 0.0;
   for (int i = 0; i < 101; ++i) {
     own_us.push_back(slice(ours, own_sum)), peer_us.push_back(slice(peer, peer_sum));
     ratios.push_back(own_us.back() / peer_us.back());
   }
-  std::printf("%s: ours %.2f us, %s %.2f us, ratio %.3f; mean of least distances %.9f and %.9f m\n", peer_name,
+  std::printf("%s: %.2f us, %s %.2f us, ratio %.3f; mean of least distances %.9f and %.9f m\n", name.c_str(),
               median(own_us), peer_name, median(peer_us), median(ratios), own_sum / (101 * kPoses),
               peer_sum / (101 * kPoses));
 }
 
 Mat3 axes_of(const Solid& capsule) {
-  const Vec3 z = unit_or(capsule.half_segment_m, Vec3(0, 0, 1)), x = perpendicular(z);
+  const Vec3 z = capsule.axis, x = perpendicular(z);
   return Mat3(x, glm::cross(z, x), z);
 }
 
-double full_length(const Solid& capsule) {
-  return 2.0 * std::sqrt(glm::dot(capsule.half_segment_m, capsule.half_segment_m));
-}
+double full_length(const Solid& capsule) { return 2.0 * capsule.half_length_m; }
 
 #ifdef CONTORT_HAS_FCL
 struct FclPose {
@@ -191,18 +236,28 @@ double least_of_bullet(BulletDistance& distance, const BulletPose& pose) {
 int main() {
   using namespace contort;
   const std::vector<Pose> poses = random_poses();
-  const Measure ours = [&](int pose) { return least_of_ours(poses[static_cast<std::size_t>(pose)]); };
-  compare("ours again", ours, ours);
+  const Measure pairs = [&](int pose) { return least_of_pairs(poses[static_cast<std::size_t>(pose)]); };
+  std::vector<std::pair<std::string, Measure>> ours{{"one pair at a time", pairs}};
+  std::vector<std::vector<Place>> places;
+  for (const Pose& pose : poses) places.push_back(places_of(pose));
+  for (const RoundKernel& kernel : round_kernels()) {
+    AllPairs all(poses.front(), kernel);
+    ours.emplace_back(kernel.name,
+                      [&, all](int pose) mutable { return all.least_at(places[static_cast<std::size_t>(pose)]); });
+  }
+  compare("one pair at a time", "again", pairs, pairs);
 #ifdef CONTORT_HAS_FCL
   std::vector<FclPose> fcl_poses;
   for (const Pose& pose : poses) fcl_poses.push_back(to_fcl(pose));
-  compare("FCL", ours, [&](int pose) { return least_of_fcl(fcl_poses[static_cast<std::size_t>(pose)]); });
+  for (const auto& [name, own] : ours)
+    compare(name, "FCL", own, [&](int pose) { return least_of_fcl(fcl_poses[static_cast<std::size_t>(pose)]); });
 #endif
 #ifdef CONTORT_HAS_BULLET
   std::vector<BulletPose> bullet_poses;
   for (const Pose& pose : poses) bullet_poses.push_back(to_bullet(pose));
   BulletDistance distance;
-  compare("Bullet", ours,
-          [&](int pose) { return least_of_bullet(distance, bullet_poses[static_cast<std::size_t>(pose)]); });
+  for (const auto& [name, own] : ours)
+    compare(name, "Bullet", own,
+            [&](int pose) { return least_of_bullet(distance, bullet_poses[static_cast<std::size_t>(pose)]); });
 #endif
 }

@@ -20,17 +20,24 @@ double point_box_distance(const Vec3& p, const Vec3& half) { return length(glm::
 // segment or a box.
 struct Local {
   Vec3 half;
-  Vec3 center;    // of B
-  Vec3 reach[3];  // half axes of B: three for a box, one for a segment, none for a point
-  int reach_count;
+  Vec3 center;   // of B
+  Vec3 axis[3];  // of B, unit: three for a box, one for a segment, none for a point
+  Vec3 size;     // half of B along each
+  int axis_count;
+
+  Vec3 reach(int i) const { return size[i] * axis[i]; }
 };
 
 Local in_frame_of(const Solid& box, const Solid& other) {
   const Mat3 to_box = glm::transpose(box.axes);
-  Local local{box.half_m, to_box * (other.center_m - box.center_m), {}, 0};
-  if (other.core == Solid::Core::segment) local.reach[local.reach_count++] = to_box * other.half_segment_m;
+  Local local{box.half_m, to_box * (other.center_m - box.center_m), {}, Vec3(0.0), 0};
+  const auto add = [&](const Vec3& axis, double half) {
+    local.size[local.axis_count] = half;
+    local.axis[local.axis_count++] = to_box * axis;
+  };
+  if (other.core == Solid::Core::segment) add(other.axis, other.half_length_m);
   if (other.core == Solid::Core::box)
-    for (int i = 0; i < 3; ++i) local.reach[local.reach_count++] = to_box * (other.axes[i] * other.half_m[i]);
+    for (int i = 0; i < 3; ++i) add(other.axes[i], other.half_m[i]);
   return local;
 }
 
@@ -43,7 +50,7 @@ struct Separation {
 // Gap between the projections of A and B on the axis n (unit); negative where they overlap.
 double gap_along(const Local& l, const Vec3& n) {
   double gap = std::fabs(glm::dot(l.center, n)) - glm::dot(l.half, glm::abs(n));
-  for (int i = 0; i < l.reach_count; ++i) gap -= std::fabs(glm::dot(l.reach[i], n));
+  for (int i = 0; i < l.axis_count; ++i) gap -= l.size[i] * std::fabs(glm::dot(l.axis[i], n));
   return gap;
 }
 
@@ -53,24 +60,26 @@ double gap_along(const Local& l, const Vec3& n) {
 Separation separation(const Local& l, double enough) {
   Separation best;
   Vec3 faces = glm::abs(l.center) - l.half;
-  for (int i = 0; i < l.reach_count; ++i) faces -= glm::abs(l.reach[i]);
+  for (int i = 0; i < l.axis_count; ++i) faces -= l.size[i] * glm::abs(l.axis[i]);
   for (int i = 0; i < 3; ++i)
     if (faces[i] > best.gap) best = {faces[i], Vec3(i == 0, i == 1, i == 2)};
-  const auto try_axis = [&](const Vec3& v) {
-    const double size = length(v);
-    if (size < 1e-9) return;
-    const double gap = gap_along(l, v / size);
-    if (gap > best.gap) best = {gap, v / size};
+  const auto try_axis = [&](const Vec3& n) {
+    const double gap = gap_along(l, n);
+    if (gap > best.gap) best = {gap, n};
+  };
+  const auto try_edges = [&](const Vec3& across) {
+    const double size = length(across);
+    if (size > 1e-9) try_axis(across / size);
   };
   if (best.gap > enough) return best;
-  if (l.reach_count == 3)
-    for (int i = 0; i < 3; ++i) try_axis(l.reach[i]);  // a box's faces stand across its axes
+  if (l.axis_count == 3)
+    for (int i = 0; i < 3; ++i) try_axis(l.axis[i]);  // a box's faces stand across its axes
   if (best.gap > enough) return best;
-  for (int b = 0; b < l.reach_count; ++b) {
-    const Vec3 d = unit_or(l.reach[b], Vec3(0.0));
-    try_axis(Vec3(0.0, -d.z, d.y));
-    try_axis(Vec3(d.z, 0.0, -d.x));
-    try_axis(Vec3(-d.y, d.x, 0.0));
+  for (int b = 0; b < l.axis_count; ++b) {
+    const Vec3& d = l.axis[b];
+    try_edges(Vec3(0.0, -d.z, d.y));
+    try_edges(Vec3(d.z, 0.0, -d.x));
+    try_edges(Vec3(-d.y, d.x, 0.0));
   }
   return best;
 }
@@ -78,20 +87,18 @@ Separation separation(const Local& l, double enough) {
 // Corners of B against A; for a box also corners of A against B.
 double nearest_corners(const Local& l) {
   double best = std::numeric_limits<double>::infinity();
-  for (int corner = 0; corner < (1 << l.reach_count); ++corner) {
+  for (int corner = 0; corner < (1 << l.axis_count); ++corner) {
     Vec3 p = l.center;
-    for (int i = 0; i < l.reach_count; ++i) p += (corner >> i & 1 ? 1.0 : -1.0) * l.reach[i];
+    for (int i = 0; i < l.axis_count; ++i) p += (corner >> i & 1 ? 1.0 : -1.0) * l.reach(i);
     best = std::min(best, point_box_distance(p, l.half));
   }
-  if (l.reach_count < 3) return best;
-  Vec3 sizes;
-  for (int i = 0; i < 3; ++i) sizes[i] = length(l.reach[i]);
+  if (l.axis_count < 3) return best;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3 p = -l.center;
     for (int i = 0; i < 3; ++i) p[i] += corner >> i & 1 ? l.half[i] : -l.half[i];
     Vec3 in_b;
-    for (int i = 0; i < 3; ++i) in_b[i] = glm::dot(p, l.reach[i]) / sizes[i];
-    best = std::min(best, point_box_distance(in_b, sizes));
+    for (int i = 0; i < 3; ++i) in_b[i] = glm::dot(p, l.axis[i]);
+    best = std::min(best, point_box_distance(in_b, l.size));
   }
   return best;
 }
@@ -102,11 +109,12 @@ struct Edges {
   int count = 0;
 };
 
-// The edges of the box (half axes, centre) that come within `slack` of its farthest point along n. The nearest point of
-// two solids that are `gap` apart along n and at most gap + slack apart in all cannot be farther back than that.
-Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& n, double slack) {
+// The edges of the box (centre, unit axes, half sides) that come within `slack` of its farthest point along n. The
+// nearest point of two solids that are `gap` apart along n and at most gap + slack apart in all cannot be farther back
+// than that.
+Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& half, const Vec3& n, double slack) {
   double reach[3];
-  for (int i = 0; i < 3; ++i) reach[i] = glm::dot(axes[i], n);
+  for (int i = 0; i < 3; ++i) reach[i] = half[i] * glm::dot(axes[i], n);
   const double front = std::fabs(reach[0]) + std::fabs(reach[1]) + std::fabs(reach[2]);
   Edges out;
   for (int i = 0; i < 3; ++i) {
@@ -115,18 +123,18 @@ Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& n, doub
     for (const double u : {-1.0, 1.0})
       for (const double v : {-1.0, 1.0})
         if (u * reach[j] + v * reach[k] + std::fabs(reach[i]) >= front - slack)
-          out.edge[out.count++] = {center + u * axes[j] + v * axes[k], axes[i]};
+          out.edge[out.count++] = {center + u * half[j] * axes[j] + v * half[k] * axes[k], axes[i], half[i]};
   }
   return out;
 }
 
 double nearest_edges(const Local& l, const Separation& apart, double best) {
-  const Vec3 a_axes[3] = {Vec3(l.half.x, 0, 0), Vec3(0, l.half.y, 0), Vec3(0, 0, l.half.z)};
+  constexpr Vec3 kAxes[3] = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   const Vec3 towards_b = glm::dot(l.center, apart.axis) < 0.0 ? -apart.axis : apart.axis;
   const double slack = best - apart.gap + 1e-9;
-  const Edges of_a = edges_ahead(Vec3(0.0), a_axes, towards_b, slack);
-  const Edges of_b =
-      l.reach_count == 3 ? edges_ahead(l.center, l.reach, -towards_b, slack) : Edges{{{l.center, l.reach[0]}}, 1};
+  const Edges of_a = edges_ahead(Vec3(0.0), kAxes, l.half, towards_b, slack);
+  const Edges of_b = l.axis_count == 3 ? edges_ahead(l.center, l.axis, l.size, -towards_b, slack)
+                                       : Edges{{{l.center, l.axis[0], l.size[0]}}, 1};
   for (int a = 0; a < of_a.count; ++a)
     for (int b = 0; b < of_b.count; ++b) best = std::min(best, segment_distance(of_a.edge[a], of_b.edge[b]));
   return best;
@@ -135,7 +143,7 @@ double nearest_edges(const Local& l, const Separation& apart, double best) {
 // Two convex polytopes that are apart are nearest at a corner and a face, or at two edges.
 double box_distance(const Solid& box, const Solid& other, double band_m) {
   const Local l = in_frame_of(box, other);
-  if (l.reach_count == 0) {
+  if (l.axis_count == 0) {
     const Vec3 outside = glm::abs(l.center) - l.half;
     const double inside = std::max({outside.x, outside.y, outside.z});
     return inside > 0.0 ? point_box_distance(l.center, l.half) : inside;
@@ -154,16 +162,23 @@ Solid hull_solid(std::shared_ptr<const Polyhedron> hull) {
 
 struct MakeSolid {
   Solid operator()(const Sphere& s) const {
-    return {Solid::Core::point, s.center_m, Vec3(0.0), Mat3(1.0), Vec3(0.0), s.radius_m, s.radius_m, {}};
+    Solid solid{Solid::Core::point, s.center_m};
+    solid.radius_m = solid.bound_m = s.radius_m;
+    return solid;
   }
   Solid operator()(const Capsule& c) const {
-    const Vec3 half = 0.5 * (c.b_m - c.a_m);
-    return {Solid::Core::segment, 0.5 * (c.a_m + c.b_m),     half, Mat3(1.0), Vec3(0.0),
-            c.radius_m,           length(half) + c.radius_m, {}};
+    const Segment segment = segment_between(c.a_m, c.b_m);
+    Solid solid{Solid::Core::segment, segment.center, segment.axis, segment.half_length};
+    solid.radius_m = c.radius_m;
+    solid.bound_m = segment.half_length + c.radius_m;
+    return solid;
   }
   Solid operator()(const Box& b) const {
-    const Mat3 axes = glm::mat3_cast(from_rotation_vector(b.rotation_deg * kRadPerDeg));
-    return {Solid::Core::box, b.center_m, Vec3(0.0), axes, b.half_m, 0.0, length(b.half_m), {}};
+    Solid solid{Solid::Core::box, b.center_m};
+    solid.axes = glm::mat3_cast(from_rotation_vector(b.rotation_deg * kRadPerDeg));
+    solid.half_m = b.half_m;
+    solid.bound_m = length(b.half_m);
+    return solid;
   }
   Solid operator()(const ConvexHull& hull) const {
     return hull_solid(std::make_shared<Polyhedron>(convex_polyhedron(hull.points_m)));
@@ -180,15 +195,19 @@ Solid solid_of(const Collider& collider) {
 
 Solid moved(const Rigid& to_from_own, const Solid& solid) {
   Solid out = solid;
-  out.center_m = to_from_own * solid.center_m;
-  if (solid.core == Solid::Core::segment) out.half_segment_m = to_from_own.q * solid.half_segment_m;
-  if (solid.core == Solid::Core::box || solid.core == Solid::Core::hull)
-    out.axes = glm::mat3_cast(to_from_own.q) * solid.axes;
+  place(to_from_own, solid, out);
   return out;
 }
 
+void place(const Rigid& to_from_own, const Solid& solid, Solid& placed) {
+  placed.center_m = to_from_own * solid.center_m;
+  if (solid.core == Solid::Core::segment) placed.axis = to_from_own.q * solid.axis;
+  if (solid.core == Solid::Core::box || solid.core == Solid::Core::hull)
+    placed.axes = glm::mat3_cast(to_from_own.q) * solid.axes;
+}
+
 double extent_along(const Solid& solid, const Vec3& n) {
-  double extent = std::fabs(glm::dot(solid.half_segment_m, n));
+  double extent = solid.half_length_m * std::fabs(glm::dot(solid.axis, n));
   if (solid.core == Solid::Core::box) extent = glm::dot(glm::abs(glm::transpose(solid.axes) * n), solid.half_m);
   if (solid.core == Solid::Core::hull) {
     const Vec3 own = glm::transpose(solid.axes) * n;
@@ -223,7 +242,7 @@ double signed_distance(const Solid& a, const Solid& b, double band_m) {
   if (b.core == Solid::Core::hull) return hull_distance(b, a, band_m + radii) - radii;
   if (a.core == Solid::Core::box) return box_distance(a, b, band_m + radii) - radii;
   if (b.core == Solid::Core::box) return box_distance(b, a, band_m + radii) - radii;
-  return segment_distance({a.center_m, a.half_segment_m}, {b.center_m, b.half_segment_m}) - radii;
+  return segment_distance({a.center_m, a.axis, a.half_length_m}, {b.center_m, b.axis, b.half_length_m}) - radii;
 }
 
 }  // namespace contort

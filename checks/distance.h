@@ -14,17 +14,20 @@ struct Solid {
   enum class Core { point, segment, box, hull };
   Core core = Core::point;
   Vec3 center_m{0.0};
-  Vec3 half_segment_m{0.0};                  // segment: from the centre to one end
-  Mat3 axes{1.0};                            // box, hull: columns are its unit axes
-  Vec3 half_m{0.0};                          // box: half of each side
+  Vec3 axis{1, 0, 0};                        // segment: its unit direction
+  double half_length_m = 0.0;                // segment: from the centre to one end
   double radius_m = 0.0;                     // >= 0
   double bound_m = 0.0;                      // radius of a ball about the centre that holds the solid
+  Mat3 axes{1.0};                            // box, hull: columns are its unit axes
+  Vec3 half_m{0.0};                          // box: half of each side
   std::shared_ptr<const Polyhedron> hull{};  // hull: its corners are center_m + axes * corner
 };
 
 Solid solid_of(const ColliderShape& shape);
 Solid solid_of(const Collider& collider);  // in the frame of its joint
 Solid moved(const Rigid& to_from_own, const Solid& solid);
+// The same into `placed`, a copy of `solid` that was moved before: only what moves is written.
+void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 
 // How far it reaches from its centre along the unit vector n.
 double extent_along(const Solid& solid, const Vec3& n);

@@ -38,6 +38,7 @@ Subject ground_penetration_subject(const Character& character, int subject) {
 void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
   std::vector<Solid> own;
   for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
+  std::vector<Solid> placed = own;
   const std::span<const Body> bodies = in.character.bodies();
   const bool is_level = in.environment.is_level();
   const double level_m = in.environment.height_at(0.0, 0.0);
@@ -46,8 +47,9 @@ void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
       const Rigid& world_from_body = in.world_at(frame)[static_cast<std::size_t>(bodies[b].joint)];
       double least_m = std::numeric_limits<double>::infinity();
       for (int c = 0; c < bodies[b].collider_count; ++c) {
-        const Solid solid = moved(world_from_body, own[static_cast<std::size_t>(bodies[b].first_collider + c)]);
-        const double height_m = is_level ? lowest(solid) - level_m : height_above(in.environment, solid);
+        const auto i = static_cast<std::size_t>(bodies[b].first_collider + c);
+        place(world_from_body, own[i], placed[i]);
+        const double height_m = is_level ? lowest(placed[i]) - level_m : height_above(in.environment, placed[i]);
         if (!(height_m >= least_m)) least_m = height_m;
       }
       fold.report(static_cast<int>(b), frame, least_m + kSink_m);

@@ -57,7 +57,7 @@ Other in_frame_of(const Solid& a, const Solid& b) {
   const auto add = [&](const Vec3& from_center) { out.corners[out.corner_count++] = center + from_center; };
   if (b.core == Solid::Core::point) add(Vec3(0.0));
   if (b.core == Solid::Core::segment)
-    for (const double end : {-1.0, 1.0}) add(end * (to_a * b.half_segment_m));
+    for (const double end : {-1.0, 1.0}) add(end * b.half_length_m * (to_a * b.axis));
   if (b.core == Solid::Core::point || b.core == Solid::Core::segment) return out;
   const bool is_box = b.core == Solid::Core::box;
   out.solid = is_box ? &unit_cube() : b.hull.get();
@@ -238,20 +238,21 @@ double nearest_to_faces(std::span<const Vec3> corners, const Polyhedron& solid, 
   return best;
 }
 
-Segment between(const Vec3& p, const Vec3& q) { return {0.5 * (p + q), 0.5 * (q - p)}; }
+std::vector<Segment> edges_of(const Other& b) {
+  if (b.solid == nullptr) return {segment_between(b.corner(0), b.corner(static_cast<int>(b.corner_count) - 1))};
+  std::vector<Segment> edges;
+  for (const Polyhedron::Edge& edge : b.solid->edges)
+    edges.push_back(segment_between(b.corner(edge.corners[0]), b.corner(edge.corners[1])));
+  return edges;
+}
 
 double nearest_features(const Polyhedron& a, const Other& b) {
   double best = nearest_to_faces(b.all(), a, a.corners_m, Mat3(1.0));
   if (b.solid != nullptr) best = std::min(best, nearest_to_faces(a.corners_m, *b.solid, b.all(), b.a_from_b));
+  const std::vector<Segment> edges_b = edges_of(b);
   for (const Polyhedron::Edge& edge : a.edges) {
-    const Segment edge_a = between(a.corners_m[at(edge.corners[0])], a.corners_m[at(edge.corners[1])]);
-    if (b.solid == nullptr)
-      best = std::min(best,
-                      segment_distance(edge_a, between(b.corner(0), b.corner(static_cast<int>(b.corner_count) - 1))));
-    else
-      for (const Polyhedron::Edge& other : b.solid->edges)
-        best =
-            std::min(best, segment_distance(edge_a, between(b.corner(other.corners[0]), b.corner(other.corners[1]))));
+    const Segment edge_a = segment_between(a.corners_m[at(edge.corners[0])], a.corners_m[at(edge.corners[1])]);
+    for (const Segment& edge_b : edges_b) best = std::min(best, segment_distance(edge_a, edge_b));
   }
   return best;
 }

@@ -65,20 +65,18 @@ bool is_over(const std::vector<Vec3>& feature, const Vec3& p, const Vec3& around
 }
 
 Segment edge_of(const std::vector<Vec3>& feature, std::size_t i) {
-  const Vec3& from = feature[i];
-  const Vec3& to = feature[(i + 1) % feature.size()];
-  return {0.5 * (from + to), 0.5 * (to - from)};
+  return segment_between(feature[i], feature[(i + 1) % feature.size()]);
 }
 
 Pair nearest_of(const Segment& a, const Segment& b) {
   const ClosestOnSegments at = closest_on_segments(a, b);
-  return {a.center + at.s * a.half, b.center + at.t * b.half};
+  return {a.center + at.s * a.axis, b.center + at.t * b.axis};
 }
 
 // Of edges side by side every point is as near: their ends say how far that goes.
 bool cross(const Segment& a, const Segment& b) {
-  const Vec3 across = glm::cross(a.half, b.half);
-  return glm::dot(across, across) > 1e-8 * glm::dot(a.half, a.half) * glm::dot(b.half, b.half);
+  const Vec3 across = glm::cross(a.axis, b.axis);
+  return a.half_length > 0.0 && b.half_length > 0.0 && glm::dot(across, across) > kNearlyParallel;
 }
 
 // `gap` is how far the features' planes are apart along n, from a to b.
@@ -91,8 +89,8 @@ std::vector<Pair> candidates(const std::vector<Vec3>& a, const std::vector<Vec3>
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) {
       const Segment of_a = edge_of(a, i), of_b = edge_of(b, j);
-      pairs.push_back(nearest_of({a[i], Vec3(0.0)}, of_b));
-      pairs.push_back(nearest_of(of_a, {b[j], Vec3(0.0)}));
+      pairs.push_back(nearest_of(segment_between(a[i], a[i]), of_b));
+      pairs.push_back(nearest_of(of_a, segment_between(b[j], b[j])));
       if (cross(of_a, of_b)) pairs.push_back(nearest_of(of_a, of_b));
     }
   return pairs;

@@ -47,14 +47,16 @@ void obstacle_penetration_measure(const CheckInput& in, MarginFold& fold) {
   if (obstacles.empty()) return;
   std::vector<Solid> own;
   for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
+  std::vector<Solid> placed = own;
   const std::span<const Body> bodies = in.character.bodies();
   for (int frame = 0; frame < in.motion.frame_count; ++frame)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Rigid& world_from_body = in.world_at(frame)[static_cast<std::size_t>(bodies[b].joint)];
       double least_m = std::numeric_limits<double>::infinity();
       for (int c = 0; c < bodies[b].collider_count; ++c) {
-        const Solid& solid = own[static_cast<std::size_t>(bodies[b].first_collider + c)];
-        const double m = clearance_m(moved(world_from_body, solid), obstacles, in.settings.collision_band_m);
+        const auto i = static_cast<std::size_t>(bodies[b].first_collider + c);
+        place(world_from_body, own[i], placed[i]);
+        const double m = clearance_m(placed[i], obstacles, in.settings.collision_band_m);
         if (!(m >= least_m)) least_m = m;
         if (m != m) break;
       }

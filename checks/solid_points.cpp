@@ -5,7 +5,7 @@ namespace contort {
 std::vector<Vec3> core_points(const Solid& solid) {
   if (solid.core == Solid::Core::point) return {solid.center_m};
   if (solid.core == Solid::Core::segment)
-    return {solid.center_m - solid.half_segment_m, solid.center_m + solid.half_segment_m};
+    return {solid.center_m - solid.half_length_m * solid.axis, solid.center_m + solid.half_length_m * solid.axis};
   std::vector<Vec3> corners;
   if (solid.core == Solid::Core::hull) {
     for (const Vec3& corner : solid.hull->corners_m) corners.push_back(solid.center_m + solid.axes * corner);

@@ -132,8 +132,8 @@ TEST_P(DistanceOf, WithABandIsExactBelowItAndNeverTooFarAboveIt) {
 }
 
 Solid scaled(Solid solid, double by) {
-  for (Vec3* v : {&solid.center_m, &solid.half_segment_m, &solid.half_m}) *v *= by;
-  solid.radius_m *= by, solid.bound_m *= by;
+  for (Vec3* v : {&solid.center_m, &solid.half_m}) *v *= by;
+  solid.half_length_m *= by, solid.radius_m *= by, solid.bound_m *= by;
   if (solid.hull != nullptr) {
     Polyhedron hull = *solid.hull;
     for (Vec3& corner : hull.corners_m) corner *= by;

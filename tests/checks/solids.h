@@ -80,7 +80,7 @@ struct Sum {
 };
 
 inline void add_core(const Solid& s, double sign, Sum& z) {
-  if (s.core == Core::segment && s.half_segment_m != Vec3(0.0)) z.generators.push_back(s.half_segment_m);
+  if (s.core == Core::segment && s.half_length_m > 0.0) z.generators.push_back(s.half_length_m * s.axis);
   if (s.core == Core::box)
     for (int i = 0; i < 3; ++i) z.generators.push_back(s.axes[i] * s.half_m[i]);
   if (s.core == Core::hull) {

@@ -1,0 +1,26 @@
+// Signed distances of spheres and capsules, several pairs in each instruction. What is found is bit for bit what
+// signed_distance finds: the lanes do its operations in its order, and none is fused.
+#pragma once
+
+#include <span>
+
+#include "checks/distance.h"
+
+namespace contort {
+
+// How many pairs at a time, and by which instructions.
+struct RoundKernel {
+  const char* name;  // "SSE2" or "AVX2"; "portable" on other machines
+  void (*measure)(const Solid* solids, std::span<const ColliderPair> pairs, double* distances_m);
+};
+
+// Those that this machine can run, the fastest last.
+std::span<const RoundKernel> round_kernels();
+
+// signed_distance of each pair of `solids`, whose cores are points and segments, without a band.
+inline void round_distances(std::span<const Solid> solids, std::span<const ColliderPair> pairs,
+                            std::span<double> distances_m, const RoundKernel& kernel = round_kernels().back()) {
+  kernel.measure(solids.data(), pairs, distances_m.data());
+}
+
+}  // namespace contort
