@@ -10,25 +10,31 @@ namespace contort {
 
 namespace {
 
-// Along a heading: the coordinate of (x, z) in its direction.
-double along(double heading_deg, double x_m, double z_m) {
-  const det::SinCos heading = det::sincos(heading_deg * kRadPerDeg);
-  return x_m * heading.sin + z_m * heading.cos;
+GroundAngles angles_of(const SlopeGround& ground) {
+  const det::SinCos heading = det::sincos(ground.heading_deg * kRadPerDeg);
+  const det::SinCos slope = det::sincos(ground.slope_deg * kRadPerDeg);
+  return {heading.sin, heading.cos, slope.sin / slope.cos};
 }
 
-double tangent(double angle_deg) {
-  const det::SinCos angle = det::sincos(angle_deg * kRadPerDeg);
-  return angle.sin / angle.cos;
+GroundAngles angles_of(const StepsGround& ground) {
+  const det::SinCos heading = det::sincos(ground.heading_deg * kRadPerDeg);
+  return {heading.sin, heading.cos, 0.0};
 }
 
-double height_of(const PlaneGround& ground, double, double) { return ground.height_m; }
+GroundAngles angles_of(const PlaneGround&) { return {}; }
+GroundAngles angles_of(const HeightGround&) { return {}; }
 
-double height_of(const SlopeGround& ground, double x_m, double z_m) {
-  return along(ground.heading_deg, x_m, z_m) * tangent(ground.slope_deg);
+// Along the heading: the coordinate of (x, z) in its direction.
+double along(const GroundAngles& angles, double x_m, double z_m) { return x_m * angles.sin + z_m * angles.cos; }
+
+double height_of(const PlaneGround& ground, const GroundAngles&, double, double) { return ground.height_m; }
+
+double height_of(const SlopeGround&, const GroundAngles& angles, double x_m, double z_m) {
+  return along(angles, x_m, z_m) * angles.rise;
 }
 
-double height_of(const StepsGround& ground, double x_m, double z_m) {
-  const double climbed = std::floor((along(ground.heading_deg, x_m, z_m) - ground.start_m) / ground.depth_m) + 1.0;
+double height_of(const StepsGround& ground, const GroundAngles& angles, double x_m, double z_m) {
+  const double climbed = std::floor((along(angles, x_m, z_m) - ground.start_m) / ground.depth_m) + 1.0;
   return ground.height_m * std::clamp(climbed, 0.0, static_cast<double>(ground.count));
 }
 
@@ -45,7 +51,7 @@ Cell cell_of(double coordinate_m, double spacing_m, int count) {
   return {index, at - index};
 }
 
-double height_of(const HeightGround& ground, double x_m, double z_m) {
+double height_of(const HeightGround& ground, const GroundAngles&, double x_m, double z_m) {
   const Cell column = cell_of(x_m, ground.spacing_m, ground.columns);
   const Cell row = cell_of(z_m, ground.spacing_m, ground.rows);
   const auto at = [&](int r, int c) {
@@ -59,16 +65,16 @@ double height_of(const HeightGround& ground, double x_m, double z_m) {
   return near * (1.0 - row.share) + far * row.share;
 }
 
-double height_of(const Ground& ground, double x_m, double z_m) {
-  return std::visit([&](const auto& g) { return height_of(g, x_m, z_m); }, ground);
+double height_of(const Ground& ground, const GroundAngles& angles, double x_m, double z_m) {
+  return std::visit([&](const auto& g) { return height_of(g, angles, x_m, z_m); }, ground);
 }
 
 // In the environment's frame, pointing up.
-Vec3 normal_of(const Ground& ground, double x_m, double z_m) {
+Vec3 normal_of(const Ground& ground, const GroundAngles& angles, double x_m, double z_m) {
   if (std::holds_alternative<PlaneGround>(ground) || std::holds_alternative<StepsGround>(ground)) return {0, 1, 0};
   constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
-  const double dx = height_of(ground, x_m + kStep_m, z_m) - height_of(ground, x_m - kStep_m, z_m);
-  const double dz = height_of(ground, x_m, z_m + kStep_m) - height_of(ground, x_m, z_m - kStep_m);
+  const double dx = height_of(ground, angles, x_m + kStep_m, z_m) - height_of(ground, angles, x_m - kStep_m, z_m);
+  const double dz = height_of(ground, angles, x_m, z_m + kStep_m) - height_of(ground, angles, x_m, z_m - kStep_m);
   return unit_or(Vec3(-dx, 2.0 * kStep_m, -dz), Vec3(0, 1, 0));
 }
 
@@ -89,8 +95,7 @@ Surface nearest(const Capsule& capsule, const Vec3& point_m) {
   return from_centre(capsule.a_m + share * axis, capsule.radius_m, point_m);
 }
 
-Surface nearest(const Box& box, const Vec3& point_m) {
-  const Quat q = from_rotation_vector(box.rotation_deg * kRadPerDeg);
+Surface nearest(const Box& box, const Quat& q, const Vec3& point_m) {
   const Vec3 local = glm::conjugate(q) * (point_m - box.center_m);
   Vec3 on = local, normal(0.0);
   double least = std::numeric_limits<double>::infinity();
@@ -113,11 +118,13 @@ Surface nearest(const Box& box, const Vec3& point_m) {
 
 struct Nearest {
   const Vec3& point_m;
+  const Quat& turn;
   const Polyhedron& polyhedron;
   template <class Shape>
   Surface operator()(const Shape& shape) const {
     return nearest(shape, point_m);
   }
+  Surface operator()(const Box& box) const { return nearest(box, turn, point_m); }
   Surface operator()(const ConvexHull&) const {
     const OnSurface on = nearest_on(polyhedron, point_m);
     return {on.point_m, on.normal, on.distance_m, -1};
@@ -151,23 +158,27 @@ Result<Done> check_heights(const Ground& ground) {
 
 Environment::Environment(const EnvironmentDesc& desc)
     : world_from_environment_{axis_angle(Vec3(0, 1, 0), desc.heading_deg * kRadPerDeg), desc.position_m},
+      environment_from_world_(inverse(world_from_environment_)),
       ground_(desc.ground),
+      angles_(std::visit([](const auto& ground) { return angles_of(ground); }, ground_)),
       obstacles_(desc.obstacles),
       level_(std::holds_alternative<PlaneGround>(desc.ground)) {
   for (const ObstacleDesc& obstacle : obstacles_) {
+    const auto* box = std::get_if<Box>(&obstacle.shape);
+    turns_.push_back(box == nullptr ? kNoRotation : from_rotation_vector(box->rotation_deg * kRadPerDeg));
     const auto* hull = std::get_if<ConvexHull>(&obstacle.shape);
     polyhedra_.push_back(hull == nullptr ? Polyhedron{} : convex_polyhedron(hull->points_m));
   }
 }
 
 double Environment::height_at(double x_m, double z_m) const {
-  const Vec3 local = inverse(world_from_environment_) * Vec3(x_m, 0.0, z_m);
-  return height_of(ground_, local.x, local.z) + world_from_environment_.p_m.y;
+  const Vec3 at = local({x_m, 0.0, z_m});
+  return height_of(ground_, angles_, at.x, at.z) + world_from_environment_.p_m.y;
 }
 
 Vec3 Environment::normal_at(double x_m, double z_m) const {
-  const Vec3 local = inverse(world_from_environment_) * Vec3(x_m, 0.0, z_m);
-  return world_from_environment_.q * normal_of(ground_, local.x, local.z);
+  const Vec3 at = local({x_m, 0.0, z_m});
+  return world_from_environment_.q * normal_of(ground_, angles_, at.x, at.z);
 }
 
 Surface Environment::nearest_ground(const Vec3& point_m) const {
@@ -178,11 +189,11 @@ Surface Environment::nearest_ground(const Vec3& point_m) const {
 }
 
 Surface Environment::nearest_obstacle(const Vec3& point_m) const {
-  const Vec3 local = inverse(world_from_environment_) * point_m;
+  const Vec3 at = local(point_m);
   Surface best;
   best.distance_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    Surface surface = std::visit(Nearest{local, polyhedra_[i]}, obstacles_[i].shape);
+    Surface surface = std::visit(Nearest{at, turns_[i], polyhedra_[i]}, obstacles_[i].shape);
     surface.obstacle = static_cast<int>(i);
     if (surface.distance_m < best.distance_m) best = surface;
   }

@@ -18,6 +18,13 @@ struct Surface {
   int obstacle = -1;  // -1: the ground
 };
 
+// A ground's angles, as queries need them.
+struct GroundAngles {
+  double sin = 0.0;  // of the heading of a slope or steps
+  double cos = 1.0;
+  double rise = 0.0;  // tangent of a slope
+};
+
 class Environment {
  public:
   Environment() = default;  // a level plane at height 0
@@ -41,9 +48,14 @@ class Environment {
  private:
   friend Result<Environment> build_environment(const EnvironmentDesc& desc);
   explicit Environment(const EnvironmentDesc& desc);
+  Vec3 local(const Vec3& point_m) const { return environment_from_world_ * point_m; }
+
   Rigid world_from_environment_;
+  Rigid environment_from_world_;
   Ground ground_;
+  GroundAngles angles_;
   std::vector<ObstacleDesc> obstacles_;  // in the environment's frame
+  std::vector<Quat> turns_;              // of obstacles that are boxes; none for the others
   std::vector<Polyhedron> polyhedra_;    // of obstacles that are hulls; empty ones for the others
   bool level_ = true;
 };
