@@ -9,9 +9,6 @@
 
 #include "checks/segment_distance.h"
 
-// How vectors are returned depends on the instructions that the caller may use; here all such functions are inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace contort {
 
 namespace {
@@ -69,8 +66,9 @@ template <class Lanes, std::size_t... kLane>
   const Lanes apart = {std::sqrt(squared[kLane])...};
   const Lanes distances = apart - radii;
   std::memcpy(distances_m, &distances, sizeof distances);
-  const Lanes limit = zero + std::numeric_limits<double>::max();
-  return all_of((crosses | (a_length == zero) | (b_length == zero)) & (squared <= limit));
+  const Lanes poison = ax + ay + az + bx + by + bz;  // as in signed_distance: NaN where it is not finite
+  const auto is_finite = (poison - poison == zero) & (squared - squared == zero);
+  return all_of((crosses | (a_length == zero) | (b_length == zero)) & is_finite);
 }
 
 template <class Lanes>

@@ -41,6 +41,8 @@ class Clearances {
     balls_.resize(own_balls_.size());
   }
 
+  Clearances(const Clearances&) = delete;  // pairs_ looks into colliders_
+
   void place(std::span<const Rigid> joints) {
     const std::span<const Body> bodies = character_.bodies();
     for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -79,9 +79,20 @@ TEST_P(RoundKernels, WhatIsNoNumberSpoilsItsOwnPairsOnly) {
   for (std::size_t bad = 0; bad < 7; ++bad) {
     std::vector<Solid> solids;
     for (int i = 0; i < 7; ++i) solids.push_back(random_solid(random, Core::segment));
-    solids[bad].center_m.y = std::numeric_limits<double>::quiet_NaN();
-    expect_same_bits(solids, GetParam());
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200, 1e308}) {
+      solids[bad].center_m.y = value;
+      expect_same_bits(solids, GetParam());
+    }
   }
+}
+
+TEST_P(RoundKernels, OverflowIsWhereOnePairAtATimeHasIt) {
+  Solid solid = capsule({0, -0.1, 0}, {0, 0.1, 0}, 0.05);
+  solid.center_m.x = 1e308;  // the sum of two is infinite, their difference is not
+  Solid across = solid;
+  across.axis = Vec3(0, 0, 1);
+  expect_same_bits({solid, across, solid, across, solid}, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RoundKernels, testing::ValuesIn(round_kernels().begin(), round_kernels().end()),

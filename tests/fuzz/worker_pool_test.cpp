@@ -23,7 +23,7 @@ std::string obey(const std::string& task, WorkerSlot& slot) {
   if (task == "hang")
     for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (task == "slow but alive")
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 200; ++i) {
       slot.beat();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -35,7 +35,7 @@ std::string obey(const std::string& task, WorkerSlot& slot) {
   return "did " + task;
 }
 
-const WorkerLimits kTight{1.0, std::int64_t{400} << 20};
+const WorkerLimits kTight{3.0, std::int64_t{400} << 20};
 
 WorkerEvent next_event(WorkerPool& pool) {
   for (int i = 0; i < 2400; ++i)
@@ -100,7 +100,7 @@ TEST(WorkerPool, OthersGoOnWhileOneHangs) {
 TEST(WorkerPool, LeavesNoProcessBehind) {
   pid_t worker = 0;
   {
-    WorkerPool pool(1, kTight, [](const std::string&, WorkerSlot&) { return std::to_string(::getpid()); });
+    WorkerPool pool(1, kPatient, [](const std::string&, WorkerSlot&) { return std::to_string(::getpid()); });
     pool.give(0, "");
     worker = static_cast<pid_t>(std::stol(next_event(pool).text));
     EXPECT_EQ(::kill(worker, 0), 0);

@@ -3,8 +3,10 @@
 // expected.txt.
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "checks/evaluate.h"
+#include "checks/round_distances.h"
 #include "fuzz/draw.h"
 #include "fuzz/parallel.h"
 #include "generator/core/detmath.h"
@@ -46,6 +48,28 @@ void print_math() {
   std::printf("detmath values=200005 hash=%s\n", to_hex(hash.value()).c_str());
 }
 
+// 4950 pairs of capsules by one of the kernels. No scene would tell: a machine uses the fastest that it has.
+void print_round(const char* which, const RoundKernel& kernel) {
+  std::mt19937_64 engine(5);
+  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; };
+  const auto point = [&] {
+    const double x = uniform(), y = uniform(), z = uniform();
+    return Vec3(x, y, z);
+  };
+  std::vector<Solid> solids;
+  std::vector<ColliderPair> pairs;
+  for (int b = 0; b < 100; ++b) {
+    const Vec3 from = point(), to = point();
+    solids.push_back(solid_of(Capsule{from, to, 0.05}));
+    for (int a = 0; a < b; ++a) pairs.push_back({a, b});
+  }
+  std::vector<double> distances_m(pairs.size());
+  round_distances(solids, pairs, distances_m, kernel);
+  Hash64 hash;
+  for (const double distance_m : distances_m) hash.add(distance_m);
+  std::printf("round_distances kernel=%s pairs=%zu hash=%s\n", which, pairs.size(), to_hex(hash.value()).c_str());
+}
+
 // Cases drawn by the fuzzer, on so many threads: the threads must not show.
 void print_drawn(int jobs) {
   constexpr int kCases = 200;
@@ -76,6 +100,8 @@ void print_drawn(int jobs) {
 
 int main() {
   contort::print_math();
+  contort::print_round("slowest", contort::round_kernels().front());
+  contort::print_round("fastest", contort::round_kernels().back());
   for (const contort::NamedScene& named : contort::all_scenes()) contort::print_scene(named);
   for (const int jobs : {1, 4}) contort::print_drawn(jobs);
 }

@@ -28,11 +28,23 @@ find_path(MUJOCO_INCLUDE mujoco/mujoco.h)
 if(NOT MUJOCO_INCLUDE)
   list(FILTER BENCHES EXCLUDE REGEX dynamics_bench)
 endif()
+find_path(FCL_INCLUDE fcl/narrowphase/distance.h)
+find_path(BULLET_INCLUDE btBulletCollisionCommon.h PATH_SUFFIXES bullet)
 add_library(contort_bench_objects OBJECT EXCLUDE_FROM_ALL ${BENCHES})
 target_include_directories(contort_bench_objects PRIVATE ${CMAKE_SOURCE_DIR})
 target_compile_options(contort_bench_objects PRIVATE -Wall -Wextra -Wshadow -Wconversion -Werror -Wno-unused-function -O0 -g0)
 target_compile_definitions(contort_bench_objects PRIVATE
   CONTORT_ASSERTS CONTORT_HAS_MUJOCO CONTORT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CONTORT_BINARY_DIR="${CMAKE_BINARY_DIR}")
+
+if(FCL_INCLUDE)
+  find_package(fcl CONFIG QUIET)
+  target_link_libraries(contort_bench_objects PRIVATE fcl)
+  target_compile_definitions(contort_bench_objects PRIVATE CONTORT_HAS_FCL)
+endif()
+if(BULLET_INCLUDE)
+  target_include_directories(contort_bench_objects SYSTEM PRIVATE ${BULLET_INCLUDE})
+  target_compile_definitions(contort_bench_objects PRIVATE CONTORT_HAS_BULLET)
+endif()
 
 add_test(NAME Guards.BenchesCompile
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_bench_objects)
