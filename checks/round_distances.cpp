@@ -1,6 +1,5 @@
 #include "checks/round_distances.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
