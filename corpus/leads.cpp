@@ -100,14 +100,6 @@ void drop_lead(const Corpus& corpus, const Lead& lead) {
   fs::remove(stem + ".json", ignored);
 }
 
-void drop_half_written(const Corpus& corpus, const std::string& run) {
-  std::error_code ignored;
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder_of(corpus, run), ignored))
-    if (entry.path().extension() == ".part") left.push_back(entry.path());
-  for (const fs::path& path : left) fs::remove(path, ignored);
-}
-
 void tidy_leads(const Corpus& corpus, const std::string& run) {
   std::error_code ignored;
   fs::remove(folder_of(corpus, run), ignored);  // only an empty folder goes

@@ -44,9 +44,6 @@ Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead);
 
 void drop_lead(const Corpus& corpus, const Lead& lead);
 
-// Removes what workers that were killed left half written. Nobody may be writing leads of this run.
-void drop_half_written(const Corpus& corpus, const std::string& run);
-
 // Removes the folder of a run that has no leads left and writes no more.
 void tidy_leads(const Corpus& corpus, const std::string& run);
 

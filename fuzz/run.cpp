@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 
+#include "corpus/half_written.h"
 #include "corpus/leads.h"
 #include "fuzz/case_work.h"
 #include "fuzz/run_state.h"
@@ -14,9 +15,7 @@ namespace contort {
 
 namespace {
 
-double steady_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double steady_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string plan_of(const RunConfig& config) {
   return run_name(config) + " shrinks=" + std::to_string(config.shrinks_per_family) +
@@ -155,8 +154,8 @@ class Run {
     --open_;
   }
 
-  // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever resumes
-  // begins it again.
+  // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever
+  // resumes begins it again.
   void fold_round() {
     const bool is_whole = open_ == 0;
     if (!is_whole) {
@@ -175,8 +174,7 @@ class Run {
   void fold(const CaseTask& task, const CaseReport& report) {
     RunRecord& record = state_.record;
     const std::int64_t index = task.lineage.back();
-    const std::string arm_name(is_seed(config_, index) ? "seed"
-                                                       : contort::arm_name(arm_of(odds_, task.lineage)));
+    const std::string arm_name(is_seed(config_, index) ? "seed" : contort::arm_name(arm_of(odds_, task.lineage)));
     ArmCount& arm = record.arms[arm_name];
     ++record.cases, ++arm.cases;
     record.frames += report.frames;
@@ -269,9 +267,9 @@ class Run {
     if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());
   }
 
-  // The workers are gone, and under the run's lock there are no others; other shards, which share the folder, have own ones.
+  // The workers are gone, and under the run's lock there are no others.
   void finish() {
-    if (config_.shard.count == 1) drop_half_written(corpus_, state_.record.name);
+    if (const Result<Done> dropped = drop_half_written(corpus_, state_.record); !dropped) fail(dropped.issue());
     tidy_leads(corpus_, state_.record.name);
     // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
     // say.
@@ -318,8 +316,8 @@ class Run {
   double next_keep_s_ = steady_s() + kKeepEvery_s;
   RunState state_;
   std::vector<Place> round_;
-  int open_ = 0;   // cases of the round without a report
-  int given_ = 0;  // that were handed out
+  int open_ = 0;         // cases of the round without a report
+  int given_ = 0;        // that were handed out
   bool is_cut_ = false;  // the last round was not done whole; what is kept is from before it
   std::deque<CaseTask> settling_;
   std::vector<Running> running_;  // by worker

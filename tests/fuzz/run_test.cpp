@@ -170,7 +170,7 @@ TEST_F(Runs, ShrinkWithinTheirProfile) {
     }
 }
 
-// A worker that was killed between writing and renaming: its file stayed for good, and the folder with it.
+// A process that was killed between writing and renaming: its file stayed for good, and the folder with it.
 TEST_F(Runs, RemoveWhatWasLeftHalfWritten) {
   const Corpus whole = create(folder_ / "whole"), broken = create(folder_ / "broken");
   const RunConfig config = config_of(200, 2);
@@ -178,6 +178,10 @@ TEST_F(Runs, RemoveWhatWasLeftHalfWritten) {
   const std::string leads = broken.folder() + "/leads/" + run_name(config);
   ASSERT_TRUE(make_folder(leads));
   spill(leads + "/0195173a7857-0000000000000014.json.27217.part", "{");
+  const std::string bucket = broken.folder_of(buckets_of(whole).front());
+  ASSERT_TRUE(make_folder(bucket));
+  spill(bucket + "/bucket.json.27217.part", "{");
+  spill(broken.folder() + "/runs/" + run_name(config) + ".state.27217.part", "{");
   run(config, broken);
   EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
 }

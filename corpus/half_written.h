@@ -1,0 +1,13 @@
+// What a process that was killed between writing a file and renaming it (files.h) leaves behind.
+#pragma once
+
+#include "corpus/corpus.h"
+#include "corpus/runs.h"
+
+namespace contort {
+
+// Removes such files of the buckets, which nobody writes without the corpus's lock, and of this run, whose lock the
+// caller holds. Leads of a run of several shards stay, as the others may be writing theirs; fsck removes what is left.
+Result<Done> drop_half_written(const Corpus& corpus, const RunRecord& run);
+
+}  // namespace contort
