@@ -8,7 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace contort {
@@ -106,6 +109,36 @@ TEST(Detmath, AnglesTooLargeToMeanAnythingAreNaN) {
     EXPECT_TRUE(std::isnan(det::sin(x))) << x;
     EXPECT_TRUE(std::isnan(det::cos(x))) << x;
   }
+}
+
+// Where angles are reduced: beside multiples of pi/4, far out, and what is no angle, in rows of any length.
+TEST(Detmath, ManyAtATimeAreTheSameBits) {
+  std::vector<double> angles = {0.0,
+                                -0.0,
+                                1e9,
+                                -1e9,
+                                1.1e9,
+                                -1e300,
+                                std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN(),
+                                5e-324,
+                                0.5,
+                                1e-9};
+  for (int k = -200; k <= 200; ++k) {
+    const double x = k * 0.25 * std::numbers::pi;
+    for (const double near : {x, std::nextafter(x, 1e9), std::nextafter(x, -1e9), 1e5 * x, x + 0.1})
+      angles.push_back(near);
+  }
+  const auto bits = [](const det::SinCos& v) {
+    return std::pair(std::bit_cast<std::uint64_t>(v.sin), std::bit_cast<std::uint64_t>(v.cos));
+  };
+  for (std::size_t first = 0; first < 3; ++first)
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, angles.size() - first}) {
+      const std::span<const double> row = std::span(angles).subspan(first, count);
+      std::vector<det::SinCos> all(count);
+      det::sincos(row, all);
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(bits(all[i]), bits(det::sincos(row[i]))) << row[i];
+    }
 }
 
 RC_GTEST_PROP(Detmath, SinIsOddAndCosIsEven, ()) {
