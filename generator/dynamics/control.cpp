@@ -117,7 +117,7 @@ void DynamicControl::prepare_columns(const ControlTick& tick, const ControlGroup
       legs_ready_ = true;
       keep_feet(tick.legs, tick.support, columns_[h].acceleration);
     }
-    multiply(tick.figure.body, tick.mass, columns_[h].acceleration, columns_[h].forces);
+    multiply(tick.mass, columns_[h].acceleration, columns_[h].forces);
   }
 }
 
@@ -190,12 +190,9 @@ void DynamicControl::step(const ControlTick& tick, const ControlGroup& group, Sq
     given[h] += lag * (best[h] - given[h]);
     if (squares.rows == 0 && std::fabs(given[h]) < 1e-6) given[h] = 0.0;
     if (given[h] == 0.0) continue;
-    for (std::size_t k = 0; k < added_.size(); ++k) {
-      const double change = given[h] * columns_[h].acceleration[k];
-      added_[k] += change;
-      tick.acceleration[k] += change;
-      tick.forces[k] += given[h] * columns_[h].forces[k];
-    }
+    add_scaled(given[h], columns_[h].acceleration, added_);
+    add_scaled(given[h], columns_[h].acceleration, tick.acceleration);
+    add_scaled(given[h], columns_[h].forces, tick.forces);
   }
 }
 

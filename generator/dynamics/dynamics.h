@@ -21,13 +21,14 @@ inline constexpr double kGravity_m_s2 = 9.81;
 
 // A frame in the world, its rotation as a matrix.
 struct Placement {
-  Mat3 rotation{1.0};
-  Vec3 origin_m{0.0};
+  WideMat3 rotation = Mat3(1.0);
+  WideVec3 origin_m;
 };
 
 // Where all bodies are, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
 struct DynamicsScratch {
-  std::vector<det::SinCos> turns;       // of hinges, by link
+  std::vector<double> angles_rad;       // of hinges, by link; 0 for others
+  std::vector<det::SinCos> turns;       // by these
   std::vector<Placement> world;         // world_from_link
   std::vector<SpatialMotion> freedoms;  // by freedom: what a unit rate of it does
   std::vector<SpatialInertia> inertia;  // by link
@@ -49,15 +50,15 @@ SpatialInertia placed_inertia(double mass_kg, const Vec3& center_of_mass_m, cons
 void inverse_dynamics(const Multibody& body, std::span<const double> velocity, std::span<const double> acceleration,
                       double gravity_m_s2, DynamicsScratch& scratch, std::span<double> forces);
 
-// CRBA: M, symmetric, dof_count x dof_count row by row, of which only the entries (i, j) with j on i's way to the root
-// are written: the rest of `matrix` must be 0 from before and stays so.
+// CRBA: M, symmetric, dof_count x dof_count row by row, of which only the entries (i, j) are written where i is on j's
+// way to the root or j on i's: the rest of `matrix` must be 0 from before and stays so.
 void mass_matrix(const Multibody& body, DynamicsScratch& scratch, std::span<double> matrix);
 
-// out = M x of such a matrix.
-void multiply(const Multibody& body, std::span<const double> matrix, std::span<const double> x, std::span<double> out);
+// out = M x of a symmetric matrix; entries of x that are 0 cost nothing.
+void multiply(std::span<const double> matrix, std::span<const double> x, std::span<double> out);
 
-// M = L^T D L in place, without filling any zero; then solves M x = b, x in place of b. M of bodies with mass is
-// positive definite; a last link without mass gives infinities.
+// M = L^T D L in place of its lower triangle, without filling any zero; then solves M x = b, x in place of b. M of
+// bodies with mass is positive definite; a last link without mass gives infinities.
 void factorise(const Multibody& body, std::span<double> matrix);
 void solve(const Multibody& body, std::span<const double> factors, std::span<double> x);
 

@@ -59,7 +59,7 @@ void Feet::mark() {
 
 Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics) {
   const Placement& link = dynamics.world[at(sole.link)];
-  return Rigid{glm::quat_cast(link.rotation), link.origin_m} * sole.link_from_sole;
+  return Rigid{glm::quat_cast(Mat3(link.rotation)), link.origin_m} * sole.link_from_sole;
 }
 
 Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment) {

@@ -72,7 +72,7 @@ SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce
 }
 
 void move_root(const DynamicsScratch& dynamics, const SpatialMotion& change, std::span<double> velocity) {
-  const Vec3 turn = glm::transpose(dynamics.world[0].rotation) * change.angular;
+  const Vec3 turn = glm::transpose(Mat3(dynamics.world[0].rotation)) * change.angular;
   for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
 }
 
@@ -101,7 +101,7 @@ void fall_freely(const Multibody& body, std::span<const double> mass, LooseScrat
   solve_symmetric(scratch.factors, kRootDofs, change);
   for (std::size_t k = 0; k < kRootDofs; ++k) acceleration[k] += change[k];
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[std::max(i, k) * n + std::min(i, k)] * change[k];
+    for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[i * n + k] * change[k];
 }
 
 SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
@@ -109,7 +109,7 @@ SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics,
   const auto n = at(body.dof_count());
   double root[kRootDofs] = {};
   for (std::size_t r = 0; r < kRootDofs; ++r)
-    for (std::size_t k = 0; k < n; ++k) root[r] += mass[std::max(r, k) * n + std::min(r, k)] * velocity[k];
+    for (std::size_t k = 0; k < n; ++k) root[r] += mass[r * n + k] * velocity[k];
   return {dynamics.world[0].rotation * Vec3(root[3], root[4], root[5]), Vec3(root[0], root[1], root[2])};
 }
 

@@ -233,7 +233,7 @@ class Simulation {
   }
 
   void find_forces(std::span<const double> acceleration, std::span<double> forces) {
-    multiply(body_, s_.mass, acceleration, forces);
+    multiply(s_.mass, acceleration, forces);
     for (std::size_t k = 0; k < forces.size(); ++k) forces[k] += s_.bias[k];
   }
 

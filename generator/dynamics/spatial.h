@@ -6,35 +6,42 @@
 
 namespace contort {
 
+// A vector with a fourth number, so that an instruction on four reads and writes it whole. That number is finite and
+// nobody's business.
+struct alignas(32) WideVec3 : Vec3 {
+  WideVec3(const Vec3& v = Vec3(0.0)) : Vec3(v) {}
+  const Vec3& narrow() const { return *this; }  // for templates that would deduce this type
+  double fourth = 0.0;
+};
+
+// Columns of a matrix.
+struct WideMat3 {
+  WideVec3 columns[3];
+
+  WideMat3(const Mat3& m = Mat3(0.0)) : columns{m[0], m[1], m[2]} {}
+  operator Mat3() const { return {columns[0], columns[1], columns[2]}; }
+  const WideVec3& operator[](int k) const { return columns[k]; }
+  WideVec3& operator[](int k) { return columns[k]; }
+};
+inline Vec3 operator*(const WideMat3& m, const Vec3& v) { return v.x * m[0] + v.y * m[1] + v.z * m[2]; }
+
 // A velocity or acceleration of a body: rad/s (rad/s^2), m/s (m/s^2) of the point of the body that is there.
 struct SpatialMotion {
-  Vec3 angular{0.0};
-  Vec3 linear{0.0};
+  WideVec3 angular;
+  WideVec3 linear;
 };
 
 // A force or momentum: N m about the origin (N m s), N (N s).
 struct SpatialForce {
-  Vec3 moment{0.0};
-  Vec3 force{0.0};
+  WideVec3 moment;
+  WideVec3 force;
 };
 
-// A symmetric matrix: its diagonal, and what stands beside it at yz, xz and xy.
-struct SymmetricMatrix {
-  Vec3 diagonal{0.0};
-  Vec3 beside{0.0};
-};
-
-inline Vec3 operator*(const SymmetricMatrix& m, const Vec3& v) {
-  return {m.diagonal.x * v.x + m.beside.z * v.y + m.beside.y * v.z,
-          m.beside.z * v.x + m.diagonal.y * v.y + m.beside.x * v.z,
-          m.beside.y * v.x + m.beside.x * v.y + m.diagonal.z * v.z};
-}
-
-// Mass, first moment mass * centre (kg m), and inertia about the point (kg m^2).
+// Mass, first moment mass * centre (kg m), and inertia about the point (kg m^2), symmetric.
 struct SpatialInertia {
   double mass_kg = 0.0;
-  Vec3 first_moment{0.0};
-  SymmetricMatrix inertia;
+  WideVec3 first_moment;
+  WideMat3 inertia;
 };
 
 inline SpatialForce operator*(const SpatialInertia& i, const SpatialMotion& m) {
@@ -43,49 +50,28 @@ inline SpatialForce operator*(const SpatialInertia& i, const SpatialMotion& m) {
 }
 
 inline SpatialMotion& operator+=(SpatialMotion& a, const SpatialMotion& b) {
-  a.angular += b.angular, a.linear += b.linear;
+  a.angular = a.angular + b.angular, a.linear = a.linear + b.linear;
   return a;
-}
-inline SpatialMotion operator+(const SpatialMotion& a, const SpatialMotion& b) {
-  return {a.angular + b.angular, a.linear + b.linear};
 }
 inline SpatialMotion operator*(double share, const SpatialMotion& m) { return {share * m.angular, share * m.linear}; }
 
 inline SpatialForce& operator+=(SpatialForce& a, const SpatialForce& b) {
-  a.moment += b.moment, a.force += b.force;
+  a.moment = a.moment + b.moment, a.force = a.force + b.force;
   return a;
 }
 
 // What moves a body so: I a + v x* I v, by the shorter way of the acceleration of the body's point at the origin.
-// Written in place, as copies through memory cost as much as the sums.
-inline void put_force_of(const SpatialInertia& i, const SpatialMotion& v, const SpatialMotion& a, SpatialForce& out) {
+inline SpatialForce force_of(const SpatialInertia& i, const SpatialMotion& v, const SpatialMotion& a) {
   const Vec3 origin_m_s2 = a.linear + glm::cross(v.angular, v.linear);
-  out.force = i.mass_kg * origin_m_s2 + glm::cross(a.angular, i.first_moment) +
-              glm::cross(v.angular, glm::cross(v.angular, i.first_moment));
-  out.moment =
-      i.inertia * a.angular + glm::cross(v.angular, i.inertia * v.angular) + glm::cross(i.first_moment, origin_m_s2);
-}
-
-inline SpatialForce force_of(const SpatialInertia& inertia, const SpatialMotion& v, const SpatialMotion& a) {
-  SpatialForce force;
-  put_force_of(inertia, v, a, force);
-  return force;
-}
-
-inline SpatialInertia& operator+=(SpatialInertia& a, const SpatialInertia& b) {
-  a.mass_kg += b.mass_kg, a.first_moment += b.first_moment;
-  a.inertia.diagonal += b.inertia.diagonal, a.inertia.beside += b.inertia.beside;
-  return a;
+  return {
+      i.inertia * a.angular + glm::cross(v.angular, i.inertia * v.angular) + glm::cross(i.first_moment, origin_m_s2),
+      i.mass_kg * origin_m_s2 + glm::cross(a.angular, i.first_moment) +
+          glm::cross(v.angular, glm::cross(v.angular, i.first_moment))};
 }
 
 // The power of a force on a body that moves so, W.
 inline double dot(const SpatialMotion& m, const SpatialForce& f) {
-  return glm::dot(m.angular, f.moment) + glm::dot(m.linear, f.force);
-}
-
-// v x m: how a motion that is carried along with v changes.
-inline SpatialMotion cross_motion(const SpatialMotion& v, const SpatialMotion& m) {
-  return {glm::cross(v.angular, m.angular), glm::cross(v.angular, m.linear) + glm::cross(v.linear, m.angular)};
+  return glm::dot(m.angular.narrow(), f.moment.narrow()) + glm::dot(m.linear.narrow(), f.force.narrow());
 }
 
 }  // namespace contort

@@ -28,7 +28,7 @@ void want_to_stay(const StandingFoot& foot, const Vec3& sole_m, double frequency
                   const DynamicsScratch& dynamics, double* wanted) {
   const Placement& link = dynamics.world[at(foot.link)];
   const SpatialMotion& v = dynamics.velocity[at(foot.link)];
-  const Quat now = glm::quat_cast(link.rotation) * foot.link_from_sole.q;
+  const Quat now = glm::quat_cast(Mat3(link.rotation)) * foot.link_from_sole.q;
   const Vec3 off[2] = {sole_m - foot.world_from_sole.p_m,
                        to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
   const Vec3 speed[2] = {v.linear + glm::cross(v.angular, sole_m - dynamics.world[0].origin_m), v.angular};
@@ -79,10 +79,7 @@ void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std
 
 void soles_moved_by(const SupportRows& support, std::span<const double> x, std::span<double> out) {
   std::ranges::fill(out, 0.0);
-  for (const int dof : support.dofs) {
-    const std::span<const double> column = support.column(dof);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += x[at(dof)] * column[i];
-  }
+  for (const int dof : support.dofs) add_scaled(x[at(dof)], support.column(dof), out);
 }
 
 void project_on_support(std::span<const double> ease, SupportRows& support, std::span<double> acceleration) {

@@ -47,14 +47,14 @@ inline Mat3 cross_of(const Vec3& a) { return {Vec3(0, a.z, -a.y), Vec3(-a.z, 0, 
 
 // A child's frame in its parent's.
 inline Placement relative(const Placement& parent, const Placement& child) {
-  const Mat3 back = glm::transpose(parent.rotation);
-  return {back * child.rotation, back * (child.origin_m - parent.origin_m)};
+  const Mat3 back = glm::transpose(Mat3(parent.rotation));
+  return {back * Mat3(child.rotation), back * (child.origin_m - parent.origin_m)};
 }
 
 // Motions of the parent into the child's frame.
 inline SixBySix motion_transform(const Placement& x) {
   SixBySix m{};
-  const Mat3 e = glm::transpose(x.rotation);
+  const Mat3 e = glm::transpose(Mat3(x.rotation));
   put(m, 0, 0, e), put(m, 3, 3, e), put(m, 3, 0, -1.0 * e * cross_of(x.origin_m));
   return m;
 }

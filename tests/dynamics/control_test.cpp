@@ -72,7 +72,7 @@ class Tick {
     for (std::size_t k = kRootDofs; k < n; ++k) acceleration[k] = testing::between(random, -2.0, 2.0);
     project_on_support(ease, support, acceleration);
     mass_matrix(figure.body, dynamics, mass);
-    multiply(figure.body, mass, acceleration, forces);
+    multiply(mass, acceleration, forces);
     for (std::size_t k = 0; k < n; ++k) forces[k] += bias[k];
     find_support_area(figure, feet.soles(), dynamics, area);
     const std::vector<double> firm(figure.soles.size(), 1.0);
@@ -276,7 +276,7 @@ TEST(Impact, SolesStayAndMomentumIsTheBlowsAndTheGrounds) {
   for (std::size_t k = 0; k < after.size(); ++k) after[k] += change[k];
   soles_moved_by(tick.support, after, moved);
   for (const double v : moved) EXPECT_NEAR(v, 0.0, 1e-9);
-  multiply(tick.figure.body, tick.mass, change, momentum);
+  multiply(tick.mass, change, momentum);
   Vec3 given = blow.impulse_N_s;
   for (std::size_t f = 0; f < 2; ++f)
     given += Vec3(response.push[6 * f], response.push[6 * f + 1], response.push[6 * f + 2]);
@@ -298,7 +298,7 @@ TEST(Impact, BracingKeepsTheMomentumAndNoJointIsFasterThanItCanBe) {
   std::copy_n(impulse.begin(), kRootDofs, stiff.begin());
   solve_symmetric(matrix, kRootDofs, std::span(stiff).first(kRootDofs));
   brace(tick.state.velocity, stiff, tick.figure.fastest, change);
-  multiply(tick.figure.body, tick.mass, change, forces);
+  multiply(tick.mass, change, forces);
   for (std::size_t k = 0; k < kRootDofs; ++k) EXPECT_NEAR(forces[k], impulse[k], 1e-8 * (1 + std::fabs(impulse[k])));
   double closest = 1e9;
   for (std::size_t k = kRootDofs; k < change.size(); ++k) {

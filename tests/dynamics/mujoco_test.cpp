@@ -75,8 +75,6 @@ class Compared {
   void compare_mass(const std::vector<double>& forces, const std::vector<double>& bias, const DynamicsState& state) {
     std::vector<double> matrix(n_ * n_);
     mass_matrix(body_, scratch_, matrix);
-    for (std::size_t i = 0; i < n_; ++i)
-      for (std::size_t j = 0; j < i; ++j) matrix[j * n_ + i] = matrix[i * n_ + j];
     worst_.mass = std::max(worst_.mass, difference(matrix, theirs_.mass_matrix(body_)));
     std::vector<double> x(n_);
     for (std::size_t i = 0; i < n_; ++i) x[i] = forces[i] - bias[i];

@@ -11,6 +11,8 @@
 #include "fuzz/parallel.h"
 #include "generator/core/detmath.h"
 #include "generator/core/hash.h"
+#include "generator/dynamics/recursions.h"
+#include "tests/dynamics/states.h"
 #include "tests/scenes.h"
 
 namespace contort {
@@ -70,6 +72,31 @@ void print_round(const char* which, const RoundKernel& kernel) {
   std::printf("round_distances kernel=%s pairs=%zu hash=%s\n", which, pairs.size(), to_hex(hash.value()).c_str());
 }
 
+// The recursions of dynamics by one set of instructions, on what place() and inverse_dynamics() prepared.
+void print_recursions(const char* which, const RecursionSet& set) {
+  Hash64 hash;
+  for (const char* name : {"human", "mech", "quadruped"}) {
+    const Multibody body = Multibody::of(*build_character({name, {}, {}}, stock_library()));
+    const auto n = static_cast<std::size_t>(body.dof_count());
+    std::mt19937_64 engine(5);
+    std::vector<double> forces(n), matrix(n * n), product(n);
+    for (int i = 0; i < 20; ++i) {
+      const testing::DynamicsState state = testing::any_state(body, engine);
+      DynamicsScratch scratch;
+      place(body, state.root, state.coords, scratch);
+      inverse_dynamics(body, state.velocity, state.acceleration, kGravity_m_s2, scratch, forces);
+      scratch.composite.resize(body.links().size());
+      set.place_links(body, state.coords, scratch);
+      set.sum_forces(body, state.velocity, state.acceleration, scratch, forces);
+      set.fill_mass_matrix(body, scratch, matrix);
+      set.multiply(matrix, state.acceleration, product);
+      for (const std::vector<double>* values : {&forces, &matrix, &product})
+        for (const double value : *values) hash.add(value);
+    }
+  }
+  std::printf("recursions set=%s hash=%s\n", which, to_hex(hash.value()).c_str());
+}
+
 // Cases drawn by the fuzzer, on so many threads: the threads must not show.
 void print_drawn(int jobs) {
   constexpr int kCases = 200;
@@ -102,6 +129,8 @@ int main() {
   contort::print_math();
   contort::print_round("slowest", contort::round_kernels().front());
   contort::print_round("fastest", contort::round_kernels().back());
+  contort::print_recursions("slowest", contort::recursion_sets().front());
+  contort::print_recursions("fastest", contort::recursion_sets().back());
   for (const contort::NamedScene& named : contort::all_scenes()) contort::print_scene(named);
   for (const int jobs : {1, 4}) contort::print_drawn(jobs);
 }
