@@ -8,8 +8,6 @@ namespace contort {
 
 namespace {
 
-constexpr double kScale_rad = 0.1;
-
 double angle_between(const AssetChannel& channel, std::size_t key_a, std::size_t key_b) {
   const Quat a = sample_rotation(channel, channel.times_s[key_a]);
   const Quat b = sample_rotation(channel, channel.times_s[key_b]);
@@ -31,7 +29,8 @@ std::vector<Finding> check_loop_seam(const Asset& asset, const AssetClip& clip, 
     const std::string& node = asset.nodes[static_cast<std::size_t>(channel.node)].label;
     const double margin = margin_rad(channel) + tolerance_of(settings, "loop_seam", node);
     const int last = static_cast<int>(channel.times_s.size()) - 1;
-    if (margin < 0.0) findings.push_back({"loop_seam", node, "rad", last, last, last, margin, -margin / kScale_rad});
+    if (margin < 0.0)
+      findings.push_back({"loop_seam", node, "rad", last, last, last, margin, -margin / kSeamScale_rad});
   }
   return findings;
 }

@@ -6,6 +6,7 @@
 
 #include "checks/check.h"
 #include "checks/circumstances.h"
+#include "checks/clip_checks.h"
 #include "generator/core/json_fields.h"
 
 namespace contort {
@@ -32,10 +33,9 @@ int days_of(int year, int month) {
   return kDays[static_cast<std::size_t>(month - 1)] + (month == 2 && is_leap ? 1 : 0);
 }
 
-// loop_seam is for clips alone, so it has no row in the manifest.
 bool is_check(std::string_view name) {
-  return name == "loop_seam" ||
-         std::ranges::any_of(all_checks(), [&](const CheckDef& check) { return check.name == name; });
+  const auto is_named = [&](const auto& check) { return check.name == name; };
+  return std::ranges::any_of(all_checks(), is_named) || std::ranges::any_of(clip_checks(), is_named);
 }
 
 bool is_phase(std::string_view name) {

@@ -1,8 +1,8 @@
-#include "cli/catalogue_fields.h"
-
 #include <optional>
 
 #include "checks/check.h"
+#include "checks/clip_checks.h"
+#include "cli/catalogue_fields.h"
 #include "cli/variants.h"
 #include "fuzz/profile.h"
 #include "generator/actions/action.h"
@@ -88,6 +88,8 @@ Json list_checks(const Library&) {
   for (const CheckDef& check : all_checks())
     out.push_back(
         {{"name", check.name}, {"scale", check.scale}, {"resolution", check.resolution}, {"help", check.help}});
+  for (const ClipCheckDef& check : clip_checks())
+    out.push_back({{"name", check.name}, {"scale", check.scale}, {"resolution", 0.0}, {"help", check.help}});
   return out;
 }
 

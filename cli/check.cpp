@@ -89,6 +89,11 @@ void add_check(CLI::App& app, Context& context) {
   command->add_option("--loops", options->loops, "Clips whose names match are loops: judge their seams; * is anything")
       ->type_name("PATTERN");
   command
+      ->add_option("--max-gap-m", options->max_gap_m,
+                   "Judge joints that are farther than this from their place in the joint above (0.01)")
+      ->check(CLI::Range(0.0, 1e6))
+      ->check(refuse_nan);
+  command
       ->add_flag("--all-clips", options->all_clips,
                  "Every clip of every file, in folders and below: one line for each, worst first")
       ->excludes(clip);

@@ -11,6 +11,7 @@
 #include "checks/dof_limits.h"
 #include "checks/joint_map.h"
 #include "checks/loop_seam.h"
+#include "checks/part_gap.h"
 #include "checks/waive.h"
 #include "cli/clip_report.h"
 #include "cli/print.h"
@@ -105,8 +106,9 @@ void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingO
 void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked& out) {
   keep_open(
       settings, report.speeds.findings, [](const ClipFinding& f) { return f.finding; }, out);
-  keep_open(
-      settings, report.seams, [](const Finding& f) { return f; }, out);
+  for (std::vector<Finding>* found : {&report.seams, &report.gaps})
+    keep_open(
+        settings, *found, [](const Finding& f) { return f; }, out);
   if (report.limits)
     keep_open(
         settings, report.limits->findings, [](const Finding& f) { return f; }, out);
@@ -121,9 +123,11 @@ void check_file(const std::string& file, const ClipCheckOptions& options, const 
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
   for (ClipSpeeds& speeds : check_clip_speeds(animation->asset, limits, options.clip)) {
-    ClipReport report{file, std::move(speeds), {}, {}, options.animation.rate_hz, 0};
-    if (!options.loops.empty() && matches(options.loops, report.speeds.clip))
-      report.seams = check_loop_seam(animation->asset, clip_of(animation->asset, report.speeds.clip), limits.settings);
+    const AssetClip& clip = clip_of(animation->asset, speeds.clip);
+    ClipReport report{file, std::move(speeds), {}, {}, {}, options.animation.rate_hz, 0};
+    if (!options.loops.empty() && matches(options.loops, clip.label))
+      report.seams = check_loop_seam(animation->asset, clip, limits.settings);
+    if (options.max_gap_m) report.gaps = check_part_gap(animation->asset, clip, *options.max_gap_m, limits.settings);
     if (const std::optional<Take>& take = animation->take; take) {
       report.limits = check_dof_limits(take->skeleton, take->motion, limits.settings);
       report.first_frame = take->motion.first_frame;

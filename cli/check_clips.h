@@ -1,6 +1,7 @@
 // contort check for animations made elsewhere: one file, or all clips of many.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,12 @@
 namespace contort::cli {
 
 struct ClipCheckOptions {
-  std::vector<std::string> files;  // with all_clips, folders too; without, one file
-  std::string character;           // whose speed limits apply, "" for none
-  std::string map;                 // a file that says which node stands for which joint of the character
-  std::string clip;                // "" for all
-  std::string loops;               // clips with such names are loops, "" for none
+  std::vector<std::string> files;   // with all_clips, folders too; without, one file
+  std::string character;            // whose speed limits apply, "" for none
+  std::string map;                  // a file that says which node stands for which joint of the character
+  std::string clip;                 // "" for all
+  std::string loops;                // clips with such names are loops, "" for none
+  std::optional<double> max_gap_m;  // joints farther from their places are part_gap; nothing is judged without
   AnimationOptions animation;
   double max_speed_deg_s = 3000.0;
   bool all_clips = false;

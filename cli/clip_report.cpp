@@ -14,13 +14,15 @@ namespace {
 using json_fields::Json;
 
 std::size_t findings_of(const ClipReport& clip) {
-  return clip.speeds.findings.size() + (clip.limits ? clip.limits->findings.size() : 0) + clip.seams.size();
+  return clip.speeds.findings.size() + (clip.limits ? clip.limits->findings.size() : 0) + clip.seams.size() +
+         clip.gaps.size();
 }
 
 double worst_depth(const ClipReport& clip) {
   const double fast = -clip.speeds.least_margin_rad_s / find_check("angular_velocity").scale;
   double worst = clip.limits ? std::max(fast, clip.limits->worst_depth) : fast;
-  for (const Finding& seam : clip.seams) worst = std::max(worst, seam.depth);
+  for (const std::vector<Finding>* found : {&clip.seams, &clip.gaps})
+    for (const Finding& finding : *found) worst = std::max(worst, finding.depth);
   return worst;
 }
 
@@ -97,6 +99,17 @@ Json seam_json(const Finding& f) {
           {"depth", f.depth}, {"last_key", f.worst_frame}};
 }
 
+Json gap_json(const Finding& f) {
+  return {{"check", f.check},
+          {"subject", f.subject},
+          {"unit", f.unit},
+          {"worst_margin", f.worst_margin},
+          {"depth", f.depth},
+          {"first_key", f.first_frame},
+          {"worst_key", f.worst_frame},
+          {"last_key", f.last_frame}};
+}
+
 Json clip_json(const ClipReport& clip) {
   Json findings = Json::array();
   for (const ClipFinding& f : clip.speeds.findings) findings.push_back(speed_json(f));
@@ -112,6 +125,7 @@ Json clip_json(const ClipReport& clip) {
     out["samples_out_of_range"] = clip.limits->out_of_range;
   }
   for (const Finding& f : clip.seams) findings.push_back(seam_json(f));
+  for (const Finding& f : clip.gaps) findings.push_back(gap_json(f));
   out["findings"] = findings;
   return out;
 }
@@ -143,6 +157,9 @@ void print_clip(const ClipReport& clip) {
   for (const Finding& f : clip.seams)
     std::printf("  loop_seam  %s  %s wider than allowed between its last key and its first\n",
                 printable(f.subject).c_str(), margin_text(f).c_str());
+  for (const Finding& f : clip.gaps)
+    std::printf("  part_gap  %s  %.3f m farther from its place than allowed  keys %d-%d, worst %d\n",
+                printable(f.subject).c_str(), -f.worst_margin, f.first_frame, f.last_frame, f.worst_frame);
   if (!clip.limits) return;
   std::printf("  declared limits: %s\n", limits_text(*clip.limits).c_str());
   print_limit_findings(clip);

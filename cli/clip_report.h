@@ -16,6 +16,7 @@ struct ClipReport {
   ClipSpeeds speeds;
   std::optional<DofLimits> limits;  // of an .amc
   std::vector<Finding> seams;       // of a loop
+  std::vector<Finding> gaps;        // joints out of their places
   double rate_hz = 0.0;             // of an .amc, with the number of its first frame
   int first_frame = 0;
 };

@@ -92,5 +92,19 @@ TEST_F(SettingsOfCommands, AClipThatIsALoopMustClose) {
   EXPECT_FALSE(says(contort_program({"check", glb, "--loops", "*", "--settings", settings}), "loop_seam"));
 }
 
+TEST_F(SettingsOfCommands, ChecksOfClipsAreListedAndMayBeNamed) {
+  const Ran list = contort_program({"list", "checks"});
+  for (const char* name : {"loop_seam", "part_gap"}) EXPECT_TRUE(says(list, name)) << list.out;
+  const std::string glb = folder_ / "motion.glb";
+  ASSERT_EQ(contort_program({"generate", spec(), "-o", glb}).code, 0);
+  const std::string settings = file("gaps.json", R"({"format": "contort.settings/1", "limits": [{"check": "part_gap",
+      "use": "ignore", "reason": "stretches"}]})");
+  const Ran judged = contort_program({"check", glb, "--max-gap-m", "0", "--settings", settings});
+  EXPECT_NE(judged.code, 2) << judged.err;
+  EXPECT_FALSE(says(judged, "part_gap")) << judged.out;
+  EXPECT_EQ(contort_program({"check", glb, "--max-gap-m", "nan"}).code, 2);
+  EXPECT_EQ(contort_program({"check", glb, "--max-gap-m", "-1"}).code, 2);
+}
+
 }  // namespace
 }  // namespace contort

@@ -1,0 +1,67 @@
+#include "checks/part_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "generator/asset/sample.h"
+
+namespace contort {
+
+namespace {
+
+constexpr int kParts = 8;  // of an interval of a spline
+
+const AssetNode* parent_of(const Asset& asset, const AssetNode& node) {
+  return node.parent < 0 ? nullptr : &asset.nodes[static_cast<std::size_t>(node.parent)];
+}
+
+// Whether a joint has a joint above it that has one too.
+bool is_inner(const Asset& asset, const AssetNode& node) {
+  const AssetNode* parent = parent_of(asset, node);
+  const AssetNode* above = parent == nullptr ? nullptr : parent_of(asset, *parent);
+  return node.is_joint && above != nullptr && parent->is_joint && above->is_joint;
+}
+
+double gap_m(const AssetChannel& channel, const Vec3& rest_m, double t_s) {
+  const Vec3 off = sample_vector(channel, t_s) - rest_m;
+  return std::sqrt(glm::dot(off, off));
+}
+
+// The widest from this key up to the next one.
+double widest_m(const AssetChannel& channel, const Vec3& rest_m, std::size_t key) {
+  double widest = gap_m(channel, rest_m, channel.times_s[key]);
+  if (channel.interpolation != Interpolation::cubic_spline || key + 1 == channel.times_s.size()) return widest;
+  const double t0 = channel.times_s[key], step = (channel.times_s[key + 1] - t0) / kParts;
+  for (int part = 1; part < kParts; ++part) widest = std::max(widest, gap_m(channel, rest_m, t0 + part * step));
+  return widest;
+}
+
+std::optional<Finding> judge(const AssetChannel& channel, const AssetNode& node, double allowed_m) {
+  Finding finding{"part_gap", node.label, "m", -1, -1, -1, 0.0, 0.0};
+  for (std::size_t key = 0; key < channel.times_s.size(); ++key) {
+    const double margin_m = allowed_m - widest_m(channel, node.rest.translation, key);
+    if (!(margin_m < 0.0)) continue;
+    finding.last_frame = static_cast<int>(key);
+    if (finding.first_frame < 0) finding.first_frame = finding.last_frame;
+    if (margin_m < finding.worst_margin) finding.worst_frame = finding.last_frame, finding.worst_margin = margin_m;
+  }
+  finding.depth = -finding.worst_margin / kGapScale_m;
+  return finding.first_frame < 0 ? std::optional<Finding>() : finding;
+}
+
+}  // namespace
+
+std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, double most_m,
+                                    const CheckSettings& settings) {
+  std::vector<Finding> findings;
+  for (const AssetChannel& channel : clip.channels) {
+    const AssetNode& node = asset.nodes[static_cast<std::size_t>(channel.node)];
+    if (channel.path != ChannelPath::translation || !is_inner(asset, node)) continue;
+    const double allowed_m = most_m + tolerance_of(settings, "part_gap", node.label);
+    if (std::optional<Finding> finding = judge(channel, node, allowed_m)) findings.push_back(std::move(*finding));
+  }
+  return findings;
+}
+
+}  // namespace contort
