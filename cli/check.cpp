@@ -89,8 +89,10 @@ void add_check(CLI::App& app, Context& context) {
   command->add_option("--loops", options->loops, "Clips whose names match are loops: judge their seams; * is anything")
       ->type_name("PATTERN");
   command
-      ->add_option("--max-gap-m", options->max_gap_m,
-                   "Judge joints that are farther than this from their place in the joint above (0.01)")
+      ->add_option(
+          "--max-gap-m", options->max_gap_m,
+          "Judge joints that are farther than this from their place in the joint above (0.01); a file that is not "
+          "in metres, as many .bvh, is meant in its own unit")
       ->check(CLI::Range(0.0, 1e6))
       ->check(refuse_nan);
   command
