@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "checks/limits.h"
-#include "generator/motion/kinematics.h"
+#include "generator/motion/place_frames.h"
 
 namespace contort {
 
@@ -67,15 +67,6 @@ void Evaluator::set_waived_apart(const Stage& stage, Evaluation& evaluation) con
   evaluation.waivers = std::move(waived.uses);
 }
 
-void Evaluator::place(const Character& character, const Motion& motion) {
-  const std::size_t joints = character.joints().size();
-  world_.resize(joints * static_cast<std::size_t>(motion.frame_count));
-  for (int frame = 0; frame < motion.frame_count; ++frame) {
-    const auto f = static_cast<std::size_t>(frame);
-    forward_kinematics(character, motion.root[f], motion.row(frame), std::span(world_).subspan(f * joints, joints));
-  }
-}
-
 MarginFold Evaluator::fold(const CheckDef& check, const CheckInput& input, bool record) const {
   MarginFold margins(check.subject_count(input.character), settings_.merge_gap_frames, check.resolution);
   if (record) margins.record(input.motion.frame_count);
@@ -92,7 +83,7 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
   for (const CheckDef& check : all_checks()) {
     if (!only_check.empty() && check.name != only_check) continue;
     if (check.needs_world && !placed) {
-      place(character, motion);
+      place_frames(character, motion, world_);
       placed = true;
     }
     const MarginFold margins = fold(check, {character, motion, world_, settings_, environment, timeline}, false);

@@ -64,7 +64,6 @@ class Evaluator {
 
  private:
   void set_waived_apart(const Stage& stage, Evaluation& evaluation) const;
-  void place(const Character& character, const Motion& motion);
   MarginFold fold(const CheckDef& check, const CheckInput& input, bool record) const;
 
   CheckSettings settings_;

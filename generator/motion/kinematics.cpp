@@ -13,14 +13,30 @@ Rigid joint_motion(const Joint& joint, std::span<const double> row) {
   return {};
 }
 
+namespace {
+
+// By the joint's own motion, from where it rests.
+void move(const Joint& joint, const double* q, Rigid& world_from_joint) {
+  auto& [turn, place_m] = world_from_joint;
+  switch (joint.kind) {
+    case JointKind::hinge: turn = turn * axis_angle(joint.axis, q[0]); break;
+    case JointKind::ball: turn = turn * Quat(q[0], q[1], q[2], q[3]); break;
+    case JointKind::prismatic: place_m += turn * (q[0] * joint.axis); break;
+    case JointKind::root: break;
+  }
+}
+
+}  // namespace
+
 void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
                         std::span<Rigid> world) {
   const std::span<const Joint> joints = character.joints();
   for (int i = first; i < last; ++i) {
     const Joint& joint = joints[static_cast<std::size_t>(i)];
     if (joint.kind == JointKind::root) continue;
-    world[static_cast<std::size_t>(i)] =
-        world[static_cast<std::size_t>(joint.parent)] * joint.parent_from_joint * joint_motion(joint, row);
+    Rigid& own = world[static_cast<std::size_t>(i)];
+    own = world[static_cast<std::size_t>(joint.parent)] * joint.parent_from_joint;
+    move(joint, row.data() + joint.coord, own);
   }
 }
 
