@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <random>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/side_by_side.h"
 #include "checks/distance.h"
 #include "checks/round_distances.h"
 
@@ -49,12 +49,6 @@ std::vector<Pose> random_poses() {
     }
   }
   return poses;
-}
-
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // What varies from pose to pose, by capsule.
@@ -106,14 +100,9 @@ using Measure = std::function<double(int pose)>;
 
 // Microseconds for a pose; `sum` keeps the work from being left out.
 double slice(const Measure& measure, double& sum) {
-  const double start = seconds();
+  const double start = thread_time_s();
   for (int pose = 0; pose < kPoses; ++pose) sum += measure(pose);
-  return 1e6 * (seconds() - start) / kPoses;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+  return 1e6 * (thread_time_s() - start) / kPoses;
 }
 
 void compare(const std::string& name, const char* peer_name, const Measure& ours, const Measure& peer) {

@@ -3,21 +3,15 @@
 // learnt.
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
+#include "bench/side_by_side.h"
 #include "generator/generate.h"
 #include "tests/dynamics/mujoco_model.h"
 #include "tests/scenes.h"
 
 namespace contort {
 namespace {
-
-double thread_time_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 constexpr int kStates = 256;
 constexpr int kSlices = 301;
@@ -42,10 +36,6 @@ void compare(const char* name, Ours ours, Theirs theirs) {
     peers.push_back(slice(their_calls, b, theirs));
     ratios.push_back(times.back() / peers.back());
   }
-  const auto median = [](std::vector<double>& v) {
-    std::nth_element(v.begin(), v.begin() + kSlices / 2, v.end());
-    return v[kSlices / 2];
-  };
   std::printf("%-22s ours %6.2f us   MuJoCo %6.2f us   ratio %.3f\n", name, 1e6 * median(times), 1e6 * median(peers),
               median(ratios));
 }

@@ -40,37 +40,87 @@ std::string inertial_text(const Joint& joint) {
          numbers({i[0][0], i[1][1], i[2][2], i[1][0], i[2][0], i[2][1]}) + "\"/>";
 }
 
+std::string placed(const Rigid& at_rest) {
+  return at("pos", at_rest.p_m) + " quat=\"" +
+         numbers({at_rest.q.w, at_rest.q.x, at_rest.q.y, at_rest.q.z}) + "\"";
+}
+
+struct ShapeText {
+  std::string operator()(const Sphere& s) const {
+    return "sphere\"" + at("pos", s.center_m) + " size=\"" + numbers({s.radius_m}) + "\"";
+  }
+  std::string operator()(const Capsule& c) const {
+    return "capsule\" fromto=\"" + numbers({c.a_m.x, c.a_m.y, c.a_m.z, c.b_m.x, c.b_m.y, c.b_m.z}) + "\" size=\"" +
+           numbers({c.radius_m}) + "\"";
+  }
+  std::string operator()(const Box& b) const {
+    return "box\"" + placed({from_rotation_vector(kRadPerDeg * b.rotation_deg), b.center_m}) + at("size", b.half_m);
+  }
+  std::string operator()(const ConvexHull&) const { throw std::runtime_error("hulls are not told to MuJoCo"); }
+};
+
+std::string shapes_text(const Character& character, int joint) {
+  std::string text;
+  for (const Collider& collider : character.colliders())
+    if (collider.joint == joint) text += "<geom type=\"" + std::visit(ShapeText{}, collider.shape) + "/>";
+  return text;
+}
+
+std::string body_name(int joint) { return "\"b" + std::to_string(joint) + "\""; }
+
+// Bodies with shapes that are not a judged pair.
+std::string excludes_text(const Character& character) {
+  const auto bodies = character.bodies();
+  const auto judged = [&](int a, int b) {
+    return std::ranges::any_of(character.judged_pairs(), [&](const JudgedPair& pair) {
+      const int first = bodies[static_cast<std::size_t>(pair.body_a)].joint;
+      const int second = bodies[static_cast<std::size_t>(pair.body_b)].joint;
+      return std::minmax(first, second) == std::minmax(a, b);
+    });
+  };
+  std::string text;
+  for (const Body& a : bodies)
+    for (const Body& b : bodies)
+      if (a.joint < b.joint && !judged(a.joint, b.joint))
+        text += "<exclude body1=" + body_name(a.joint) + " body2=" + body_name(b.joint) + "/>";
+  return "<contact>" + text + "</contact>";
+}
+
 std::string body_text(const Character& character, int index, const Rigid& parent_from_before,
-                      std::vector<std::pair<int, Rigid>> pending) {
+                      std::vector<std::pair<int, Rigid>> pending, Shapes shapes) {
   const auto joints = character.joints();
   const Joint& joint = joints[static_cast<std::size_t>(index)];
-  const Rigid placed = parent_from_before * joint.parent_from_joint;
+  const Rigid own = parent_from_before * joint.parent_from_joint;
   for (auto& [other, own_from_other] : pending) own_from_other = inverse(joint.parent_from_joint) * own_from_other;
   pending.emplace_back(index, Rigid{});
   const auto children = [&](const Rigid& from, const std::vector<std::pair<int, Rigid>>& carried) {
     std::string text;
     for (std::size_t c = 1; c < joints.size(); ++c)
-      if (joints[c].parent == index) text += body_text(character, static_cast<int>(c), from, carried);
+      if (joints[c].parent == index) text += body_text(character, static_cast<int>(c), from, carried, shapes);
     return text;
   };
-  if (joint.mass_kg == 0.0 && index > 0) return children(placed, pending);
-  std::string text = "<body" + at("pos", placed.p_m) + " quat=\"" + numbers({placed.q.w, placed.q.x, placed.q.y, placed.q.z}) + "\">";
+  if (joint.mass_kg == 0.0 && index > 0) return children(own, pending);
+  std::string text = "<body name=" + body_name(index) + placed(own) + ">";
   if (index == 0) text += "<freejoint name=\"j0\"/>";
   for (const auto& [other, own_from_other] : pending)
     if (other > 0) text += joint_text(joints[static_cast<std::size_t>(other)], other, own_from_other);
+  if (shapes == Shapes::colliders) text += shapes_text(character, index);
   return text + inertial_text(joint) + children(Rigid{}, {}) + "</body>\n";
 }
 
 }  // namespace
 
-std::string mjcf_of(const Character& character) {
-  return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option gravity=\"0 -9.81 0\"><flag "
-         "contact=\"disable\" constraint=\"disable\" energy=\"enable\"/></option><worldbody>" +
-         body_text(character, 0, Rigid{}, {}) + "</worldbody></mujoco>";
+std::string mjcf_of(const Character& character, Shapes shapes) {
+  const bool touch = shapes == Shapes::colliders;
+  return std::string("<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/>") +
+         (touch ? "<size nconmax=\"2000\" njmax=\"8000\"/>" : "") + "<option gravity=\"0 -9.81 0\"><flag " +
+         (touch ? "" : "contact=\"disable\" constraint=\"disable\" ") + "energy=\"enable\"/></option><worldbody>" +
+         body_text(character, 0, Rigid{}, {}, shapes) + "</worldbody>" + (touch ? excludes_text(character) : "") +
+         "</mujoco>";
 }
 
-MujocoModel::MujocoModel(const Character& character) {
-  const std::string text = mjcf_of(character);
+MujocoModel::MujocoModel(const Character& character, Shapes shapes) {
+  const std::string text = mjcf_of(character, shapes);
   auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(text.size()));
@@ -92,16 +142,24 @@ MujocoModel::~MujocoModel() {
   if (model_ != nullptr) mj_deleteModel(model_);
 }
 
-void MujocoModel::set(const Multibody& body, const DynamicsState& state) {
-  const auto& [root, coords, velocity, acceleration] = state;
+std::vector<double> MujocoModel::coords_of(const Multibody& body, const Rigid& root,
+                                           std::span<const double> row) const {
+  std::vector<double> out(static_cast<std::size_t>(model_->nq));
   const double placed[] = {root.p_m.x, root.p_m.y, root.p_m.z, root.q.w, root.q.x, root.q.y, root.q.z};
-  std::copy_n(placed, 7, data_->qpos + coords_[0]);
+  std::copy_n(placed, 7, out.begin() + coords_[0]);
+  for (std::size_t i = 1; i < body.links().size(); ++i) {
+    const Link& link = body.links()[i];
+    std::copy_n(row.begin() + link.coord, coord_size(link.kind), out.begin() + coords_[i]);
+  }
+  return out;
+}
+
+void MujocoModel::set(const Multibody& body, const DynamicsState& state) {
+  std::ranges::copy(coords_of(body, state.root, state.coords), data_->qpos);
   for (std::size_t i = 0; i < body.links().size(); ++i) {
     const Link& link = body.links()[i];
-    if (i > 0)
-      std::copy_n(coords.begin() + link.coord, coord_size(link.kind), data_->qpos + coords_[i]);
-    std::copy_n(velocity.begin() + link.dof, link.dof_count, data_->qvel + dofs_[i]);
-    std::copy_n(acceleration.begin() + link.dof, link.dof_count, data_->qacc + dofs_[i]);
+    std::copy_n(state.velocity.begin() + link.dof, link.dof_count, data_->qvel + dofs_[i]);
+    std::copy_n(state.acceleration.begin() + link.dof, link.dof_count, data_->qacc + dofs_[i]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <mujoco/mujoco.h>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,12 @@
 
 namespace contort::testing {
 
+// Whether MuJoCo's bodies have shapes that touch: those of the colliders, in the pairs of bodies that are judged.
+enum class Shapes { none, colliders };
+
 class MujocoModel {
  public:
-  explicit MujocoModel(const Character& character);
+  explicit MujocoModel(const Character& character, Shapes shapes = Shapes::none);
   ~MujocoModel();
   MujocoModel(const MujocoModel&) = delete;
   MujocoModel& operator=(const MujocoModel&) = delete;
@@ -25,6 +29,8 @@ class MujocoModel {
 
   // Pose, velocities and accelerations in MuJoCo's order.
   void set(const Multibody& body, const DynamicsState& state);
+  // A posture in its order.
+  std::vector<double> coords_of(const Multibody& body, const Rigid& root, std::span<const double> row) const;
 
   // A vector over its freedoms, in our order.
   std::vector<double> ours(const Multibody& body, const mjtNum* theirs) const;
@@ -40,7 +46,7 @@ class MujocoModel {
 };
 
 // The model as MJCF text.
-std::string mjcf_of(const Character& character);
+std::string mjcf_of(const Character& character, Shapes shapes = Shapes::none);
 
 }  // namespace contort::testing
 
