@@ -2,6 +2,7 @@
 // has the formula behind it.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,18 +21,31 @@ class BetweenFrames {
   // What the frames point to has to stay where it is.
   void set(const Frame& before, const Frame& now);
 
-  // Whether the pair may overlap by over a millimetre more in between than in both frames, going by its travels alone.
+  // No point of one body of a judged pair moves farther as seen from the other; NaN where that is unknown.
+  double path_m(std::size_t judged) const { return paths_m_[chains_[judged].a] + paths_m_[chains_[judged].b]; }
+
+  // The same of all judged pairs.
+  void paths_m(std::span<double> out) const;
+
+  // Whether the pair may overlap by over a millimetre more in between than in both frames, going by its path alone.
   // The frames' distances may be given too small, not too large.
-  bool may_overlap(const JudgedPair& pair, double before_m, double now_m) const;
+  bool may_overlap(std::size_t judged, double before_m, double now_m) const;
 
   // The least distance in between, where the pair overlaps there by over a millimetre more than in both frames;
   // otherwise that of the frames.
-  double least_distance(const JudgedPair& pair, double before_m, double now_m);
+  double least_distance(std::size_t judged, double before_m, double now_m);
 
  private:
   struct Link {
     int joint;
     double reach_m;  // from its origin to the farthest point of the body that it moves, but for travels in between
+    bool slides;
+    double path_m(double farthest_out_m) const { return slides ? 1.0 : reach_m + farthest_out_m; }  // of a step of 1
+  };
+  // What is between a judged pair's bodies: the joint that carries both, and the links below it.
+  struct Chains {
+    int trunk;
+    std::size_t a, b;  // of paths_m_: what the links up to the trunk add up to
   };
   // How the points of a body move against a joint that carries it, all between two frames.
   struct Travel {
@@ -41,10 +55,18 @@ class BetweenFrames {
   struct Places {  // of two bodies, as seen from the joint that carries both
     Rigid a, b;
   };
+  // The figure at a moment in between, as far as anybody asked.
+  struct Pose {
+    int interval = 0;
+    double time = 0.0;
+    std::vector<Rigid> root_from;  // joints
+    std::vector<char> is_known;
+  };
   struct Moment {
     double time;  // 0 to 1
     Solid a, b;   // as seen from the joint that carries both
     double distance_m;
+    Vec3 way;  // as of signed_distance
   };
   struct Search {
     JudgedPair pair;
@@ -56,30 +78,40 @@ class BetweenFrames {
     void measure(Moment& moment) const;
     double enough_m() const;
     double sag_m(const Moment& from, const Moment& to) const;
-    bool is_proved_by(const Vec3& n, const Moment& from, const Moment& to) const;
-    bool is_proved(const Moment& from, const Moment& to) const;
+    bool is_near(const Moment& from, const Moment& to) const;
     double path_m() const { return a.path_m + b.path_m; }
   };
 
   void add_links(const Body& body);
+  std::size_t links_below(int trunk, int body) const;
   double step_of(const Joint& joint) const;
+  void add_paths();
   Travel travel_below(int trunk, int body) const;
   int trunk_of(int body_a, int body_b) const;
-  Rigid trunk_from(int trunk, int joint, double time) const;
+  const Rigid& root_from(Pose& pose, int joint) const;
+  Pose& pose_at(double time);
   Places places(const Search& search, const Frame& frame) const;
   Moment moment(const Search& search, double time, const Places& places) const;
-  void search_colliders(Search& search, Vec3& direction) const;
+  Moment middle_of(const Search& search, const Moment& from, const Moment& to);
+  static Vec3 way_out_of_deeper(const Moment& from, const Moment& to);
+  bool is_parted_along(const Search& search, const Vec3& n, const Moment& from, const Moment& to, int halvings);
+  void search_colliders(Search& search, Vec3& direction);
   bool may_overlap(const Search& search) const;
-  void halve(Search& search, const Moment& from, const Moment& to, int level) const;
+  void halve(Search& search, const Moment& from, const Moment& to, int level);
 
   const Character& character_;
   std::vector<Solid> own_;                // of colliders, in their joints' frames
-  std::vector<std::vector<Link>> links_;  // of bodies, from the body's joint down to the root's first
+  std::vector<Link> links_;               // of body after body, each from its own joint down to the root's first
+  std::vector<std::size_t> first_links_;  // of bodies, and the end
+  std::vector<Chains> chains_;            // of judged pairs
   Frame before_, now_;
+  int interval_ = 0;           // counts them
+  std::vector<Pose> poses_;    // by the moment
   std::vector<double> steps_;  // of joints, between the frames: rad or m
   double farthest_out_m_ = 0.0;
   std::vector<Vec3> directions_;  // of judged colliders, as seen from a's body: what parted b from a when last measured
-  std::vector<double> travels_m_;  // of bodies: no point of it moves farther against the root
+  // Of body after body: no point of it moves farther against the joint that carries its first 0, 1, 2 … links.
+  std::vector<double> paths_m_;
 };
 
 }  // namespace contort

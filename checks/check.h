@@ -48,7 +48,7 @@ struct CheckDef {
   // What is judged, numbered from 0.
   int (*subject_count)(const Character&);
   Subject (*subject)(const Character&, int);
-  // Reports every subject in every frame that it judges.
+  // Reports every subject in every frame that it judges; it may leave out margins that change nothing (fold.h).
   void (*measure)(const CheckInput&, MarginFold&);
 };
 

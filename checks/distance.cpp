@@ -13,6 +13,8 @@ namespace {
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
+Segment core_of(const Solid& round) { return {round.center_m, round.axis, round.half_length_m}; }
+
 // From the nearest point of a box at the origin, along the axes, to p outside of it; 0 inside.
 double point_box_distance(const Vec3& p, const Vec3& half) { return length(glm::max(glm::abs(p) - half, Vec3(0.0))); }
 
@@ -140,17 +142,30 @@ double nearest_edges(const Local& l, const Separation& apart, double best) {
   return best;
 }
 
-// Two convex polytopes that are apart are nearest at a corner and a face, or at two edges.
-double box_distance(const Solid& box, const Solid& other, double band_m) {
+// Two convex polytopes that are apart are nearest at a corner and a face, or at two edges. `way` as in signed_distance.
+double box_distance(const Solid& box, const Solid& other, double band_m, Vec3& way) {
   const Local l = in_frame_of(box, other);
-  if (l.axis_count == 0) {
-    const Vec3 outside = glm::abs(l.center) - l.half;
-    const double inside = std::max({outside.x, outside.y, outside.z});
-    return inside > 0.0 ? point_box_distance(l.center, l.half) : inside;
-  }
   const Separation apart = separation(l, band_m);
+  way = box.axes * (glm::dot(l.center, apart.axis) < 0.0 ? -apart.axis : apart.axis);
   if (apart.gap <= 0.0 || apart.gap > band_m) return apart.gap;
-  return nearest_edges(l, apart, nearest_corners(l));
+  return l.axis_count == 0 ? point_box_distance(l.center, l.half) : nearest_edges(l, apart, nearest_corners(l));
+}
+
+double round_distance(const Solid& a, const Solid& b, Vec3& way) {
+  const Vec3 back = between_segments(core_of(a), core_of(b));
+  const double distance = length(back);
+  way = distance > 1e-6 ? back / -distance : Vec3(0.0);
+  return distance;
+}
+
+double core_distance(const Solid& a, const Solid& b, double band_m, Vec3& way) {
+  if (a.core == Solid::Core::hull) return hull_distance(a, b, band_m);
+  if (b.core == Solid::Core::hull) return hull_distance(b, a, band_m);
+  if (a.core == Solid::Core::box) return box_distance(a, b, band_m, way);
+  if (b.core != Solid::Core::box) return round_distance(a, b, way);
+  const double distance = box_distance(b, a, band_m, way);
+  way = -way;
+  return distance;
 }
 
 Solid hull_solid(std::shared_ptr<const Polyhedron> hull) {
@@ -216,33 +231,35 @@ double extent_along(const Solid& solid, const Vec3& n) {
   return extent + solid.radius_m;
 }
 
+double gap_along(const Solid& a, const Solid& b, const Vec3& n) {
+  return glm::dot(b.center_m - a.center_m, n) - extent_along(a, n) - extent_along(b, -n);
+}
+
 Vec3 way_out(const Solid& a, const Solid& b) {
-  if (a.core != Solid::Core::box && b.core == Solid::Core::box) return -way_out(b, a);
-  if (a.core == Solid::Core::box && b.core != Solid::Core::hull) {
-    const Local l = in_frame_of(a, b);
-    const Vec3 axis = separation(l, std::numeric_limits<double>::infinity()).axis;
-    return a.axes * (glm::dot(l.center, axis) < 0.0 ? -axis : axis);
-  }
+  constexpr double kNoBand = std::numeric_limits<double>::infinity();
+  Vec3 way;
+  const double here_m = signed_distance(a, b, kNoBand, way);
+  if (way != Vec3(0.0)) return way;
   constexpr double kStep_m = 1e-7;  // differences are good enough
-  const double here_m = signed_distance(a, b, std::numeric_limits<double>::infinity());
-  Vec3 slope;
   for (int i = 0; i < 3; ++i) {
     Solid moved_b = b;
     moved_b.center_m[i] += kStep_m;
-    slope[i] = (signed_distance(a, moved_b, std::numeric_limits<double>::infinity()) - here_m) / kStep_m;
+    way[i] = (signed_distance(a, moved_b, kNoBand) - here_m) / kStep_m;
   }
-  return unit_or(slope, Vec3(0, 1, 0));
+  return unit_or(way, Vec3(0, 1, 0));
 }
 
-double signed_distance(const Solid& a, const Solid& b, double band_m) {
+double signed_distance(const Solid& a, const Solid& b, double band_m, Vec3& way) {
+  way = Vec3(0.0);
   const double poison = a.center_m.x + a.center_m.y + a.center_m.z + b.center_m.x + b.center_m.y + b.center_m.z;
   if (!std::isfinite(poison)) return std::numeric_limits<double>::quiet_NaN();
   const double radii = a.radius_m + b.radius_m;
-  if (a.core == Solid::Core::hull) return hull_distance(a, b, band_m + radii) - radii;
-  if (b.core == Solid::Core::hull) return hull_distance(b, a, band_m + radii) - radii;
-  if (a.core == Solid::Core::box) return box_distance(a, b, band_m + radii) - radii;
-  if (b.core == Solid::Core::box) return box_distance(b, a, band_m + radii) - radii;
-  return segment_distance({a.center_m, a.axis, a.half_length_m}, {b.center_m, b.axis, b.half_length_m}) - radii;
+  return core_distance(a, b, band_m + radii, way) - radii;
+}
+
+double signed_distance(const Solid& a, const Solid& b, double band_m) {
+  Vec3 way;
+  return signed_distance(a, b, band_m, way);
 }
 
 }  // namespace contort

@@ -21,6 +21,8 @@ struct Solid {
   Mat3 axes{1.0};                            // box, hull: columns are its unit axes
   Vec3 half_m{0.0};                          // box: half of each side
   std::shared_ptr<const Polyhedron> hull{};  // hull: its corners are center_m + axes * corner
+
+  bool is_round() const { return core == Core::point || core == Core::segment; }  // a sphere or a capsule
 };
 
 Solid solid_of(const ColliderShape& shape);
@@ -32,6 +34,9 @@ void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 // How far it reaches from its centre along the unit vector n.
 double extent_along(const Solid& solid, const Vec3& n);
 
+// How far b is beyond a along the unit vector n: no more than their signed distance, whatever n.
+double gap_along(const Solid& a, const Solid& b, const Vec3& n);
+
 // The direction in which b must move to get away from a fastest, about: of their nearest points, or of the shortest way
 // out. For bounds, which any direction gives.
 Vec3 way_out(const Solid& a, const Solid& b);
@@ -39,5 +44,9 @@ Vec3 way_out(const Solid& a, const Solid& b);
 // Signed distance in metres. Where it is greater than `band_m`, any number in (band_m, true distance] may come back
 // instead: far apart is far apart. NaN coordinates give NaN.
 double signed_distance(const Solid& a, const Solid& b, double band_m);
+
+// The same, with the way_out where it costs nothing, and 0 where it would: of hulls, of what has no place, and of round
+// solids whose cores cross. Beyond the band it is any direction along which they are that far apart.
+double signed_distance(const Solid& a, const Solid& b, double band_m, Vec3& way);
 
 }  // namespace contort

@@ -60,6 +60,13 @@ class MarginFold {
     }
   }
 
+  // The subject's margins from here up change nothing that is kept, and need not be reported.
+  double matters_below(int subject) const {
+    const double smallest = smallest_[static_cast<std::size_t>(subject)];
+    if (!plain_) return std::numeric_limits<double>::infinity();
+    return smallest > least_ ? smallest : least_;
+  }
+
   // Episodes in the order of their first frame, then of subjects.
   std::vector<Episode> episodes() const;
 

@@ -54,9 +54,14 @@ inline ClosestOnSegments closest_on_segments(const Segment& a, const Segment& b)
   return {s, t};
 }
 
-inline double segment_distance(const Segment& a, const Segment& b) {
+// From the point of b that is nearest to a to the one of a.
+inline Vec3 between_segments(const Segment& a, const Segment& b) {
   const ClosestOnSegments at = closest_on_segments(a, b);
-  const Vec3 apart = (a.center - b.center) + at.s * a.axis - at.t * b.axis;
+  return (a.center - b.center) + at.s * a.axis - at.t * b.axis;
+}
+
+inline double segment_distance(const Segment& a, const Segment& b) {
+  const Vec3 apart = between_segments(a, b);
   return std::sqrt(glm::dot(apart, apart));
 }
 

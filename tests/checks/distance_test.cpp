@@ -131,6 +131,30 @@ TEST_P(DistanceOf, WithABandIsExactBelowItAndNeverTooFarAboveIt) {
   EXPECT_GT(beyond, 300);
 }
 
+// Along the way out the two are apart by their distance: of boxes that are apart, by something of it.
+TEST_P(DistanceOf, TheWayOutIsADirectionThatPartsThem) {
+  const bool has_hull = GetParam().a == Core::hull || GetParam().b == Core::hull;
+  const bool has_box = GetParam().a == Core::box || GetParam().b == Core::box;
+  int known = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Solid a = draw_a(), b = shifted(draw_b(), random_.in_cube(0.4));
+    Vec3 way;
+    const double distance = signed_distance(a, b, kNoBand, way), radii = a.radius_m + b.radius_m;
+    ASSERT_EQ(distance, exact(a, b)) << "pair " << i;
+    ASSERT_EQ(has_hull, way == Vec3(0.0)) << "pair " << i;
+    if (way == Vec3(0.0)) continue;
+    ++known;
+    ASSERT_NEAR(glm::dot(way, way), 1.0, 1e-12) << "pair " << i;
+    const double gap = gap_along(a, b, way);
+    ASSERT_LE(gap, distance + 1e-12) << "pair " << i;
+    if (has_box && distance + radii > 0.0)
+      ASSERT_GT(gap, -radii) << "pair " << i;
+    else
+      ASSERT_NEAR(gap, distance, 1e-12) << "pair " << i;
+  }
+  EXPECT_EQ(known, has_hull ? 0 : 1000);
+}
+
 Solid scaled(Solid solid, double by) {
   for (Vec3* v : {&solid.center_m, &solid.half_m}) *v *= by;
   solid.half_length_m *= by, solid.radius_m *= by, solid.bound_m *= by;

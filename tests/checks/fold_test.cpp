@@ -199,6 +199,33 @@ TEST(Fold, AFamilyHoldsNoNumbers) {
   EXPECT_EQ(family_of("human", a), family_of("human", b));
 }
 
+RC_GTEST_PROP(Fold, MarginsFromWhereTheyDoNotMatterChangeNothing, ()) {
+  const auto margins = *rc::gen::container<std::vector<int>>(rc::gen::inRange(-6, 12));
+  MarginFold all(1, 1, 2.0), some(1, 1, 2.0);
+  for (int frame = 0; frame < static_cast<int>(margins.size()); ++frame) {
+    const int drawn = margins[static_cast<std::size_t>(frame)];
+    const double margin = drawn == 11 ? kNaN : static_cast<double>(drawn);
+    all.report(0, frame, margin);
+    if (!(margin >= some.matters_below(0))) some.report(0, frame, margin);
+  }
+  RC_ASSERT(all.episodes().size() == some.episodes().size());
+  for (std::size_t e = 0; e < all.episodes().size(); ++e) {
+    RC_ASSERT(all.episodes()[e].first == some.episodes()[e].first);
+    RC_ASSERT(all.episodes()[e].worst == some.episodes()[e].worst);
+    RC_ASSERT(all.episodes()[e].last == some.episodes()[e].last);
+  }
+  const double smallest = all.smallest()[0];
+  RC_ASSERT((std::isnan(smallest) ? std::isnan(some.smallest()[0]) : smallest == some.smallest()[0]));
+}
+
+TEST(Fold, EveryMarginMattersWhereTheyAreRecordedOrTolerated) {
+  MarginFold recorded(1, 1), tolerated(1, 1);
+  recorded.record(1);
+  tolerated.tolerate({0.5}, {}, 1);
+  EXPECT_EQ(recorded.matters_below(0), kInfinity);
+  EXPECT_EQ(tolerated.matters_below(0), kInfinity);
+}
+
 }  // namespace
 
 }  // namespace contort

@@ -1,0 +1,83 @@
+// Signed distances of the judged pairs of bodies in one frame after another, each as exactly as somebody needs it.
+//
+// A pair's distance is the least over its colliders. Bounding balls, first of bodies and then of colliders, dismiss
+// what is far apart; spheres and capsules that are left are measured together (round_distances.h), then boxes and
+// hulls, of which most are dismissed by the direction that parted them when they were last measured.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "checks/distance.h"
+#include "generator/character/character.h"
+
+namespace contort {
+
+// A judged pair that is to be measured.
+struct DuePair {
+  std::size_t judged = 0;
+  double matters_m = 0.0;  // exactly where it is nearer than this
+  double reach_m = 0.0;    // >= matters_m; beyond this, not at all
+};
+
+class Clearances {
+ public:
+  explicit Clearances(const Character& character);
+
+  // The next frame: world_from_joint, which has to stay where it is.
+  void place(std::span<const Rigid> world);
+
+  // No more than a pair's distance in this frame: how far apart its bodies are along the way out that they had when
+  // they were last measured (distance.h). NaN where they never were.
+  double gap_m(std::size_t judged) const;
+
+  // Of this frame.
+  void measure(std::span<const DuePair> due);
+  // Of a pair that was measured: its distance where that is below what matters; otherwise one that is no greater than
+  // its distance and no less than what matters. NaN where a body has no place.
+  double distance_m(const DuePair& due);
+
+ private:
+  struct Ball {
+    Vec3 center_m{0.0};
+    double radius_m = 0.0;
+  };
+  struct Pair {
+    std::size_t body_a, body_b;
+    double radii_m;                                   // of their balls, the sum
+    std::size_t first_round, first_other, end_other;  // of colliders_: spheres and capsules, then with a box or a hull
+    // When last measured:
+    bool is_near = false;
+    double apart_m = 0.0;                                // its balls, or the reach
+    std::size_t first_measured = 0, end_measured = 0;    // of round_m_
+    Vec3 way{std::numeric_limits<double>::quiet_NaN()};  // out, of b, as seen from a
+    double way_extent_m = 0.0;                           // of a along it
+  };
+
+  Pair parted(const JudgedPair& pair);
+  Ball ball_of(const Body& body) const;
+  const Rigid& place_of(std::size_t body) const;
+  Vec3 ball_center(std::size_t body) const { return place_of(body) * own_balls_[body].center_m; }
+  void place_body(std::size_t body);
+  bool are_apart(const ColliderPair& pair, double enough_m) const;
+  void gather_round(Pair& pair, double reach_m);
+  double extent_of(std::size_t body, const Vec3& n) const;
+  void set_way(Pair& pair, const Vec3& way);
+  void set_way_of_round(Pair& pair, const ColliderPair& nearest);
+  double distance_of_other(std::size_t i, const Pair& pair, double enough_m, double band_m);
+
+  const Character& character_;
+  std::vector<ColliderPair> colliders_;  // pair after pair, as the character's, but round ones first
+  std::vector<Vec3> ways_;               // of colliders_ that were measured alone: the way out, as seen from a's body
+  std::vector<Pair> pairs_;              // as judged_pairs()
+  std::vector<Solid> own_;               // colliders in their joints' frames
+  std::vector<Ball> own_balls_;          // of bodies
+  std::span<const Rigid> placed_at_;
+  std::vector<Solid> world_;  // colliders of the bodies that were needed in this frame
+  std::vector<char> placed_;
+  std::vector<ColliderPair> round_;  // what is near in this frame
+  std::vector<double> round_m_;      // their signed distances
+};
+
+}  // namespace contort
