@@ -56,6 +56,7 @@ void add_check(CLI::App& app, Context& context);
 void add_shrink(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_import(CLI::App& app, Context& context);
+void add_contacts(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_merge(CLI::App& app, Context& context);
 void add_corpus(CLI::App& app, Context& context);

@@ -64,7 +64,7 @@ void print_json(const Options& options, const Imported& imported) {
                      {{"table", count_sources(imported, LimitSource::table)},
                       {"clips", count_sources(imported, LimitSource::clips)},
                       {"generic", count_sources(imported, LimitSource::generic)}}},
-                    {"contacts", {{"rest_pose", imported.contacts.at_rest}, {"own_clips", imported.contacts.in_clips}}},
+                    {"contacts", {{"rest_pose", imported.contacts.at_rest}, {"own_clips", imported.contacts.in_poses}}},
                     {"notes", imported.figure.notes}};
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }

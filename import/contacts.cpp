@@ -1,9 +1,13 @@
 #include "import/contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "checks/distance.h"
+#include "generator/core/detmath.h"
+#include "generator/motion/joint_clamp.h"
 #include "generator/motion/kinematics.h"
 #include "generator/motion/recording.h"
 
@@ -12,11 +16,19 @@ namespace contort {
 namespace {
 
 constexpr std::size_t kMostPairs = 1000;  // of a character's file
-constexpr double kOften = 0.1;            // share of the poses
 constexpr double kPosesPerClip = 24.0;
 constexpr int kMostPoses = 600;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// What makes an overlap no fault: that it is in this share of the poses.
+struct Habit {
+  double share;
+  const char* reason;
+  const char* poses;
+};
+constexpr Habit kOwnClips = {0.1, "own_clips", "sampled poses"};
+constexpr Habit kSampledPoses = {0.95, "sampled_poses", "poses within all ranges"};
 
 struct PairCount {
   double rest_m = 0.0;  // signed distance
@@ -26,8 +38,11 @@ struct PairCount {
 
 class ContactFinder {
  public:
-  explicit ContactFinder(const Character& character)
-      : character_(character), world_(character.joints().size()), counts_(character.judged_colliders().size()) {
+  ContactFinder(const Character& character, const Habit& habit)
+      : character_(character),
+        habit_(habit),
+        world_(character.joints().size()),
+        counts_(character.judged_colliders().size()) {
     for (const Collider& collider : character.colliders()) solids_.push_back(solid_of(collider.shape));
   }
 
@@ -36,8 +51,8 @@ class ContactFinder {
     for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i].rest_m = counts_[i].least_m = distance(i);
   }
 
-  void pose(const Motion& motion, int frame) {
-    forward_kinematics(character_, motion.root[at(frame)], motion.row(frame), world_);
+  void pose(const Rigid& root, std::span<const double> coords) {
+    forward_kinematics(character_, root, coords, world_);
     for (std::size_t i = 0; i < counts_.size(); ++i) {
       const double now = distance(i);
       counts_[i].least_m = std::min(counts_[i].least_m, now);
@@ -59,7 +74,7 @@ class ContactFinder {
         continue;
       }
       const ColliderPair& pair = character_.judged_colliders()[i];
-      ++(counts_[i].rest_m < 0.0 ? out.at_rest : out.in_clips);
+      ++(counts_[i].rest_m < 0.0 ? out.at_rest : out.in_poses);
       out.pairs.push_back(
           {character_.colliders()[at(pair.a)].name, character_.colliders()[at(pair.b)].name, reason(i)});
     }
@@ -73,30 +88,72 @@ class ContactFinder {
     return signed_distance(placed(pair.a), placed(pair.b), 0.0);
   }
 
-  bool is_often(std::size_t i) const { return poses_ > 0 && counts_[i].overlaps >= kOften * poses_; }
+  bool is_often(std::size_t i) const { return poses_ > 0 && counts_[i].overlaps >= habit_.share * poses_; }
 
   std::string reason(std::size_t i) const {
-    char text[100];
+    char text[120];
     if (counts_[i].rest_m < 0.0)
       std::snprintf(text, sizeof text, "rest_pose: they overlap by %.4f m", -counts_[i].rest_m);
     else
-      std::snprintf(text, sizeof text, "own_clips: they overlap in %d of %d sampled poses", counts_[i].overlaps,
-                    poses_);
+      std::snprintf(text, sizeof text, "%s: they overlap in %d of %d %s", habit_.reason, counts_[i].overlaps, poses_,
+                    habit_.poses);
     return text;
   }
 
   const Character& character_;
+  const Habit& habit_;
   std::vector<Solid> solids_;
   std::vector<Rigid> world_;
   std::vector<PairCount> counts_;  // by judged_colliders()
   int poses_ = 0;
 };
 
+// The bits of the engine are the standard's; those of its distributions are not.
+class EvenPoses {
+ public:
+  explicit EvenPoses(const Character& character)
+      : character_(character), coords_(character.rest_coords().begin(), character.rest_coords().end()) {}
+
+  std::span<const double> next() {
+    for (const Joint& joint : character_.joints().subspan(1)) draw(joint, &coords_[at(joint.coord)]);
+    return coords_;
+  }
+
+ private:
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+
+  void draw(const Joint& joint, double* coords) {
+    if (joint.kind != JointKind::ball) {
+      coords[0] = between(joint.low, joint.high);
+      return;
+    }
+    const double share = std::sqrt(between(0.0, 1.0)), angle_rad = between(-kPi, kPi);  // evenly in the ellipse
+    set_swing_twist(joint,
+                    {joint.swing_a_rad * share * det::cos(angle_rad), joint.swing_b_rad * share * det::sin(angle_rad),
+                     between(std::max(joint.low, -kPi), std::min(joint.high, kPi))},
+                    coords);
+  }
+
+  const Character& character_;
+  std::vector<double> coords_;
+  std::mt19937_64 engine_;
+};
+
 }  // namespace
+
+OwnContacts propose_contacts(const Character& character, int poses) {
+  ContactFinder finder(character, kSampledPoses);
+  finder.rest();
+  EvenPoses drawn(character);
+  for (int i = 0; i < poses; ++i) finder.pose(character.rest_root(), drawn.next());
+  return finder.result();
+}
 
 OwnContacts find_contacts(const Character& character, const Asset& asset,
                           const std::map<std::string, std::string>& joints) {
-  ContactFinder finder(character);
+  ContactFinder finder(character, kOwnClips);
   finder.rest();
   int poses = 0;
   for (const AssetClip& clip : asset.clips) {
@@ -105,7 +162,8 @@ OwnContacts find_contacts(const Character& character, const Asset& asset,
     const double rate_hz = std::min(30.0, kPosesPerClip / length_s);
     const Result<Motion> motion = follow_recording(character, {asset, clip, joints, 0.0, rate_hz, 0, Rigid{}});
     if (!motion) continue;  // names that do not fit: then the rest pose alone tells
-    for (int frame = 0; frame < motion->frame_count; ++frame, ++poses) finder.pose(*motion, frame);
+    for (int frame = 0; frame < motion->frame_count; ++frame, ++poses)
+      finder.pose(motion->root[at(frame)], motion->row(frame));
   }
   return finder.result();
 }

@@ -10,9 +10,8 @@
 
 namespace contort::small {
 
-inline void write_library(const std::string& folder) {
+inline void write_library(const std::string& folder, const Library& own = library()) {
   std::filesystem::create_directories(folder);
-  const Library own = library();
   for (const auto& [name, part] : own.parts) spill(folder + "/" + name + ".json", print_part(part));
   for (const auto& [name, object] : own.objects) spill(folder + "/" + name + ".json", print_object(object));
   for (const auto& [name, desc] : own.characters) spill(folder + "/" + name + ".json", print_character(desc));
