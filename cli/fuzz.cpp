@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "cli/case_log.h"
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/outputs.h"
@@ -42,6 +43,7 @@ struct Options {
   std::string shrink_time;
   std::string corpus = "contort-out/corpus";
   std::string report;
+  std::string log;
   OutputRequest outputs;
   bool json = false;
 };
@@ -240,9 +242,13 @@ void run(const Options& options, Context& context) {
     if (const Result<std::string> text = read_file(context.settings_file)) config.settings = *text;
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
+  Result<CaseLog> opened = CaseLog::open(options.log, options.resume);
+  if (!opened) return context.fail(opened.issue());
+  CaseLog log = std::move(opened).value();
   RunLine line(config);
   const RunResult result = run_fuzz(
-      config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; });
+      config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; },
+      log.listener());
   line.clear();
   const Result<bool> gates = any_gates(result, options, context.day());
   if (!gates) context.fail(gates.issue());
@@ -250,6 +256,7 @@ void run(const Options& options, Context& context) {
   context.exit_code = code;
   print_totals(result, options, *settings, context.library_folders);
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
+  if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
   if (result.record.discarded > 0)
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.record.discarded));
@@ -298,6 +305,7 @@ void add_fuzz(CLI::App& app, Context& context) {
                       "Stop each shrink after this time: 45s, 10m; results then depend on the machine");
   command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
+  command->add_option("--log", options->log, "Write every failing case as a line of JSON: index, arm, families, spec");
   add_output_options(*command, options->outputs);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort fuzz --character mech --time 10m --seed 7 --report contort-out/report");

@@ -7,7 +7,6 @@
 
 #include "corpus/replay.h"
 #include "fuzz/case_fields.h"
-#include "fuzz/compose.h"
 #include "fuzz/departures.h"
 #include "fuzz/labels.h"
 #include "generator/core/hash.h"
@@ -62,15 +61,9 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   return json_fields::write_canonical(task.family.empty() ? evaluate(task, slot) : settle(task, slot));
 }
 
-Spec CaseWork::spec_of(const CaseTask& task) const {
-  const std::int64_t index = task.lineage.back();
-  if (is_seed(config_, index)) return config_.seeds[static_cast<std::size_t>(index)];
-  return compose(raw_of(config_.draw, library_, config_.seed, task.lineage), config_.draw, library_);
-}
-
 CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   CaseReport report;
-  const Spec spec = spec_of(task);
+  const Spec spec = spec_of(config_, library_, task.lineage);
   slot.note(print_spec(spec));
   const Result<Stage> stage = build_stage(spec, library_);
   if (!stage) return report;
@@ -131,7 +124,7 @@ std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec
 // Kept first, then shrunk, so that a kill at any point loses nothing.
 CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   CaseReport report;
-  const Spec spec = spec_of(task);
+  const Spec spec = spec_of(config_, library_, task.lineage);
   slot.note(print_spec(spec));
   const std::optional<Case> again = shown_again(task, spec);
   if (!again) return report;

@@ -65,7 +65,6 @@ class CaseWork {
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
   std::vector<NearMiss> near_misses(const Character& character, int group);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
-  Spec spec_of(const CaseTask& task) const;
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
   Isolation isolation() const;
   Shrunk shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const;

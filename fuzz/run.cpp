@@ -8,6 +8,7 @@
 #include "corpus/half_written.h"
 #include "corpus/leads.h"
 #include "fuzz/case_work.h"
+#include "fuzz/compose.h"
 #include "fuzz/run_state.h"
 #include "generator/core/hash.h"
 
@@ -39,8 +40,9 @@ Case case_of_ending(const WorkerEvent& event) {
 class Run {
  public:
   Run(const RunConfig& config, const Library& library, const Corpus& corpus,
-      const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop)
-      : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop) {
+      const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
+      const std::function<void(const FailingCase&)>& failing)
+      : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop), failing_(failing) {
     if (config_.time_s > 0.0) config_.deadline_s = start_s_ + config_.time_s;
     state_.plan = plan_of(config_);
     state_.record.name = run_name(config_);
@@ -182,6 +184,8 @@ class Run {
     record.failing += !report.broken.empty(), arm.failing += !report.broken.empty();
     for (const std::string& label : report.tested) ++record.tested[label];
     add_uses(report.waivers, state_.waivers);
+    if (failing_ && !report.broken.empty())
+      failing_({index, arm_name, report.broken, spec_of(config_, library_, task.lineage)});
     state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
     for (const std::string& family : report.broken) {
       FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, {}, arm_name}).first->second;
@@ -311,6 +315,7 @@ class Run {
   const Corpus& corpus_;
   const std::function<void(const RunProgress&)>& progress_;
   const std::function<bool()>& stop_;
+  const std::function<void(const FailingCase&)>& failing_;
   const Odds odds_ = odds_of(config_.seed, config_.draw.profile);
   const double start_s_ = steady_s();
   double next_keep_s_ = steady_s() + kKeepEvery_s;
@@ -333,6 +338,12 @@ Provenance provenance_in(const RunConfig& config, std::int64_t index) {
   return from;
 }
 
+Spec spec_of(const RunConfig& config, const Library& library, const Lineage& lineage) {
+  const std::int64_t index = lineage.back();
+  if (is_seed(config, index)) return config.seeds[static_cast<std::size_t>(index)];
+  return compose(raw_of(config.draw, library, config.seed, lineage), config.draw, library);
+}
+
 std::string run_name(const RunConfig& config) {
   std::string text = print_profile(config.draw.profile) + config.settings;
   for (const std::string& name : config.draw.characters) text += name + "\n";
@@ -341,8 +352,9 @@ std::string run_name(const RunConfig& config) {
 }
 
 RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
-                   const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop) {
-  return Run(config, library, corpus, progress, stop).run();
+                   const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
+                   const std::function<void(const FailingCase&)>& failing) {
+  return Run(config, library, corpus, progress, stop, failing).run();
 }
 
 }  // namespace contort

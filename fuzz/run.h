@@ -15,6 +15,7 @@
 #include "corpus/corpus.h"
 #include "corpus/runs.h"
 #include "fuzz/draw.h"
+#include "fuzz/lineage.h"
 #include "fuzz/shard.h"
 #include "fuzz/shrink.h"
 #include "fuzz/worker_pool.h"
@@ -53,6 +54,14 @@ struct RunProgress {
   double elapsed_s = 0.0;
 };
 
+// A case with findings.
+struct FailingCase {
+  std::int64_t index = 0;
+  std::string arm;                    // "guided"
+  std::vector<std::string> families;  // in the order of their first frames
+  Spec spec;
+};
+
 struct RunResult {
   RunRecord record;
   double elapsed_s = 0.0;
@@ -71,9 +80,14 @@ std::string run_name(const RunConfig& config);
 // Of a case that the run drew.
 Provenance provenance_in(const RunConfig& config, std::int64_t index);
 
+// A case of the run, by its ancestry.
+Spec spec_of(const RunConfig& config, const Library& library, const Lineage& lineage);
+
 // `progress` is called now and then. `stop` is asked often; when it answers true the run ends early and keeps what it
-// found. The caller must have no other threads.
+// found. `failing`, if there is one, hears of each failing case in the order of indices; after a resume, of some again.
+// The caller must have no other threads.
 RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
-                   const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop);
+                   const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
+                   const std::function<void(const FailingCase&)>& failing = {});
 
 }  // namespace contort

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "corpus/isolate.h"
@@ -43,8 +44,8 @@ class Commands : public testing::Test {
     return contort_program(arguments);
   }
   Ran fuzz(const std::string& corpus, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"fuzz", "--corpus", corpus, "--character", "small", "--cases", "40",
-                                          "--shrink-evaluations", "20"};
+    std::vector<std::string> arguments = {
+        "fuzz", "--corpus", corpus, "--character", "small", "--cases", "40", "--shrink-evaluations", "20"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return with_library(arguments);
   }
@@ -64,6 +65,40 @@ TEST_F(Commands, CheckOfASpecSaysWhatIsWrongAndExitsWithOne) {
   EXPECT_TRUE(has_result(failed, "findings=")) << failed.out;
   EXPECT_NE(failed.out.find("joint_range  arm_left/elbow max"), std::string::npos) << failed.out;
   EXPECT_EQ(failed.err, "");
+}
+
+std::set<std::string> families_of_check(const Ran& checked) {
+  std::set<std::string> families;
+  const Json out = Json::parse(checked.out);
+  for (const Json& finding : out["findings"])
+    families.insert(finding["check"].get<std::string>() + "|small|" + finding["subject"].get<std::string>());
+  return families;
+}
+
+TEST_F(Commands, FuzzLogsEveryFailingCaseForAnyNumberOfWorkers) {
+  const std::string one = folder_ / "one.jsonl", two = folder_ / "two.jsonl";
+  const Ran ran = fuzz(folder_ / "corpus_1", {"--jobs", "1", "--log", one, "--json"});
+  ASSERT_EQ(ran.code, 1) << ran.err;
+  ASSERT_EQ(fuzz(folder_ / "corpus_2", {"--jobs", "2", "--log", two}).code, 1);
+  EXPECT_EQ(slurp(one), slurp(two));
+  const std::vector<std::string> lines = lines_of(slurp(one));
+  EXPECT_EQ(lines.size(), Json::parse(ran.out)["failing"].get<std::size_t>());
+  std::int64_t last = -1;
+  for (const std::string& text : lines) {
+    const Json line = Json::parse(text);
+    EXPECT_LT(last, line["index"].get<std::int64_t>());
+    last = line["index"];
+    EXPECT_NE(line["arm"], "");
+    const std::set<std::string> families = line["families"];
+    EXPECT_EQ(families_of_check(with_library({"check", file("spec.json", line["spec"].dump()), "--json"})), families);
+  }
+}
+
+TEST_F(Commands, FuzzDoesNotBeginWhereItsLogCannotBeWritten) {
+  const Ran ran = fuzz(folder_ / "corpus", {"--log", folder_ / "no/such/folder.jsonl"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(ran.err, "contort: file.unwritable: " + (folder_ / "no/such/folder.jsonl") + ": cannot be written\n");
+  EXPECT_EQ(ran.out, "");
 }
 
 TEST_F(Commands, FuzzBeginsWithSpecsAndCasesOfAFolder) {

@@ -1,0 +1,31 @@
+// Failing cases of a run, for programs: one JSON object to a line.
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "fuzz/run.h"
+
+namespace contort::cli {
+
+class CaseLog {
+ public:
+  // Without a path it keeps nothing. A run that goes on adds to what is there. Code file.unwritable.
+  static Result<CaseLog> open(const std::string& path, bool goes_on);
+
+  // Who writes them; nobody, where nothing is kept. The log has to stay where it is.
+  std::function<void(const FailingCase&)> listener();
+
+  // Whether all of it was written.
+  Result<Done> close();
+
+ private:
+  bool is_kept() const { return !path_.empty(); }
+  void add(const FailingCase& failing);
+
+  std::string path_;
+  std::ofstream out_;
+};
+
+}  // namespace contort::cli
