@@ -11,6 +11,7 @@
 #include "cli/print.h"
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
+#include "corpus/sides.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -25,6 +26,7 @@ struct Options {
   std::vector<std::string> states;
   std::string check, character;
   std::string owner, ticket, reason, expires, text;
+  bool fold_sides = false;
   bool json = false;
 };
 
@@ -66,25 +68,40 @@ std::vector<Bucket> read_buckets(const Corpus& corpus, Context& context) {
   return buckets;
 }
 
+// One line for all that are alike but for the side: the ids of the others come last.
+void print_line(const Bucket& bucket, const std::string& others, const std::string& today) {
+  std::printf("%-11s  %s  %s%s  %s%s\n", std::string(state_name(bucket.state)).c_str(), bucket.id.c_str(),
+              printable(bucket.family).c_str(), is_gating(bucket, today) ? "  GATES" : "",
+              printable(known_text(bucket, today)).c_str(), others.c_str());
+}
+
+void print_folded(const std::vector<Bucket>& buckets, const std::string& today) {
+  for (const std::vector<std::size_t>& group : without_sides(buckets)) {
+    std::string others;
+    for (std::size_t i = 1; i < group.size(); ++i)
+      others += (i == 1 ? "  other side: " : ", ") + buckets[group[i]].id +
+                (is_gating(buckets[group[i]], today) ? " GATES" : "");
+    print_line(buckets[group.front()], others, today);
+  }
+}
+
 void list(const Options& options, Context& context) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
-  Json out = Json::array();
-  int shown = 0, gating = 0;
-  for (const Bucket& bucket : read_buckets(*corpus, context)) {
-    if (!is_wanted(bucket, options)) continue;
-    ++shown;
-    const bool gates = is_gating(bucket, context.day());
-    gating += gates ? 1 : 0;
-    if (options.json)
-      out.push_back(bucket_json(*corpus, bucket, context.day()));
-    else
-      std::printf("%-11s  %s  %s%s  %s\n", std::string(state_name(bucket.state)).c_str(), bucket.id.c_str(),
-                  printable(bucket.family).c_str(), gates ? "  GATES" : "",
-                  printable(known_text(bucket, context.day())).c_str());
+  std::vector<Bucket> buckets = read_buckets(*corpus, context);
+  std::erase_if(buckets, [&](const Bucket& bucket) { return !is_wanted(bucket, options); });
+  const std::string today = context.day();
+  if (options.json) {
+    Json out = Json::array();
+    for (const Bucket& bucket : buckets) out.push_back(bucket_json(*corpus, bucket, today));
+    return print_json(out);
   }
-  if (options.json) return print_json(out);
-  std::printf("%d buckets, %d gating\n", shown, gating);
+  if (options.fold_sides)
+    print_folded(buckets, today);
+  else
+    for (const Bucket& bucket : buckets) print_line(bucket, "", today);
+  std::printf("%zu buckets, %td gating\n", buckets.size(),
+              std::ranges::count_if(buckets, [&](const Bucket& bucket) { return is_gating(bucket, today); }));
 }
 
 // The one whose id, or folder's name, begins like this.
@@ -177,7 +194,9 @@ void add_listing(CLI::App& corpus, Context& context) {
       ->check(CLI::IsMember(states));
   command->add_option("--check", options->check, "Only of this check");
   command->add_option("--character", options->character, "Only of this character");
-  command->add_flag("--json", options->json, "Print as JSON: a list that --baseline reads");
+  CLI::Option* folded = command->add_flag("--fold-sides", options->fold_sides,
+                                          "One line for failures that are alike but for left and right");
+  command->add_flag("--json", options->json, "Print as JSON: a list that --baseline reads")->excludes(folded);
   command->footer("Example: contort corpus list contort-out/corpus --state new --state regressed");
 }
 

@@ -93,6 +93,18 @@ TEST_F(StoredCorpus, ListShowsWhatIsAskedFor) {
   for (const Json& entry : list) EXPECT_EQ(entry["gating"], entry["id"] != left().id);
 }
 
+TEST_F(StoredCorpus, SidesCanBeFolded) {
+  const Ran folded = corpus("list", {"--fold-sides"});
+  const std::vector<std::string> lines = lines_of(folded.out);
+  ASSERT_EQ(lines.size(), 2U) << folded.out;
+  const std::string first = buckets()[0].id, second = buckets()[1].id;
+  EXPECT_TRUE(says(lines[0], "new          " + first)) << lines[0];
+  EXPECT_TRUE(lines[0].ends_with("  other side: " + second + " GATES")) << lines[0];
+  EXPECT_EQ(lines[1], "2 buckets, 2 gating");
+  EXPECT_EQ(lines_of(corpus("list").out).size(), 3U);
+  EXPECT_EQ(corpus("list", {"--fold-sides", "--json"}).code, 2);
+}
+
 TEST_F(StoredCorpus, ABucketIsNamedByTheBeginningOfItsId) {
   const Ran shown = corpus("show", {left().id.substr(0, 6)});
   EXPECT_EQ(shown.code, 0) << shown.err;
