@@ -88,17 +88,19 @@ Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& l
   return draw;
 }
 
+// 0: no limit.
+Result<double> time_of(const std::string& text) { return text.empty() ? Result<double>(0.0) : parse_time_s(text); }
+
 // What the command line says, else the profile.
 Result<Done> choose_how_long(const Options& options, RunConfig& config) {
   const Profile& profile = config.draw.profile;
+  const Result<double> wanted_s = time_of(options.time), profile_s = time_of(profile.time);
+  if (!wanted_s) return wanted_s.issue();
+  if (!profile_s) return Issue{"profile.bad_time", "/time", options.profile + ": " + profile_s.issue().text};
   const bool says_nothing = options.cases < 0 && options.time.empty();
-  const std::string& time = says_nothing ? profile.time : options.time;
-  if (!time.empty()) {
-    const Result<double> time_s = parse_time_s(time);
-    if (!time_s) return time_s.issue();
-    config.time_s = *time_s;
-  }
-  config.cases = options.cases >= 0 ? options.cases : !time.empty() ? -1 : profile.cases > 0 ? profile.cases : 2000;
+  config.time_s = says_nothing ? *profile_s : *wanted_s;
+  const bool ends_by_itself = config.time_s > 0.0;
+  config.cases = options.cases >= 0 ? options.cases : ends_by_itself ? -1 : profile.cases > 0 ? profile.cases : 2000;
   return Done{};
 }
 

@@ -67,6 +67,7 @@ Result<std::optional<Profile>> profile_of(const Options& options, const Case& or
 Result<ShrinkConfig> configure(const Options& options, const CheckSettings& settings) {
   ShrinkConfig config = options.config;
   config.checks = settings;
+  config.guarded = true;  // whatever a candidate does to its process, the user's stays
   if (options.time.empty()) return config;
   const Result<double> seconds = parse_time_s(options.time);
   if (!seconds) return seconds.issue();

@@ -62,6 +62,8 @@ TEST_F(Usage, NoCommandAnUnknownOneAndUnknownOptionsAreRefused) {
   expect_refused({"shrink", good_spec(), "--depth-floor", "2"}, 2);
   expect_refused({"shrink", good_spec(), "--depth-floor", "nan"}, 2, "nan");
   expect_refused({"shrink", good_spec(), "--time", "soon"}, 2, "usage.bad_time");
+  const std::string profile = file("p.json", R"({"format":"contort.profile/1","name":"p","about":"","time":"soon"})");
+  expect_refused({"fuzz", "--profile", profile, "--cases", "1"}, 2, "profile.bad_time at /time: " + profile);
   expect_refused({"shrink", good_spec(), "--shrink-time", "soon"}, 2, "usage.bad_time");
   expect_refused({"fuzz", "--cases", "0", "--shrink-time", "soon", "--corpus", folder_ / "corpus"}, 2, "--shrink-time");
 }
