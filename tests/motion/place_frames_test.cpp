@@ -47,6 +47,7 @@ void expect_same_bits(const Character& character, const Motion& motion, const Pl
   place_frames(character, motion, world, kernel);
   const std::vector<Rigid> one_by_one = frame_by_frame(character, motion);
   ASSERT_EQ(world.size(), one_by_one.size());
+  if (world.empty()) return;  // and no address
   EXPECT_EQ(std::memcmp(world.data(), one_by_one.data(), world.size() * sizeof(Rigid)), 0)
       << kernel.name << ", " << motion.frame_count << " frames";
 }
