@@ -1,4 +1,4 @@
-// What shrinking costs and how far it comes, on failures as the fuzzer draws them: human, mech, and mech on reverse
+// What shrinking costs and how far it comes, on failures as a run meets them before anything guides it: human, mech, and mech on reverse
 // legs, at most two failures of a family for each seed and figure. One line for each failure, then medians and shares;
 // exit code 1 where a family is lost or shrinking again changes anything.
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 #include "checks/evaluate.h"
 #include "corpus/case.h"
-#include "fuzz/draw.h"
+#include "fuzz/compose.h"
+#include "fuzz/lineage.h"
 #include "fuzz/shrink.h"
 
 namespace contort {
@@ -39,7 +40,8 @@ struct Measured {
 };
 
 Spec drawn(const Figure& figure, int seed, int index) {
-  Spec spec = draw_spec({{figure.character}}, stock_library(), seed, index);
+  const DrawConfig config{{figure.character}};
+  Spec spec = compose(raw_of(config, stock_library(), seed, {index}), config, stock_library());
   if (figure.reverse_legs)
     for (const char* slot : {"leg_left", "leg_right"}) spec.character.parts[slot] = "mech_leg_reverse";
   return spec;

@@ -39,7 +39,7 @@ struct Options {
   double case_timeout_s = 10.0;
   std::int64_t memory_mb = 4096;
   int shrinks_per_family = 2;
-  int shrink_evaluations = 300;
+  int shrink_evaluations = 1000;
   std::string shrink_time;
   std::string corpus = "contort-out/corpus";
   std::string report;

@@ -74,10 +74,10 @@ rc::Gen<RawSpec> raw_spec() {
 
 }  // namespace
 
-RawSpec draw_raw(std::int64_t seed, std::int64_t index) {
+RawSpec draw_raw(std::int64_t seed, std::int64_t index, std::uint64_t stream) {
   static const rc::Gen<RawSpec> gen = raw_spec();
   const rc::Random random(
-      rc::Random::Key{{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(index), kDrawStream, 0}});
+      rc::Random::Key{{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(index), kDrawStream, stream}});
   return gen(random, kSize).value();
 }
 

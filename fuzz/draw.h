@@ -18,8 +18,8 @@ struct DrawConfig {
   bool operator==(const DrawConfig&) const = default;
 };
 
-// Evenly drawn numbers. Safe to call from any thread.
-RawSpec draw_raw(std::int64_t seed, std::int64_t index);
+// Evenly drawn numbers; other streams have other ones. Safe to call from any thread.
+RawSpec draw_raw(std::int64_t seed, std::int64_t index, std::uint64_t stream = 0);
 
 // The spec that they make: parts and parameters are chosen from what the character has, values on short lattices within
 // the declared ranges. It builds.

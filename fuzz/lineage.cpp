@@ -11,7 +11,8 @@ namespace {
 
 enum Stream : std::uint64_t { kChoice, kChange };
 
-constexpr int kThrows = 8;  // of one mutation
+constexpr int kThrows = 8;           // of one mutation
+constexpr std::uint64_t kMates = 4;  // that crowd a case; what that is worth: docs/fuzzing.md
 
 // Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
 // families, and even draws 144 (docs/fuzzing.md).
@@ -32,7 +33,7 @@ RawSpec child_of(const RawSpec& parent, const RawSpec& mate, Dice& dice, const D
 }  // namespace
 
 std::string_view arm_name(Arm arm) {
-  constexpr std::string_view kNames[kArms] = {"uniform", "corners", "swarm", "corners_and_swarm", "guided"};
+  constexpr std::string_view kNames[kArms] = {"uniform", "crowded", "corners", "swarm", "corners_and_swarm", "guided"};
   return kNames[static_cast<std::size_t>(arm)];
 }
 
@@ -41,12 +42,12 @@ bool wants_guidance(const Odds& odds, std::int64_t index) {
   return Dice(odds.seed, index, kChoice).below(100) < 100.0 * odds.guided * learned;
 }
 
-// A share is even; the rest have corners, or features left out, or both, or neither.
+// A share is even; the rest are crowded, and have corners, or features left out, or both, or neither.
 Arm unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
   if (dice.below(50) < 50.0 * odds.uniform) return Arm::uniform;
-  constexpr Arm kMixed[] = {Arm::uniform, Arm::corners, Arm::swarm, Arm::corners_and_swarm};
+  constexpr Arm kMixed[] = {Arm::crowded, Arm::corners, Arm::swarm, Arm::corners_and_swarm};
   return kMixed[dice.below(4)];
 }
 
@@ -54,6 +55,8 @@ RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t se
   RawSpec raw = draw_raw(seed, lineage.front());
   const Arm arm = unguided(odds_of(seed, config.profile), lineage.front());
   Dice dice(seed, lineage.front(), kChange);
+  for (std::uint64_t mate = 1; arm != Arm::uniform && mate <= kMates; ++mate)
+    crowd(raw, draw_raw(seed, lineage.front(), mate));
   if (arm == Arm::corners || arm == Arm::corners_and_swarm) go_to_corners(raw, dice);
   if (arm == Arm::swarm || arm == Arm::corners_and_swarm) leave_out(raw, dice);
   for (std::size_t i = 1; i < lineage.size(); ++i) {

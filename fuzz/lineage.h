@@ -1,5 +1,5 @@
-// Where cases come from. A case is its ancestry: the indices of the cases that it was mutated from, oldest first, its own
-// index last. The oldest was drawn; every other is a mutation of the one before, thrown with dice keyed by its own
+// Where cases come from. A case is its ancestry: the indices of the cases that it was mutated from, oldest first, its
+// own index last. The oldest was drawn; every other is a mutation of the one before, thrown with dice keyed by its own
 // index. So nothing but indices has to be kept, sent or stored to make any case of a run again.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace contort {
 
-// Ways of making a case.
-enum class Arm { uniform, corners, swarm, corners_and_swarm, guided };
+// Ways of making a case. All but the even ones are crowded, or come of one that was.
+enum class Arm { uniform, crowded, corners, swarm, corners_and_swarm, guided };
 std::string_view arm_name(Arm arm);
-inline constexpr int kArms = 5;
+inline constexpr int kArms = 6;
 
 using Lineage = std::vector<std::int64_t>;  // never empty
 
@@ -29,14 +29,16 @@ struct Odds {
 inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, profile.guided, profile.uniform}; }
 
 // How case `index` is made. Guidance comes into its share little by little: what few cases have come near to is no
-// nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm instead.
+// nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm
+// instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);
 Arm unguided(const Odds& odds, std::int64_t index);
 inline Arm arm_of(const Odds& odds, const Lineage& lineage) {
   return lineage.size() > 1 ? Arm::guided : unguided(odds, lineage.front());
 }
 
-// A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in it.
+// A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in
+// it.
 RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage);
 
 }  // namespace contort

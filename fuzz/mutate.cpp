@@ -1,12 +1,10 @@
 #include "fuzz/mutate.h"
 
+#include <span>
+
 namespace contort {
 
 namespace {
-
-constexpr std::size_t kMostSequences = 3;
-constexpr std::size_t kMostClips = 4;
-constexpr std::size_t kMostActions = 6;
 
 template <class T>
 T& one_of(std::vector<T>& list, Dice& dice) {
@@ -67,8 +65,8 @@ int& number_of_clip(RawClip& clip, Dice& dice) {
   return *own[dice.below(3)];
 }
 
-// Mostly of an action: that is where the motion is. A scene without blows or interrupts has numbers of them, too; changes
-// to those are thrown again (lineage.h).
+// Mostly of an action: that is where the motion is. A scene without blows or interrupts has numbers of them, too;
+// changes to those are thrown again (lineage.h).
 int& one_number_of(RawSpec& raw, Dice& dice) {
   if (dice.one_in(5)) return number_of_scene(raw, dice);
   if (!raw.interrupts.empty() && dice.one_in(5)) return number_of_interrupt(one_of(raw.interrupts, dice), dice);
@@ -99,7 +97,8 @@ void copy_action(RawSpec& raw, const RawSpec&, Dice& dice) {
 
 void drop_action(RawSpec& raw, const RawSpec&, Dice& dice) {
   RawClip* clip = one_clip(raw, dice);
-  if (clip != nullptr && clip->actions.size() > 1) clip->actions.erase(clip->actions.begin() + dice.below(static_cast<int>(clip->actions.size())));
+  if (clip != nullptr && clip->actions.size() > 1)
+    clip->actions.erase(clip->actions.begin() + dice.below(static_cast<int>(clip->actions.size())));
 }
 
 void take_action(RawSpec& raw, const RawSpec& mate, Dice& dice) {
@@ -155,7 +154,31 @@ void corners_among(Numbers& numbers, Dice& dice) {
     if (dice.one_in(4)) number = dice.one_in(2) ? 0 : kLattice;
 }
 
+template <class T>
+void add_up_to(std::size_t most, std::vector<T>& list, std::span<const T> more) {
+  for (const T& one : more)
+    if (list.size() < most) list.push_back(one);
+}
+
+template <class T>
+std::span<const T> beyond(std::size_t count, const std::vector<T>& list) {
+  return std::span(list).subspan(std::min(count, list.size()));
+}
+
+void crowd_sequence(std::vector<RawClip>& clips, const std::vector<RawClip>& mate) {
+  const std::size_t both = std::min(clips.size(), mate.size());
+  for (std::size_t c = 0; c < both; ++c) add_up_to(kMostActions, clips[c].actions, std::span(mate[c].actions));
+  add_up_to(kMostClips, clips, beyond(both, mate));
+}
+
 }  // namespace
+
+void crowd(RawSpec& raw, const RawSpec& mate) {
+  const std::size_t both = std::min(raw.sequences.size(), mate.sequences.size());
+  for (std::size_t s = 0; s < both; ++s) crowd_sequence(raw.sequences[s], mate.sequences[s]);
+  add_up_to(kMostSequences, raw.sequences, beyond(both, mate.sequences));
+  add_up_to(kMostInterrupts, raw.interrupts, std::span(mate.interrupts));
+}
 
 void go_to_corners(RawSpec& raw, Dice& dice) {
   for (std::vector<RawClip>& clips : raw.sequences)

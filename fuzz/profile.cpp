@@ -56,8 +56,10 @@ void fields(V& v, const Profile*) {
   v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
   v.field("guided", &Profile::guided, kOdds,
           "Share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
-  v.field("uniform", &Profile::uniform, kOdds,
-          "Share of the others that are drawn evenly; the rest has corner values, features left out, both or neither.");
+  v.field(
+      "uniform", &Profile::uniform, kOdds,
+      "Share of the others that are drawn evenly; the rest is crowded, with corner values, features left out, both or "
+      "neither.");
   v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53},
           "Of a run, unless the command line says; 0: no opinion.");
   v.field("time", &Profile::time, {.may_be_empty = true}, "The same as a time: 45s, 10m, 2h.");

@@ -107,7 +107,8 @@ TEST(Lineages, AMutationChangesTheSpec) {
 }
 
 TEST(Lineages, AnInterruptMayComeAtAnotherTime) {
-  const DrawConfig config{{"human"}};
+  DrawConfig config{{"human"}};
+  config.profile.uniform = 1.0;  // of parents, so that many have one interrupt
   int moved = 0;
   for (std::int64_t index = 0; index < 400 && moved < 3; ++index) {
     const auto spec_of = [&](const Lineage& line) {

@@ -1,0 +1,91 @@
+// How the cases of a run are made: even draws, crowded ones, and what they hold.
+#include "fuzz/lineage.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "fuzz/compose.h"
+#include "fuzz/mutate.h"
+#include "generator/stage.h"
+
+namespace contort {
+
+namespace {
+
+template <class T>
+bool begins_with(const std::vector<T>& list, const std::vector<T>& beginning) {
+  return list.size() >= beginning.size() && std::equal(beginning.begin(), beginning.end(), list.begin());
+}
+
+std::size_t action_count(const Spec& spec) {
+  std::size_t count = 0;
+  for (const SequenceDesc& sequence : spec.sequences)
+    for (const ClipDesc& clip : sequence.clips) count += clip.actions.size();
+  return count;
+}
+
+TEST(Lineage, ArmsHaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (int arm = 0; arm < kArms; ++arm) names.insert(arm_name(static_cast<Arm>(arm)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kArms));
+}
+
+// What the search is measured against.
+TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
+  DrawConfig config{{"human"}};
+  config.profile.guided = 0.0, config.profile.uniform = 1.0;
+  for (std::int64_t index = 0; index < 50; ++index)
+    EXPECT_EQ(raw_of(config, stock_library(), 3, {index}), draw_raw(3, index));
+}
+
+TEST(Lineage, StreamsOfOneCaseDiffer) {
+  EXPECT_NE(draw_raw(3, 5), draw_raw(3, 5, 1));
+  EXPECT_NE(draw_raw(3, 5, 1), draw_raw(3, 5, 2));
+  EXPECT_EQ(draw_raw(3, 5, 1), draw_raw(3, 5, 1));
+}
+
+TEST(Crowding, KeepsWhatIsThereAndAddsBehindIt) {
+  for (std::int64_t index = 0; index < 200; ++index) {
+    const RawSpec before = draw_raw(1, index), mate = draw_raw(1, index, 1);
+    RawSpec after = before;
+    crowd(after, mate);
+    ASSERT_GE(after.sequences.size(), std::max(before.sequences.size(), mate.sequences.size()));
+    for (std::size_t s = 0; s < before.sequences.size(); ++s)
+      for (std::size_t c = 0; c < before.sequences[s].size(); ++c)
+        EXPECT_TRUE(begins_with(after.sequences[s][c].actions, before.sequences[s][c].actions));
+    EXPECT_TRUE(begins_with(after.interrupts, before.interrupts));
+    after.sequences = before.sequences, after.interrupts = before.interrupts;
+    EXPECT_EQ(after, before);
+  }
+}
+
+TEST(Crowding, EndsWhereThereIsNoRoom) {
+  RawSpec raw = draw_raw(1, 0);
+  for (std::uint64_t mate = 1; mate <= 100; ++mate) crowd(raw, draw_raw(1, 0, mate));
+  EXPECT_LE(raw.sequences.size(), kMostSequences);
+  EXPECT_EQ(raw.interrupts.size(), kMostInterrupts);
+  for (const std::vector<RawClip>& clips : raw.sequences) {
+    EXPECT_LE(clips.size(), kMostClips);
+    for (const RawClip& clip : clips) EXPECT_LE(clip.actions.size(), kMostActions);
+  }
+}
+
+TEST(Crowding, MakesCasesThatBuildAndHaveTwiceTheActions) {
+  const DrawConfig config{{"human", "mech", "quadruped"}};
+  std::size_t even = 0, crowded = 0;
+  for (std::int64_t index = 0; index < 300; ++index) {
+    if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
+    const Spec spec = compose(raw_of(config, stock_library(), 1, {index}), config, stock_library());
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    ASSERT_TRUE(stage) << to_line(stage.issue());
+    even += action_count(draw_spec(config, stock_library(), 1, index));
+    crowded += action_count(spec);
+  }
+  EXPECT_GT(even, 0U);
+  EXPECT_GT(crowded, 2 * even) << crowded << " beside " << even;
+}
+
+}  // namespace
+
+}  // namespace contort
