@@ -105,7 +105,7 @@ export async function openPage(url, more = {}) {
     viewport: { width: more.width ?? 1280, height: more.height ?? 900 }, colorScheme: more.scheme ?? 'light',
     bypassCSP: more.bypassCSP ?? false, javaScriptEnabled: more.javaScript ?? true, reducedMotion: more.reducedMotion ?? 'no-preference',
   });
-  context.setDefaultTimeout(15_000);
+  context.setDefaultTimeout(60_000);
   const page = await context.newPage();
   const wrong = [];
   const base = new URL('.', url).href;
