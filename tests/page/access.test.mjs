@@ -5,6 +5,7 @@ import { findCase, openCase, openPage, options, readCases, seriousProblems, urlO
 
 const cases = readCases(options.report);
 const any = findCase(cases, (data) => data.motions.length > 1) ?? findCase(cases, () => true);
+const struck = findCase(cases, (data) => data.motions[0].marks.some(({ kind }) => kind === 'impact'));
 const need = { skip: any === undefined ? 'the report has no motion' : false };
 
 const looks = [['light', 1280], ['dark', 1280], ['light', 375], ['dark', 375]];
@@ -24,6 +25,17 @@ for (const [scheme, width] of looks) {
     await close();
   });
 }
+
+test('375 wide: names of blows stay in their track', { skip: struck === undefined ? 'the report has no blow' : false }, async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), struck, { width: 375 });
+  const beyond = await page.locator('.tick-text').evaluateAll((texts) => texts.filter((text) => {
+    const [one, track] = [text.closest('.tick'), text.closest('.track')].map((element) => element.getBoundingClientRect());
+    return one.left < track.left - 1 || one.right > track.right + 1;
+  }).map((text) => text.textContent));
+  assert.deepEqual(beyond, []);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'no sideways scrolling');
+  await close();
+});
 
 test('every control is reached with Tab and has a name', need, async () => {
   const { page, close } = await openCase(await urlOf('file', options.report), any);

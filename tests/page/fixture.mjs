@@ -152,7 +152,8 @@ function balance(made) {
   return { key: 'balance-99aa00bb', character: 'human', failure, motions: [motion('minimal', made.hit_reaction, failure, 0.5, {
     ghost_glb: made.reach_hand.glb,
     marks: [{ frame: 12, kind: 'impact', text: 'blow on torso, 30 N s', point: [0.1, 1.3, 0.12], impulse: [-10, 2, -28] },
-      { frame: 50, kind: 'event', text: 'fall' }],
+      { frame: 50, kind: 'event', text: 'fall' },
+      { frame: Math.floor(0.6 * count), kind: 'impact', text: 'blow on arm_right/shoulder, 30 N s', point: [0, 1, 0], impulse: [0, 0, 9] }],
     balance: Array.from({ length: count }, (_, frame) => (frame < 3 ? null : balanceOf(frame))) })] };
 }
 

@@ -17,7 +17,7 @@ cp "$project"/tests/page/package*.json "$modules/"
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-browse() { node "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
+browse() { node --test-reporter=spec "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
 
 browse --contort "$binaries/contort" --viewer "$binaries/page"
 

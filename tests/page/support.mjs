@@ -133,8 +133,10 @@ export async function ready(page, which = '0') {
   await settle(page);
 }
 
-// What axe-core calls serious or worse.
+// What axe-core calls serious or worse. Cards are laid out first: axe-core takes those that are off the screen, which the
+// browser has not laid out yet, to lie over each other.
 export async function seriousProblems(page) {
+  await page.addStyleTag({ content: '* { content-visibility: visible !important; }' });
   await page.addScriptTag({ path: axePath() });
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
   return violations.filter(({ impact }) => impact === 'serious' || impact === 'critical')

@@ -31,13 +31,14 @@ function bar(span, count) {
   return element;
 }
 
+// A tick has the track on the side where more of it is left for its text.
 function tick(mark, count) {
   const text = mark.text || mark.kind;
-  const element = el('li', { class: 'tick', title: `${text}: frame ${mark.frame}` },
-    el('span', { class: 'tick-text', text }));
-  element.style.left = percent(mark.frame + 0.5, count);
-  // Texts near the right end go to the left of their tick.
-  if (mark.frame > 0.7 * count) element.classList.add('leftward');
+  const element = el('li', { class: 'tick' },
+    el('span', { class: 'tick-text', text, title: `${text}: frame ${mark.frame}` }));
+  const leftward = 2 * mark.frame >= count;
+  element.classList.toggle('leftward', leftward);
+  element.style[leftward ? 'right' : 'left'] = percent(leftward ? count - mark.frame - 0.5 : mark.frame + 0.5, count);
   return element;
 }
 
