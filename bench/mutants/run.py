@@ -3,256 +3,15 @@
 
 import argparse
 import concurrent.futures
-import hashlib
 import json
 import math
-import os
-import re
-import shutil
 import statistics
-import subprocess
 import sys
-import tempfile
-import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-PROFILES = HERE / "profiles"
-CLEAN = "clean"
-ARMS = {"mixture": {}, "uniform": {"guided": 0, "uniform": 1}}
-FIRST_CHUNK = 256  # cases; every further chunk begins anew with four times as many
-
-
-def say(text):
-    print(f"[{time.strftime('%H:%M:%S')}] {text}", file=sys.stderr, flush=True)
-
-
-def short_hash(data):
-    return hashlib.sha256(data).hexdigest()[:8]
-
-
-def write_json(path, value):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_suffix(".tmp")
-    draft.write_text(json.dumps(value, indent=1, sort_keys=True) + "\n")
-    draft.replace(path)
-
-
-def run(command, **options):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-
-
-def must(command, **options):
-    done = run(command, **options)
-    if done.returncode != 0:
-        sys.exit(f"failed: {' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
-
-
-class Mutant:
-    def __init__(self, path):
-        self.path = path
-        self.name = path.stem
-        self.is_equivalent = "-equivalent_" in self.name
-        self.about, diff = path.read_text().split("\n", 1)
-        self.id = short_hash(diff.encode())
-        named = re.search(r" Profile: (\w+)\.$", self.about)
-        self.profile = named.group(1) if named else ""
-        self.race = None  # which has what was measured of it
-
-
-class Builds:
-    """Binaries of the clean generator and of every mutant, made in one scratch tree of a commit."""
-
-    def __init__(self, out, jobs):
-        self.out, self.jobs = out, jobs
-        self.tree, self.bin = out / "tree", out / "bin"
-
-    def prepare(self):
-        commit = must(["git", "-C", ROOT, "rev-parse", "HEAD"]).strip()
-        base = self.out / "commit"
-        if base.exists() and base.read_text().strip() != commit:
-            say(f"going on with commit {base.read_text()[:8]}; another --out begins with {commit[:8]}")
-            return
-        if not base.exists():
-            shutil.rmtree(self.tree, ignore_errors=True)
-            self.tree.mkdir(parents=True)
-            must(["bash", "-c", f"git -C '{ROOT}' archive {commit} | tar -x -C '{self.tree}'"])
-            must(["cmake", "--preset", "golden", "-DCONTORT_TESTS=OFF"], cwd=self.tree)
-            base.write_text(commit + "\n")
-
-    def binary(self, name):
-        return self.bin / name
-
-    def make(self, name, identity, patch=None):
-        """Builds the mutant if it is not there, and says whether it could."""
-        binary, stamp = self.binary(name), self.bin / (name + ".id")
-        if binary.exists() and stamp.exists() and stamp.read_text() == identity:
-            return True
-        # The tree may lie in a folder of another repository, which shall not matter to git.
-        alone = dict(os.environ, GIT_CEILING_DIRECTORIES=str(self.out))
-        if patch and run(["git", "apply", patch], cwd=self.tree, env=alone).returncode != 0:
-            say(f"{name}: the patch does not apply")
-            return False
-        environment = dict(os.environ, CCACHE_BASEDIR=str(self.tree), CCACHE_NOHASHDIR="true")
-        built = run(["nice", "cmake", "--build", "build/golden", "--target", "contort", f"-j{self.jobs}"],
-                    cwd=self.tree, env=environment)
-        if built.returncode == 0:
-            self.bin.mkdir(exist_ok=True)
-            shutil.copy2(self.tree / "build/golden/contort", binary)
-            stamp.write_text(identity)
-        else:
-            say(f"{name} does not compile:\n{built.stdout[-1500:]}")
-        if patch:
-            must(["git", "apply", "-R", patch], cwd=self.tree, env=alone)
-        return built.returncode == 0
-
-
-class Race:
-    """Mutants that are looked for with one profile."""
-
-    def __init__(self, args, builds, profile, mutants):
-        self.args, self.builds, self.mutants = args, builds, mutants
-        self.out = builds.out
-        self.seeds = range(1, args.seeds + 1)
-        self.clean_families = {}  # of specs that were played on the clean generator, by their hash
-        for mutant in mutants:
-            mutant.race = self
-        text = json.dumps(profile, sort_keys=True)
-        self.results = self.out / "results" / f"{profile['name']}-{short_hash(text.encode())}"
-        for mode, arms in ARMS.items():
-            write_json(self.results / f"{mode}.profile.json", dict(profile, **arms))
-
-    def fuzz(self, name, mode, seed, cases, corpus, shrinks, log):
-        per_family, evaluations = shrinks
-        command = ["nice", "timeout", str(self.args.run_timeout), self.builds.binary(name), "fuzz", "--profile",
-                   self.results / f"{mode}.profile.json", "--seed", seed, "--cases", cases, "--jobs", 1, "--corpus", corpus,
-                   "--shrinks-per-family", per_family, "--shrink-evaluations", evaluations, "--case-timeout",
-                   self.args.case_timeout, "--log", log]
-        done = run(command)
-        if done.returncode not in (0, 1, 4):
-            raise RuntimeError(f"{name} {mode} seed {seed}: exit code {done.returncode}: {done.stderr[-500:]}")
-
-    # ---- what a generator shows of one spec
-
-    def play(self, name, spec):
-        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
-            json.dump(spec, file)
-            file.flush()
-            done = run(["nice", "timeout", "60", self.builds.binary(name), "check", file.name, "--json"])
-        character = spec["character"]["name"]
-        if done.returncode == 124:
-            return {f"timeout|{character}|evaluation"}
-        if done.returncode not in (0, 1):
-            return {f"crash|{character}"}
-        return {f"{f['check']}|{character}|{f['subject']}" for f in json.loads(done.stdout)["findings"]}
-
-    def is_on_clean(self, spec, family):
-        """Whether the clean generator shows the family for this very spec."""
-        key = short_hash(json.dumps(spec, sort_keys=True).encode())
-        if key not in self.clean_families:
-            self.clean_families[key] = self.play(CLEAN, spec)
-        return any(family.startswith(own) for own in self.clean_families[key])
-
-    def is_news(self, name, spec, family):
-        """Whether the fault shows it. A busy machine may be slow, once."""
-        if self.is_on_clean(spec, family):
-            return False
-        return not family.startswith("timeout|") or family in self.play(name, spec)
-
-    # ---- the race
-
-    def path(self, name, mode, seed):
-        return self.results / mode / f"{name}.seed_{seed}.json"
-
-    def known(self, path, identity):
-        if not path.exists():
-            return None
-        result = json.loads(path.read_text())
-        fits = result["id"] == identity and result["case_timeout"] == self.args.case_timeout
-        return result if fits and (result["cases"] >= self.args.cases or result.get("found")) else None
-
-    def chunks(self):
-        cases = FIRST_CHUNK
-        while cases < self.args.cases:
-            yield cases
-            cases *= 4
-        yield self.args.cases
-
-    def first_kill(self, name, mode, seed, first, cases):
-        """The first case, from `first` on, that fails in a way in which the clean generator's does not."""
-        with tempfile.TemporaryDirectory(dir=self.out) as folder:
-            log = Path(folder) / "log.jsonl"
-            self.fuzz(name, mode, seed, cases, Path(folder) / "corpus", (1, 0), log)
-            with log.open() as lines:
-                for case in map(json.loads, lines):
-                    families = case["families"] if case["index"] >= first else []
-                    news = [family for family in families if self.is_news(name, case["spec"], family)]
-                    if news:
-                        return {"found": case["index"] + 1, "family": news[0], "arm": case["arm"]}
-        return {}
-
-    def race(self, mutant, mode, seed):
-        path = self.path(mutant.name, mode, seed)
-        if self.known(path, mutant.id):
-            return
-        started = time.monotonic()
-        kill, first = {}, 0
-        for cases in self.chunks():
-            kill = self.first_kill(mutant.name, mode, seed, first, cases)
-            if kill:
-                break
-            first = cases
-        result = {"id": mutant.id, "cases": self.args.cases, "case_timeout": self.args.case_timeout}
-        write_json(path, dict(result, **kill, seconds=round(time.monotonic() - started, 1)))
-        what = f"case {kill['found']}, {kill['arm']}, {kill['family']}" if kill else "not found"
-        say(f"{mutant.name} {mode} seed {seed}: {what}")
-
-    # ---- buckets
-
-    def bucket_path(self, name):
-        return self.results / "buckets" / f"{name}.json"
-
-    def find_buckets(self, name, identity):
-        path = self.bucket_path(name)
-        if path.exists() and json.loads(path.read_text()).get("id") == identity:
-            return
-        with tempfile.TemporaryDirectory(dir=self.out) as corpus:
-            self.fuzz(name, "mixture", 1, self.args.bucket_cases, corpus, (2, self.args.bucket_evaluations), os.devnull)
-            buckets = []
-            for file in sorted(Path(corpus).glob("buckets/*/bucket.json")):
-                described = json.loads(file.read_text())
-                least = json.loads((file.parent / described["min"]).read_text())["spec"]
-                if name == CLEAN or not self.is_on_clean(least, described["family"]):
-                    buckets.append(file.parent.name)
-        write_json(path, {"id": identity, "buckets": buckets})
-        say(f"{name}: {len(buckets)} buckets")
-
-    def own_buckets(self, name):
-        path = self.bucket_path(name)
-        if not path.exists() or not self.bucket_path(CLEAN).exists():
-            return None
-        known = set(json.loads(self.bucket_path(CLEAN).read_text())["buckets"])
-        return [b for b in json.loads(path.read_text())["buckets"] if b not in known]
-
-    # ---- what was measured
-
-    def counts(self, mutant, mode):
-        """Cases to detection of each seed that was run; none where it was not found."""
-        results = [self.known(self.path(mutant.name, mode, seed), mutant.id) for seed in self.seeds]
-        found = [result.get("found") for result in results if result]
-        return [count if count and count <= self.args.cases else None for count in found]
-
-    def seen_by(self, mutant):
-        checks = {}
-        for mode in ARMS:
-            for seed in self.seeds:
-                result = self.known(self.path(mutant.name, mode, seed), mutant.id)
-                if result and result.get("found"):
-                    check = result["family"].split("|")[0]
-                    checks[check] = checks.get(check, 0) + 1
-        return ", ".join(sorted(checks, key=lambda check: (-checks[check], check)))
+sys.dont_write_bytecode = True
+from faults import CLEAN, HERE, PROFILES, ROOT, Builds, Mutant, must, run, say  # noqa: E402
+from race import ARMS, Race  # noqa: E402
 
 
 class Bench:
@@ -300,11 +59,12 @@ class Bench:
         self.make_races()
         if not self.args.table:
             self.measure()
-        print("\n".join(self.table()))
+        print("\n".join(self.count_table() if self.args.count else self.table()))
 
     def measure(self):
         seeds = range(1, self.args.seeds + 1)
-        self.run_all([(m.race.race, m, mode, seed) for seed in seeds for mode in self.args.modes for m in self.mutants])
+        what = Race.count if self.args.count else Race.race
+        self.run_all([(what, m.race, m, mode, seed) for seed in seeds for mode in self.args.modes for m in self.mutants])
         if self.args.buckets:
             faults = [(m.race.find_buckets, m.name, m.id) for m in self.mutants if not m.is_equivalent]
             self.run_all([(race.find_buckets, CLEAN, CLEAN) for race in self.races] + faults)
@@ -339,6 +99,22 @@ class Bench:
                          f"{self.restricted_mean(uniform):.0f} | {self.a12(mixture, uniform):.2f} | "
                          f"{mutant.race.seen_by(mutant)} | {'' if own is None else len(own)} |")
         return lines + [""] + self.summary()
+
+    def count_table(self):
+        """Kills of as many cases by both: the ratio is that of the cases that it takes to see one."""
+        lines = [f"| mutant | kills of {self.args.count} cases, mixture | uniform | ratio |", "|---|---|---|---|"]
+        ratios = []
+        for mutant in self.mutants:
+            mixture, uniform = (mutant.race.counted(mutant, mode) for mode in ARMS)
+            if not mixture or not uniform or not mixture[0] + uniform[0]:
+                continue
+            per_run = [kills * self.args.count / cases for kills, cases in (mixture, uniform)]
+            least = 0.5 * self.args.count / min(mixture[1], uniform[1])  # none counts as half of one
+            ratios.append(max(per_run[0], least) / max(per_run[1], least))
+            lines.append(f"| {mutant.name} | {per_run[0]:g} | {per_run[1]:g} | {ratios[-1]:.1f} |")
+        if ratios:
+            lines += ["", f"* Geometric mean of the ratios: {statistics.geometric_mean(ratios):.2f} ({len(ratios)} mutants)."]
+        return lines
 
     def often(self, faults, mode):
         runs = [m.race.counts(m, mode) for m in faults]
@@ -384,6 +160,8 @@ def parse_args():
     parser.add_argument("--profile", help="of the fuzzer, by name or a file, for all mutants instead of each one's own")
     parser.add_argument("--seeds", type=int, default=3, help="seeds 1 to this one")
     parser.add_argument("--cases", type=int, default=3000, help="of one run, at most")
+    parser.add_argument("--count", type=int, default=0, metavar="N",
+                        help="count all kills of the first N cases, instead of cases up to the first one")
     parser.add_argument("--modes", nargs="+", choices=list(ARMS), default=list(ARMS))
     parser.add_argument("--only", nargs="+", help="mutants whose names contain one of these words")
     parser.add_argument("--buckets", action="store_true", help="measure buckets too: shorter runs with shrinking")

@@ -1,0 +1,179 @@
+"""Looks for mutants with one profile, and keeps what it saw."""
+
+import json
+import os
+import tempfile
+import time
+from pathlib import Path
+
+from faults import CLEAN, run, say, short_hash, write_json
+
+ARMS = {"mixture": {}, "uniform": {"guided": 0, "uniform": 1}}
+FIRST_CHUNK = 256  # cases; every further chunk begins anew with four times as many
+
+
+class Race:
+    """Mutants that are looked for with one profile."""
+
+    def __init__(self, args, builds, profile, mutants):
+        self.args, self.builds, self.mutants = args, builds, mutants
+        self.out = builds.out
+        self.seeds = range(1, args.seeds + 1)
+        self.clean_families = {}  # of specs that were played on the clean generator, by their hash
+        for mutant in mutants:
+            mutant.race = self
+        text = json.dumps(profile, sort_keys=True)
+        self.results = self.out / "results" / f"{profile['name']}-{short_hash(text.encode())}"
+        for mode, arms in ARMS.items():
+            write_json(self.results / f"{mode}.profile.json", dict(profile, **arms))
+
+    def fuzz(self, name, mode, seed, cases, corpus, shrinks, log):
+        per_family, evaluations = shrinks
+        command = ["nice", "timeout", str(self.args.run_timeout), self.builds.binary(name), "fuzz", "--profile",
+                   self.results / f"{mode}.profile.json", "--seed", seed, "--cases", cases, "--jobs", 1, "--corpus", corpus,
+                   "--shrinks-per-family", per_family, "--shrink-evaluations", evaluations, "--case-timeout",
+                   self.args.case_timeout, "--log", log]
+        done = run(command)
+        if done.returncode not in (0, 1, 4):
+            raise RuntimeError(f"{name} {mode} seed {seed}: exit code {done.returncode}: {done.stderr[-500:]}")
+
+    # ---- what a generator shows of one spec
+
+    def play(self, name, spec):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            json.dump(spec, file)
+            file.flush()
+            done = run(["nice", "timeout", "60", self.builds.binary(name), "check", file.name, "--json"])
+        character = spec["character"]["name"]
+        if done.returncode == 124:
+            return {f"timeout|{character}|evaluation"}
+        if done.returncode not in (0, 1):
+            return {f"crash|{character}"}
+        return {f"{f['check']}|{character}|{f['subject']}" for f in json.loads(done.stdout)["findings"]}
+
+    def is_on_clean(self, spec, family):
+        """Whether the clean generator shows the family for this very spec."""
+        key = short_hash(json.dumps(spec, sort_keys=True).encode())
+        if key not in self.clean_families:
+            self.clean_families[key] = self.play(CLEAN, spec)
+        return any(family.startswith(own) for own in self.clean_families[key])
+
+    def is_news(self, name, spec, family):
+        """Whether the fault shows it. A busy machine may be slow, once."""
+        if self.is_on_clean(spec, family):
+            return False
+        return not family.startswith("timeout|") or family in self.play(name, spec)
+
+    # ---- the race
+
+    def path(self, name, mode, seed):
+        return self.results / mode / f"{name}.seed_{seed}.json"
+
+    def known(self, path, identity):
+        if not path.exists():
+            return None
+        result = json.loads(path.read_text())
+        fits = result["id"] == identity and result["case_timeout"] == self.args.case_timeout
+        return result if fits and (result["cases"] >= self.args.cases or result.get("found")) else None
+
+    def chunks(self):
+        cases = FIRST_CHUNK
+        while cases < self.args.cases:
+            yield cases
+            cases *= 4
+        yield self.args.cases
+
+    def kills(self, name, mode, seed, first, cases):
+        """Cases, from `first` on, that fail in a way in which the clean generator's do not, with the family that shows it."""
+        with tempfile.TemporaryDirectory(dir=self.out) as folder:
+            log = Path(folder) / "log.jsonl"
+            self.fuzz(name, mode, seed, cases, Path(folder) / "corpus", (1, 0), log)
+            with log.open() as lines:
+                for case in map(json.loads, lines):
+                    families = case["families"] if case["index"] >= first else []
+                    news = next((family for family in families if self.is_news(name, case["spec"], family)), None)
+                    if news:
+                        yield {"found": case["index"] + 1, "family": news, "arm": case["arm"]}
+
+    def first_kill(self, name, mode, seed, first, cases):
+        return next(self.kills(name, mode, seed, first, cases), {})
+
+    def count_path(self, name, mode, seed):
+        return self.results / mode / f"{name}.seed_{seed}.of_{self.args.count}.json"
+
+    def count(self, mutant, mode, seed):
+        """How many of the first cases of a run are kills."""
+        path = self.count_path(mutant.name, mode, seed)
+        if path.exists() and json.loads(path.read_text())["id"] == mutant.id:
+            return
+        count = sum(1 for _ in self.kills(mutant.name, mode, seed, 0, self.args.count))
+        write_json(path, {"id": mutant.id, "kills": count})
+        say(f"{mutant.name} {mode} seed {seed}: {count} of {self.args.count}")
+
+    def counted(self, mutant, mode):
+        """Kills of all seeds that were counted, and of how many cases."""
+        paths = [self.count_path(mutant.name, mode, seed) for seed in self.seeds]
+        known = [json.loads(path.read_text()) for path in paths if path.exists()]
+        known = [result["kills"] for result in known if result["id"] == mutant.id]
+        return (sum(known), len(known) * self.args.count) if known else None
+
+    def race(self, mutant, mode, seed):
+        path = self.path(mutant.name, mode, seed)
+        if self.known(path, mutant.id):
+            return
+        started = time.monotonic()
+        kill, first = {}, 0
+        for cases in self.chunks():
+            kill = self.first_kill(mutant.name, mode, seed, first, cases)
+            if kill:
+                break
+            first = cases
+        result = {"id": mutant.id, "cases": self.args.cases, "case_timeout": self.args.case_timeout}
+        write_json(path, dict(result, **kill, seconds=round(time.monotonic() - started, 1)))
+        what = f"case {kill['found']}, {kill['arm']}, {kill['family']}" if kill else "not found"
+        say(f"{mutant.name} {mode} seed {seed}: {what}")
+
+    # ---- buckets
+
+    def bucket_path(self, name):
+        return self.results / "buckets" / f"{name}.json"
+
+    def find_buckets(self, name, identity):
+        path = self.bucket_path(name)
+        if path.exists() and json.loads(path.read_text()).get("id") == identity:
+            return
+        with tempfile.TemporaryDirectory(dir=self.out) as corpus:
+            self.fuzz(name, "mixture", 1, self.args.bucket_cases, corpus, (2, self.args.bucket_evaluations), os.devnull)
+            buckets = []
+            for file in sorted(Path(corpus).glob("buckets/*/bucket.json")):
+                described = json.loads(file.read_text())
+                least = json.loads((file.parent / described["min"]).read_text())["spec"]
+                if name == CLEAN or not self.is_on_clean(least, described["family"]):
+                    buckets.append(file.parent.name)
+        write_json(path, {"id": identity, "buckets": buckets})
+        say(f"{name}: {len(buckets)} buckets")
+
+    def own_buckets(self, name):
+        path = self.bucket_path(name)
+        if not path.exists() or not self.bucket_path(CLEAN).exists():
+            return None
+        known = set(json.loads(self.bucket_path(CLEAN).read_text())["buckets"])
+        return [b for b in json.loads(path.read_text())["buckets"] if b not in known]
+
+    # ---- what was measured
+
+    def counts(self, mutant, mode):
+        """Cases to detection of each seed that was run; none where it was not found."""
+        results = [self.known(self.path(mutant.name, mode, seed), mutant.id) for seed in self.seeds]
+        found = [result.get("found") for result in results if result]
+        return [count if count and count <= self.args.cases else None for count in found]
+
+    def seen_by(self, mutant):
+        checks = {}
+        for mode in ARMS:
+            for seed in self.seeds:
+                result = self.known(self.path(mutant.name, mode, seed), mutant.id)
+                if result and result.get("found"):
+                    check = result["family"].split("|")[0]
+                    checks[check] = checks.get(check, 0) + 1
+        return ", ".join(sorted(checks, key=lambda check: (-checks[check], check)))
