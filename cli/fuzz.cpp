@@ -39,6 +39,7 @@ struct Options {
   double case_timeout_s = 10.0;
   std::int64_t memory_mb = 4096;
   int shrinks_per_family = 2;
+  int shrinks_per_case = 4;
   int shrink_evaluations = 1000;
   std::string shrink_time;
   std::string corpus = "contort-out/corpus";
@@ -116,6 +117,7 @@ Result<Done> choose_seeds(const Options& options, const Library& library, RunCon
 
 Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
   config.shrinks_per_family = options.shrinks_per_family;
+  config.shrinks_per_case = options.shrinks_per_case;
   config.shrink.max_evaluations = options.shrink_evaluations;
   if (options.shrink_time.empty()) return Done{};
   const Result<double> time_s = parse_time_s(options.shrink_time);
@@ -193,6 +195,11 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
   std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
               static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
+  if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
+    std::printf(
+        "%lld families came only behind %d earlier ones of their case: counted, not shrunk "
+        "(--shrinks-per-case)\n",
+        static_cast<long long>(late), options.shrinks_per_case);
   if (result.interrupted || result.waiting > 0)
     std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.waiting);
   if (t.shards > 1)
@@ -299,6 +306,11 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->add_option("--shrinks-per-family", options->shrinks_per_family,
                    "Failures of one family that are shrunk and stored")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--shrinks-per-case", options->shrinks_per_case,
+                   "Families of one case that are shrunk and stored, the earliest; the others are counted")
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->add_option("--shrink-evaluations", options->shrink_evaluations, "Motions generated per shrink, at most")
       ->check(CLI::Range(0, 36000))

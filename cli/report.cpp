@@ -68,8 +68,8 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
                  const std::string& settings, const Context& context) {
   ReportRow row;
   const std::string path = folder + "/" + bucket.min;
-  row.family = bucket.family, row.check = bucket.check,
-  row.key = folder_name(bucket), row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
+  row.family = bucket.family, row.check = bucket.check, row.key = folder_name(bucket),
+  row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
   row.bucket = bucket.id, row.state = state_name(bucket.state);
@@ -86,6 +86,7 @@ ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& st
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
   row.features = bucket.features, row.needs = needs_of(stored.spec);
+  row.also = stored.also;
   row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
     if (check.name == bucket.check) row.meaning = check.help;
@@ -179,8 +180,7 @@ bool is_drawn(const Picture& picture) {
 void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   std::set<std::string> wanted;
   for (const Picture& picture : pictures)
-    for (const std::string& path : files_of(picture))
-      wanted.insert(std::filesystem::path(path).filename().string());
+    for (const std::string& path : files_of(picture)) wanted.insert(std::filesystem::path(path).filename().string());
   remove_old(folder, is_picture_file, wanted);
   std::erase_if(pictures, is_drawn);
 }
@@ -222,7 +222,8 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
     const Result<Case> stored = read_case(entry.path().string());
     if (!stored) return stored.issue();
     return "NEW " + family_of(*stored) + "  " + short_number(stored->expect.worst_margin) + " " + stored->expect.unit +
-           "  " + replay_command(entry.path().string(), library_folders);
+           (stored->also.empty() ? "" : " and " + std::to_string(stored->also.size()) + " that come with it") + "  " +
+           replay_command(entry.path().string(), library_folders);
   }
   return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
 }

@@ -38,9 +38,9 @@ std::optional<Case> failing_now(const Options& options, const Library& library, 
   const Replay now = replay(*stored, library, evaluator, {}, options.config.isolation);
   if (now.verdict == Verdict::refused) return context.fail(now.issue), std::nullopt;
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
-    return context.fail({"shrink.no_failure", "",
-                         options.input + " does not fail as it says any more (" +
-                             std::string(verdict_name(now.verdict)) + ")"}),
+    return context.fail(
+               {"shrink.no_failure", "",
+                options.input + " does not fail as it says any more (" + std::string(verdict_name(now.verdict)) + ")"}),
            std::nullopt;
   Case failing = std::move(stored).value();
   failing.expect = now.now;
@@ -80,18 +80,18 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
   std::printf("%s: %zu bytes of spec, was %zu (%d evaluations, %s)\n", output.c_str(),
               print_spec(shrunk.minimal.spec).size(), print_spec(original.spec).size(), shrunk.evaluations,
               shrunk.stopped.c_str());
-  for (const std::string& pointer : shrunk.minimal.free_fields)
-    std::printf("any value: %s\n", pointer.c_str());
+  for (const std::string& pointer : shrunk.minimal.free_fields) std::printf("any value: %s\n", pointer.c_str());
   if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
     std::printf("worst: %s %s, %s here\n", short_number(shrunk.worst.expect.worst_margin).c_str(),
                 shrunk.worst.expect.unit.c_str(), short_number(shrunk.minimal.expect.worst_margin).c_str());
-  for (const Case& other : shrunk.also) std::printf("also met: %s\n", family_of(other).c_str());
+  for (const std::string& other : shrunk.minimal.also) std::printf("comes with it: %s\n", other.c_str());
+  for (const Case& other : shrunk.met) std::printf("also met: %s\n", family_of(other).c_str());
   std::printf("%s\n", replay_command(output, context.library_folders).c_str());
 }
 
 void print_json(const Shrunk& shrunk, const std::string& output) {
-  json_fields::Json also = json_fields::Json::array();
-  for (const Case& other : shrunk.also) also.push_back(family_of(other));
+  json_fields::Json met = json_fields::Json::array();
+  for (const Case& other : shrunk.met) met.push_back(family_of(other));
   const json_fields::Json out = {{"case", output},
                                  {"family", family_of(shrunk.minimal)},
                                  {"stopped", shrunk.stopped},
@@ -99,7 +99,8 @@ void print_json(const Shrunk& shrunk, const std::string& output) {
                                  {"depth", shrunk.minimal.expect.depth},
                                  {"worst_depth", shrunk.worst.expect.depth},
                                  {"free_fields", shrunk.minimal.free_fields},
-                                 {"also", also}};
+                                 {"also", shrunk.minimal.also},
+                                 {"met", met}};
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }
 

@@ -50,6 +50,8 @@ void fields(V& v, const Provenance*) {
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
   v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");
   v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
+  v.field("rank", &Provenance::rank, {.low = 0, .high = 1'000'000},
+          "Among the failures of its case by first frame; 0: the earliest.");
   v.field("profile", &Provenance::profile, {.text = Text::prose, .may_be_empty = true},
           "Profile of the run, by name; empty: it draws everything.");
   v.field("met_shrinking", &Provenance::met_shrinking, {.text = Text::prose, .may_be_empty = true},
@@ -65,7 +67,7 @@ void fields(V& v, const Case*) {
   v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = Text::label},
           "Pointers into the spec: fields that could as well have other values.");
   v.field("also", &Case::also, {.max_count = 100'000, .text = Text::prose},
-          "Families of other failures that shrinking met, and that the original does not show.");
+          "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
 }
 
 std::string family_of(const Case& stored) {

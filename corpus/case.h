@@ -38,6 +38,7 @@ struct Provenance {
   int shrink_evaluations = 0;
   std::string shrink_stopped;   // "fixpoint", "evaluations", "time", "flaky" or "gone"
   double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
+  int rank = 0;                 // among the failures of its case by first frame; 0: the earliest
   std::string profile;        // of the run, by name; shrinking stays within it. "": it draws everything
   std::string met_shrinking;  // family of the failure whose shrinking met this one; "" where the case itself showed it
   bool operator==(const Provenance&) const = default;
@@ -48,7 +49,7 @@ struct Case {
   Expectation expect;
   Provenance provenance;
   std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
-  std::vector<std::string> also{};  // other families that its shrinking met, and that the case before it does not show
+  std::vector<std::string> also{};         // families that came with it before it was shrunk, and still do
   bool operator==(const Case&) const = default;
 };
 

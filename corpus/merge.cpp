@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "corpus/leads.h"
 
@@ -60,17 +62,45 @@ bool came_too_late(const RunRecord& run, const Lead& lead) {
   return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
 }
 
-// The first cases of each family by index, as one run would have taken them. Which these are is on record: of a shard
-// that is merged again on its own, the first leads need not be the first of the run.
-Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
-  for (const Lead& lead : leads_of(corpus, merged.damaged)) {
-    if (lead.run != run.name || !lead.minimal) continue;
-    if (came_too_late(run, lead)) {
-      drop_lead(corpus, lead);
-    } else if (const auto added = file_lead(corpus, lead); !added) {
-      return added.issue();
-    }
+// What one run would not have shrunk: a failure that the minimal spec of an earlier one of the same case shows as well,
+// and what was met while that was shrunk. In the order of cases, and of the failures of each.
+class ToldAlready {
+ public:
+  bool operator()(const Lead& lead) {
+    const Provenance& from = lead.original.provenance;
+    if (from.index != index_) index_ = from.index, shown_.clear(), told_.clear();
+    if (!from.met_shrinking.empty()) return told_.contains(from.met_shrinking);
+    if (shown_.contains(family_of(lead.original))) return told_.insert(family_of(lead.original)), true;
+    shown_.insert(lead.minimal->also.begin(), lead.minimal->also.end());
+    return false;
   }
+
+ private:
+  std::int64_t index_ = -1;
+  std::set<std::string> shown_, told_;  // families of this case
+};
+
+std::vector<Lead> shrunk_leads_of(const Corpus& corpus, const RunRecord& run, Merged& merged) {
+  std::vector<Lead> leads = leads_of(corpus, merged.damaged);
+  std::erase_if(leads, [&](const Lead& lead) { return lead.run != run.name || !lead.minimal; });
+  std::ranges::stable_sort(leads, {}, [](const Lead& lead) {
+    const Provenance& from = lead.original.provenance;
+    return std::tuple(from.index, from.rank, !from.met_shrinking.empty());
+  });
+  return leads;
+}
+
+// The first cases of each family by index, as one run would have taken them. Which these are is on record: of a shard
+// that is merged again on its own, the first leads need not be the first of the run. All that is superfluous goes
+// before anything is filed, so that a kill in between changes nothing.
+Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merged) {
+  std::vector<Lead> to_file, superfluous;
+  ToldAlready told_already;
+  for (Lead& lead : shrunk_leads_of(corpus, run, merged))
+    (came_too_late(run, lead) || told_already(lead) ? superfluous : to_file).push_back(std::move(lead));
+  for (const Lead& lead : superfluous) drop_lead(corpus, lead);
+  for (const Lead& lead : to_file)
+    if (const auto added = file_lead(corpus, lead); !added) return added.issue();
   tidy_leads(corpus, run.name);
   return Done{};
 }

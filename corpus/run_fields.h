@@ -16,9 +16,10 @@ inline constexpr int kMostShrinks = 1000;  // of one family
 template <class V>
 void fields(V& v, const FamilyCount*) {
   v.field("cases", &FamilyCount::cases, run_rules::kTotal, "Cases that showed it.");
+  v.field("first_index", &FamilyCount::first_index, run_rules::kTotal, "The first of them.");
   v.field("first_indices", &FamilyCount::first_indices,
           {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostShrinks},
-          "The first of them: those that go into buckets.");
+          "The first of those in which it was one of the earliest failures: they go into buckets.");
   v.field("first_arm", &FamilyCount::first_arm, {.may_be_empty = true}, "How the first one was drawn.");
 }
 
@@ -30,7 +31,7 @@ void fields(V& v, const ArmCount*) {
 
 template <class V>
 void fields(V& v, const RunRecord*) {
-  v.constant("format", "contort.run/3");
+  v.constant("format", "contort.run/4");
   v.field("name", &RunRecord::name, {.required = true}, "Name of the run.");
   v.field("tool", &RunRecord::tool, run_rules::kLabel, "Version.");
   v.field("shard", &RunRecord::shard, {.low = 0, .high = 63}, "Which share of the run, from 0.");

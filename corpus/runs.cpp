@@ -35,7 +35,8 @@ std::string path_of(const Corpus& corpus, const RunRecord& run) {
 void add_families(const RunRecord& shard, RunRecord& sum) {
   for (const auto& [family, count] : shard.families) {
     FamilyCount& all = sum.families[family];
-    if (all.cases == 0 || count.first_indices < all.first_indices) all.first_arm = count.first_arm;
+    if (all.cases == 0 || count.first_index < all.first_index)
+      all.first_index = count.first_index, all.first_arm = count.first_arm;
     all.cases += count.cases;
     std::vector<std::int64_t> both;
     std::ranges::merge(all.first_indices, count.first_indices, std::back_inserter(both));

@@ -13,8 +13,11 @@ namespace contort {
 // How often a family was seen, and where first. The first of all families together are the discovery curve.
 struct FamilyCount {
   std::int64_t cases = 0;
-  std::vector<std::int64_t> first_indices;  // of its first cases, ascending; at most shrinks_per_family of the run
-  std::string first_arm;                    // "guided": how the first of them was drawn
+  std::int64_t first_index = 0;  // of the first of them
+  // Of the first in which it was one of the earliest failures (RunConfig::shrinks_per_case), ascending; at most
+  // shrinks_per_family of the run.
+  std::vector<std::int64_t> first_indices;
+  std::string first_arm;  // "guided": how the case of first_index was drawn
   bool operator==(const FamilyCount&) const = default;
 };
 

@@ -49,7 +49,7 @@ SearchProgress progress_of(std::span<const RunRecord> runs) {
   for (const Shards& shards : by_run(runs)) {
     const RunRecord run = added_up(shards.records);
     for (const auto& [name, count] : run.families) {
-      const std::int64_t index = count.first_indices.empty() ? run.cases : count.first_indices.front();
+      const std::int64_t index = count.first_index;
       const Family met{0, all.cases + shards.place_of(index, run), count.first_arm, {run.name, index}};
       families.try_emplace(name, met).first->second.cases += count.cases;
     }

@@ -21,6 +21,7 @@ template <class V>
 void fields(V& v, const CaseTask*) {
   v.field("lineage", &CaseTask::lineage, case_rules::kIndices, "Ancestry of the case, itself last.");
   v.field("family", &CaseTask::family, case_rules::kProse, "The failure to be settled; empty: evaluate.");
+  v.field("rank", &CaseTask::rank, {.low = 0, .high = 1'000'000}, "Among the families of the case.");
   v.field("motion_hash", &CaseTask::motion_hash, case_rules::kHash, "Of the first time.");
   v.field("ending", &CaseTask::ending, case_rules::kProse, "How the process ended that ran or shrank it first.");
 }
@@ -47,6 +48,7 @@ void fields(V& v, const CaseReport*) {
   v.field("near", &CaseReport::near, {.max_count = 100000}, "Near misses.");
   v.field("waivers", &CaseReport::waivers, {.max_count = 1000}, "Use of each.");
   v.field("confirmed", &CaseReport::confirmed, {}, "Failed twice in the same way.");
+  v.field("also", &CaseReport::also, case_rules::kFamilies, "Of the case, and shown by the minimal spec.");
   v.field("met", &CaseReport::met, case_rules::kFamilies, "Leads of other families.");
   v.field("met_once", &CaseReport::met_once, case_rules::kFamilies, "Those that did not happen again.");
   v.field("issue", &CaseReport::issue, case_rules::kProse, "Why the lead could not be written.");
@@ -72,7 +74,7 @@ void fields(V& v, const Island*) {
 
 template <class V>
 void fields(V& v, const RunState*) {
-  v.constant("format", "contort.state/2");
+  v.constant("format", "contort.state/3");
   v.field("plan", &RunState::plan, case_rules::kProse, "What the run was asked for.");
   v.field("next", &RunState::next, run_rules::kTotal, "First case of the next round.");
   v.field("record", &RunState::record, {.required = true}, "What was done so far.");

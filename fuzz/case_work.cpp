@@ -17,16 +17,18 @@ namespace {
 
 constexpr double kWithinReach = 20.0;  // of a limit, in the check's scale: 2 rad, 40 cm
 
-double steady_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double steady_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string target_of(const CheckDef& check, const Character& character, std::size_t subject) {
   return std::string(check.name) + "|" + character.name() + "|" +
          check.subject(character, static_cast<int>(subject)).name;
 }
 
-std::vector<std::string> families_of(const std::string& character, const std::vector<Finding>& findings) {
+// The earliest first, as what comes later may only follow from it; of those that begin together the deepest.
+std::vector<std::string> families_of(const std::string& character, std::vector<Finding> findings) {
+  std::ranges::stable_sort(findings, [](const Finding& l, const Finding& r) {
+    return std::pair(l.first_frame, -l.depth) < std::pair(r.first_frame, -r.depth);
+  });
   std::vector<std::string> families;
   std::set<std::string> seen;
   for (const Finding& finding : findings)
@@ -130,6 +132,7 @@ CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   if (!again) return report;
   Lead lead{run_name(config_), *again, {}};
   lead.original.provenance = provenance_in(config_, task.lineage.back());
+  lead.original.provenance.rank = task.rank;
   report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
   Result<std::string> kept = keep_lead(corpus_, lead);
   if (kept && report.confirmed) kept = shrink_lead(task, lead, report, slot);
@@ -142,8 +145,9 @@ Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, Case
                                           WorkerSlot& slot) const {
   const Shrunk shrunk = shrink_one(lead.original, !task.ending.empty(), slot);
   lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
+  report.also = shrunk.minimal.also;
   Result<std::string> kept = keep_lead(corpus_, lead);
-  for (const Case& met : shrunk.also)
+  for (const Case& met : shrunk.met)
     if (kept && is_ending(met.expect)) kept = keep_met(lead, met, report, slot);
   return kept;
 }

@@ -22,6 +22,7 @@ namespace contort {
 struct CaseTask {
   Lineage lineage;
   std::string family;
+  int rank = 0;             // of the family among those of the case, by first frame
   std::string motion_hash;  // of the first time
   std::string ending;       // family of how it ended its process before, or a candidate of its shrinking did
   bool operator==(const CaseTask&) const = default;
@@ -32,21 +33,22 @@ struct CaseReport {
   int frames = 0;
   std::string motion_hash;
   std::vector<std::string> tested;  // labels of what the case was made of
-  std::vector<std::string> broken;  // families, in order of their first frame
+  std::vector<std::string> broken;  // families, by their first frame, then the deepest in its check's scale
   std::vector<NearMiss> near;       // of the subjects of the island's group
   std::vector<WaiverUse> waivers;
-  bool confirmed = false;  // of a settled failure: the second time was bit for bit the first
+  bool confirmed = false;             // of a settled failure: the second time was bit for bit the first
+  std::vector<std::string> also;      // families of the case that its minimal spec shows too
   std::vector<std::string> met;       // families of other leads that its shrinking left
   std::vector<std::string> met_once;  // the same, which did not happen again
-  std::string issue;       // it could not be written: code and text
+  std::string issue;                  // it could not be written: code and text
 };
 
 std::string print_task(const CaseTask& task);
 CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
 
-// Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each case
-// was 1 % of a run.
+// Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each
+// case was 1 % of a run.
 class TargetGroups {
  public:
   const std::vector<std::int8_t>& of(const CheckDef& check, const Character& character, std::size_t subjects);

@@ -20,6 +20,7 @@ double steady_s() { return std::chrono::duration<double>(std::chrono::steady_clo
 
 std::string plan_of(const RunConfig& config) {
   return run_name(config) + " shrinks=" + std::to_string(config.shrinks_per_family) +
+         " of_case=" + std::to_string(config.shrinks_per_case) +
          " evaluations=" + std::to_string(config.shrink.max_evaluations) +
          " shrink_time=" + std::to_string(config.shrink_time_s);
 }
@@ -106,7 +107,7 @@ class Run {
       if (!is_of(config_.shard, island)) continue;
       const Island& pools = state_.islands[static_cast<std::size_t>(island)];
       const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index);
-      round_.push_back({{lineage, {}, {}, {}}, {}});
+      round_.push_back({{lineage, {}, 0, {}, {}}, {}});
     }
     open_ = static_cast<int>(round_.size());
   }
@@ -125,12 +126,14 @@ class Run {
   void step(WorkerPool& pool, bool hand_out) {
     while (hand_out) {
       const std::optional<int> idle = pool.idle_worker();
-      if (!idle || (settling_.empty() && given_ == static_cast<int>(round_.size()))) break;
+      if (!idle) break;
+      const auto next = next_to_settle();
+      if (next == settling_.end() && given_ == static_cast<int>(round_.size())) break;
       Running& running = running_[static_cast<std::size_t>(*idle)];
       running = {};
-      if (!settling_.empty()) {
-        running.settled = settling_.front();
-        settling_.pop_front();
+      if (next != settling_.end()) {
+        running.settled = *next;
+        settling_.erase(next);
         pool.give(*idle, print_task(*running.settled), kSettlingPatience);
       } else {
         running.place = given_++;
@@ -139,6 +142,14 @@ class Run {
     }
     if (const std::optional<WorkerEvent> event = pool.wait(100)) take(*event);
     report();
+  }
+
+  // Of one case one failure at a time: what a minimal spec shows too is not settled any more.
+  std::deque<CaseTask>::iterator next_to_settle() {
+    return std::ranges::find_if(settling_, [&](const CaseTask& task) {
+      return std::ranges::none_of(running_,
+                                  [&](const Running& r) { return r.settled && r.settled->lineage == task.lineage; });
+    });
   }
 
   void take(const WorkerEvent& event) {
@@ -187,11 +198,14 @@ class Run {
     if (failing_ && !report.broken.empty())
       failing_({index, arm_name, report.broken, spec_of(config_, library_, task.lineage)});
     state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
-    for (const std::string& family : report.broken) {
-      FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, {}, arm_name}).first->second;
-      if (++count.cases > config_.shrinks_per_family) continue;
+    for (std::size_t rank = 0; rank < report.broken.size(); ++rank) {
+      const std::string& family = report.broken[rank];
+      FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, index, {}, arm_name}).first->second;
+      ++count.cases;
+      if (std::cmp_greater_equal(rank, config_.shrinks_per_case)) continue;
+      if (std::ssize(count.first_indices) >= config_.shrinks_per_family) continue;
       count.first_indices.push_back(index);
-      want({task.lineage, family, report.motion_hash, task.ending});
+      want({task.lineage, family, static_cast<int>(rank), report.motion_hash, task.ending});
     }
   }
 
@@ -205,8 +219,8 @@ class Run {
   void settled(const CaseTask& task, const WorkerEvent& event) {
     const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
     if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
-    std::erase_if(state_.wanted,
-                  [&](const CaseTask& t) { return t.lineage == task.lineage && t.family == task.family; });
+    settle_no_more(task, {task.family});
+    if (report.confirmed && config_.shard.count == 1) settle_no_more(task, report.also);
     if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
     take_lead(path_of_lead(task), report.confirmed);
     for (const std::string& family : report.met) take_lead(path_of_met(task, family), true);
@@ -216,15 +230,25 @@ class Run {
       take_lead(path_of_met(task, task.ending), false);
   }
 
+  // Which families of the case need no bucket of their own, a shard leaves to `merge`: it shrinks more than a whole
+  // run.
+  void settle_no_more(const CaseTask& of_case, const std::vector<std::string>& families) {
+    const auto is_done = [&](const CaseTask& task) {
+      return task.lineage == of_case.lineage && std::ranges::find(families, task.family) != families.end();
+    };
+    std::erase_if(state_.wanted, is_done);
+    std::erase_if(settling_, is_done);
+  }
+
   // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
-  // again, or else it is not confirmed.
+  // again, or else it is not confirmed. It still comes before the later failures of its case.
   void shrink_guarded(CaseTask task, const WorkerEvent& event) {
     Lead lead{state_.record.name, case_of_ending(event), {}};
     lead.original.provenance = provenance_in(config_, task.lineage.back());
     lead.original.provenance.met_shrinking = task.family;
     if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) return fail(kept.issue());
     task.ending = family_of(lead.original);
-    settling_.push_back(std::move(task));
+    settling_.push_front(std::move(task));
   }
 
   void take_lead(const std::string& path, bool confirmed) {

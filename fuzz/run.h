@@ -31,6 +31,7 @@ struct RunConfig {
   int jobs = 1;                // worker processes, >= 1
   Shard shard;
   int shrinks_per_family = 2;  // failures of one family that are shrunk; later ones are only counted
+  int shrinks_per_case = 4;    // families of one case that may be, the earliest; the others are only counted
   bool resume = false;         // go on where a run of the same options was killed
   WorkerLimits limits;         // of one case
   ShrinkConfig shrink;

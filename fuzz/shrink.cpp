@@ -46,12 +46,6 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   return from;
 }
 
-std::vector<std::string> families_of(const std::vector<Case>& cases) {
-  std::vector<std::string> families;
-  for (const Case& other : cases) families.push_back(family_of(other));
-  return families;
-}
-
 }  // namespace
 
 Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config) {
@@ -71,8 +65,8 @@ Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, c
     shrunk.worst = worst_of(state);
   }
   shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(confirmed, state, shrunk.stopped);
-  shrunk.also = state.also();
-  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : families_of(shrunk.also);
+  shrunk.met = state.met();
+  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : state.still_shown();
   shrunk.evaluations = state.evaluations();
   return shrunk;
 }

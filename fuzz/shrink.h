@@ -31,7 +31,7 @@ struct ShrinkConfig {
 struct Shrunk {
   Case minimal;
   Case worst;              // what minimal needs, with numbers that make it as deep as was found
-  std::vector<Case> also;  // other families, which the original does not show: the cheapest spec seen of each
+  std::vector<Case> met;   // other families, which the original does not show: the cheapest spec seen of each
   std::string stopped;     // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
   int evaluations = 0;     // motions generated
 };

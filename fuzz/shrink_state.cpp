@@ -10,13 +10,18 @@ namespace contort {
 
 namespace {
 
-// A share of what it was before any shrinking, so that shrinking again does not go on from half to a quarter. Nothing
-// finite is as deep as NaN.
+// Nothing finite is as deep as NaN.
+double depth_of(const Expectation& shown) {
+  return std::isnan(shown.worst_margin) ? std::numeric_limits<double>::infinity() : shown.depth;
+}
+
+double share_of(double depth, double floor) { return std::isinf(depth) ? depth : floor * depth; }
+
+// A share of what it was before any shrinking, so that shrinking again does not go on from half to a quarter.
 double least_depth_of(const Case& stored, double depth, double floor) {
-  if (std::isinf(depth)) return depth;
   const Provenance& from = stored.provenance;
   const double whole = from.shrunk_from.empty() || from.original_depth <= 0.0 ? depth : from.original_depth;
-  return std::min(floor * whole, depth);
+  return std::min(share_of(whole, floor), depth);
 }
 
 }  // namespace
@@ -54,8 +59,8 @@ bool ShrinkState::confirm() {
   shown_ = *second;
   least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
   most_frames_ = shown_.most_frames;
-  for (const Case& other : trial_.others(best_.spec)) families_.insert(family_of(other));
-  std::erase_if(also_, [&](const auto& met) { return families_.contains(met.first); });
+  for (const Case& other : trial_.others(best_.spec)) beside_[family_of(other)] = depth_of(other.expect);
+  std::erase_if(met_, [&](const auto& met) { return beside_.contains(met.first); });
   return true;
 }
 
@@ -89,15 +94,27 @@ void ShrinkState::look_around() {
 
 void ShrinkState::meet(const Case& other) {
   const std::string family = family_of(other);
-  if (families_.contains(family)) return;
-  const auto [known, is_new] = also_.try_emplace(family, other);
+  if (beside_.contains(family)) return;
+  const auto [known, is_new] = met_.try_emplace(family, other);
   if (!is_new && cheaper(other.spec, known->second.spec)) known->second = other;
 }
 
-std::vector<Case> ShrinkState::also() const {
+std::vector<Case> ShrinkState::met() const {
   std::vector<Case> cases;
-  for (const auto& [family, other] : also_) cases.push_back(other);
+  for (const auto& [family, other] : met_) cases.push_back(other);
   return cases;
+}
+
+std::vector<std::string> ShrinkState::still_shown() {
+  std::vector<std::string> families;
+  if (beside_.empty()) return families;
+  trial_.run(best_.spec, most_frames_);
+  for (const Case& other : trial_.others(best_.spec)) {
+    const auto before = beside_.find(family_of(other));
+    if (before != beside_.end() && depth_of(other.expect) >= share_of(before->second, config_.depth_floor))
+      families.push_back(before->first);
+  }
+  return families;
 }
 
 }  // namespace contort

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -43,7 +42,11 @@ class ShrinkState {
   double depth() const { return shown_.depth; }
   const std::string& stopped() const { return stopped_; }
   int evaluations() const { return evaluations_; }
-  std::vector<Case> also() const;
+  std::vector<Case> met() const;
+
+  // The original's other families that the smallest spec shows, as deep as the family itself must stay: by name. One
+  // more motion, whatever the budget, unless nothing was shrunk.
+  std::vector<std::string> still_shown();
 
  private:
   bool spent();
@@ -56,8 +59,8 @@ class ShrinkState {
   double least_depth_ = 0.0;
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
-  std::set<std::string> families_;       // that the original shows
-  std::map<std::string, Case> also_;     // by family
+  std::map<std::string, double> beside_;  // depths of other families in the original
+  std::map<std::string, Case> met_;       // by family, none of the original's
   std::string stopped_ = "fixpoint";
   int evaluations_ = 0;
 };

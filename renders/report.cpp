@@ -36,6 +36,7 @@ Json row_json(const ReportRow& row) {
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
           {"features", row.features},
           {"needs", row.needs},
+          {"also", row.also},
           {"phase", row.phase},
           {"note", row.note}};
 }

@@ -56,6 +56,23 @@ std::string phase_fact(const ReportRow& row) {
   return words == row.phase ? words : row.phase + ": " + words;
 }
 
+// "joint_torque|human|foot_right/ankle_inv" as "joint_torque foot_right/ankle_inv": the figure is the row's.
+std::string without_figure(const std::string& family) {
+  const std::size_t check_end = family.find('|');
+  if (check_end == std::string::npos) return family;
+  const std::size_t figure_end = family.find('|', check_end + 1);
+  return figure_end == std::string::npos ? family : family.substr(0, check_end) + " " + family.substr(figure_end + 1);
+}
+
+std::string also_fact(const ReportRow& row) {
+  constexpr std::size_t kNamed = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, row.also.size()); ++i)
+    text += (i > 0 ? ", " : "") + without_figure(row.also[i]);
+  if (row.also.size() > kNamed) text += ", and " + std::to_string(row.also.size() - kNamed) + " more";
+  return text;
+}
+
 std::string fact(std::string_view name, const std::string& value) {
   if (value.empty()) return "";
   return "<div><dt>" + std::string(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
@@ -76,7 +93,9 @@ std::string open_html(const ReportRow& row, const PageFiles& inside) {
 }
 
 std::string short_bucket_html(const ReportRow& row, const PageFiles& inside) {
-  return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>" + html_text(short_text(row)) + "</p>\n" + open_html(row, inside) + command_html(row.replay_command) + "</section>\n";
+  return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>" +
+         html_text(short_text(row)) + "</p>\n" + open_html(row, inside) + command_html(row.replay_command) +
+         "</section>\n";
 }
 
 std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& inside) {
@@ -87,7 +106,7 @@ std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& insid
   out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
          fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
          fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("needs", row.needs) +
-         fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
+         fact("comes with", also_fact(row)) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
   room.spec_bytes -= row.spec_json.size();

@@ -158,6 +158,7 @@ std::string words_html() {
       {"finding", "A case in which a family was seen. One cause can give many."},
       {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
       {"needs", "The actions without which the failure does not happen: where to look for its cause."},
+      {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},
       {"phase", "What was going on in the worst frame, such as an interrupt that had just cut in."},
       {"state", "new: nobody has looked at it. open: somebody looks after it. regressed: it was fixed and is back. "
                 "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time."},

@@ -54,6 +54,7 @@ Case draw_case() {
                   *rc::gen::inRange(0, 36001),
                   draw_text("fixpoint", 0, 10),
                   std::ldexp(static_cast<double>(*rc::gen::inRange(0, 1000)), -4),
+                  *rc::gen::inRange(0, 1001),
                   draw_text("tame_2-x.", 0, 20),
                   draw_text("abc|/ ~", 0, 60)};
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {

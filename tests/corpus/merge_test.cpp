@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <deque>
+#include <set>
 
 #include "corpus/leads.h"
 #include "corpus/runs.h"
@@ -19,46 +20,61 @@ constexpr int kFirst = 2;  // failures of a family that go into buckets
 struct Failure {
   int index = 0;
   int subject = 0;
+  int rank = 0;             // among those of the index
+  std::vector<int> also{};  // subjects of the same index that the minimal spec shows too
 };
-using Failures = std::vector<Failure>;  // by index
+using Failures = std::vector<Failure>;  // by index, then rank
+
+std::string subject_text(int subject) { return "subject " + std::to_string(subject); }
 
 Lead lead_of(const Failure& failure) {
   const auto shown = [&](int elbow_deg) {
     Case c = made_up(elbow_deg, 30, 1);
-    c.expect.subject = "subject " + std::to_string(failure.subject);
-    c.provenance.index = failure.index;
+    c.expect.subject = subject_text(failure.subject);
+    c.provenance.index = failure.index, c.provenance.rank = failure.rank;
     return c;
   };
   // Some are minimal in another bucket of their family, and any may be the smallest or the deepest of its bucket.
   Lead lead{"seed_1_0", shown(160 + failure.index), shown(151 + failure.index * 7 % 9)};
   if (failure.index % 3 == 0) lead.minimal->spec.sequences.push_back(lead.minimal->spec.sequences.front());
   lead.minimal->provenance.shrunk_from = spec_id(lead.original.spec);
+  for (const int subject : failure.also) {
+    Case other = lead.original;
+    other.expect.subject = subject_text(subject);
+    lead.minimal->also.push_back(family_of(other));
+  }
   return lead;
 }
 
 RunRecord record_of(const Failures& failures, int shard, int shards) {
   RunRecord record;
   record.name = "seed_1_0", record.shard = shard, record.shards = shards, record.shrinks_per_family = kFirst;
-  record.cases = record.failing = std::ssize(failures);
+  std::set<int> indices;
+  for (const Failure& failure : failures) indices.insert(failure.index);
+  record.cases = record.failing = std::ssize(indices);
   for (const Failure& failure : failures) {
     FamilyCount& count = record.families[family_of(lead_of(failure).original)];
     if (++count.cases <= kFirst) count.first_indices.push_back(failure.index);
-    if (count.cases == 1) count.first_arm = "arm_" + std::to_string(failure.index);
+    if (count.cases == 1) count.first_index = failure.index, count.first_arm = "arm_" + std::to_string(failure.index);
   }
   return record;
 }
 
-// What a run leaves behind: of each family its first leads; a whole run has put them into buckets.
+// What a run leaves behind: of each family its first leads; a whole run has put them into buckets, but for those that
+// the minimal spec of an earlier failure of the case shows too.
 void leave(const Failures& failures, int shard, int shards, const Corpus& corpus) {
   const RunRecord record = record_of(failures, shard, shards);
   ASSERT_TRUE(keep_run(corpus, record));
+  std::set<std::pair<int, int>> told;  // index and subject
   for (const Failure& failure : failures) {
     const Lead lead = lead_of(failure);
     const std::vector<std::int64_t>& first = record.families.at(family_of(lead.original)).first_indices;
     if (std::ranges::find(first, failure.index) == first.end()) continue;
+    if (shards == 1 && told.contains({failure.index, failure.subject})) continue;
     ASSERT_TRUE(keep_lead(corpus, lead));
     if (shards > 1) continue;
     ASSERT_TRUE(file_lead(corpus, lead));
+    for (const int subject : failure.also) told.insert({failure.index, subject});
   }
 }
 
@@ -102,10 +118,16 @@ TEST(Merge, OfOneShardOnceMoreChangesNothing) {
   }
 }
 
+std::vector<int> draw_subjects() {
+  return *rc::gen::resize(4, rc::gen::unique<std::vector<int>>(rc::gen::inRange(0, 4)));
+}
+
+// Of one case no, one or several failures, whose minimal specs show some of the others.
 Failures draw_failures() {
   Failures failures;
   for (int index = 0; index < 10; ++index)
-    if (const int subject = *rc::gen::inRange(0, 4); subject < 3) failures.push_back({index, subject});
+    for (int rank = 0; const int subject : draw_subjects())
+      failures.push_back({index, subject, rank++, draw_subjects()});
   return failures;
 }
 
@@ -135,6 +157,41 @@ RC_GTEST_PROP(MergeOfShardsSlow, InAnyGroupingAndAnyOrderIsOneRun, ()) {
   for (const int next : order) merge_all({corpora.all()[static_cast<std::size_t>(next)]}, into);
   const std::string difference = first_difference(tree_of(whole.all().front().folder()), tree_of(into.folder()));
   if (!difference.empty()) RC_FAIL(difference);
+}
+
+TEST(Merge, FilesNothingThatAnEarlierFailureOfTheCaseShowsToo) {
+  Corpora corpora;
+  leave_shards({{0, 0, 0, {1, 2}}, {0, 1, 1, {3}}, {0, 2, 2}, {0, 3, 3, {0}}, {1, 1, 0}}, 2, corpora);
+  const Corpus& into = corpora.make();
+  merge_all({corpora.all()[0], corpora.all()[1]}, into);
+  std::vector<Issue> damaged;
+  std::set<std::pair<std::string, std::int64_t>> filed;
+  for (const Bucket& bucket : into.buckets(damaged)) {
+    const Case min = *read_case(into.folder_of(bucket) + "/" + bucket.min);
+    filed.insert({min.expect.subject, min.provenance.index});
+  }
+  // What the first shows is told with it, and what only that would have told is not; another case tells nothing of it.
+  EXPECT_EQ(filed, (std::set<std::pair<std::string, std::int64_t>>{
+                       {subject_text(0), 0}, {subject_text(3), 0}, {subject_text(1), 1}}));
+}
+
+TEST(Merge, WhatWasMetWhileShrinkingSuchAFailureIsNotFiled) {
+  Corpora corpora;
+  leave_shards({{0, 0, 0, {1}}, {0, 1, 1}}, 2, corpora);
+  const Corpus& shard = corpora.all()[0];
+  for (const int shrunk : {0, 1}) {
+    Lead met = lead_of({0, 2, shrunk});
+    met.original.provenance.met_shrinking = family_of(lead_of({0, shrunk, shrunk}).original);
+    met.minimal->provenance.met_shrinking = met.original.provenance.met_shrinking;
+    ASSERT_TRUE(keep_lead(shard, met));
+  }
+  const Corpus& into = corpora.make();
+  merge_all({shard, corpora.all()[1]}, into);
+  std::vector<Issue> damaged;
+  std::set<std::string> met;
+  for (const Bucket& bucket : into.buckets(damaged))
+    met.insert(read_case(into.folder_of(bucket) + "/" + bucket.min)->provenance.met_shrinking);
+  EXPECT_EQ(met, (std::set<std::string>{"", family_of(lead_of({0, 0}).original)}));
 }
 
 TEST(RunRecords, AddUpToTheFirstOfAllShards) {

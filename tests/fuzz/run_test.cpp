@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "corpus/runs.h"
@@ -82,6 +83,33 @@ TEST_F(RunsSlow, OfTheStockCharactersAreTheSameOnOneThreadAndOnThree) {
   expect_all_replay_as_the_same(one);
 }
 
+// Two in one motion, one after the other: what the minimal spec of the first shows as well has no bucket for that.
+TEST_F(Runs, WhatTheMinimalSpecOfAnEarlierFailureShowsTooHasNoBucketOfItsOwn) {
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig config = config_of(20, 2);
+  config.draw.characters = {"human"};
+  config.shrink.max_evaluations = 60;
+  const RunResult result = run(config, corpus);
+  std::map<std::int64_t, std::vector<Case>> of_case;
+  for (const Bucket& bucket : buckets_of(corpus)) {
+    const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
+    of_case[min.provenance.index].push_back(min);
+  }
+  std::size_t told = 0;
+  for (const auto& [index, cases] : of_case)
+    for (const Case& before : cases) {
+      told += before.also.size();
+      for (const Case& after : cases) {
+        const bool is_told = std::ranges::find(before.also, family_of(after)) != before.also.end();
+        EXPECT_FALSE(is_told && before.provenance.rank < after.provenance.rank)
+            << family_of(before) << ", " << family_of(after);
+      }
+    }
+  EXPECT_GT(told, 0U);
+  EXPECT_LT(buckets_of(corpus).size(), result.record.families.size());
+  EXPECT_TRUE(fs::is_empty(corpus.folder() + "/leads"));
+}
+
 TEST_F(Runs, CountWhatTheyDid) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run(config_of(40, 2), corpus);
@@ -96,9 +124,40 @@ TEST_F(Runs, CountWhatTheyDid) {
   EXPECT_EQ(characters, 40);
 }
 
+// Which failures are shrunk, by the rule alone: families of a case, the earliest first.
+std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector<FailingCase>& failing,
+                                                                    const RunConfig& config) {
+  std::map<std::string, std::vector<std::int64_t>> shrunk;
+  for (const FailingCase& one : failing)
+    for (std::size_t rank = 0; rank < one.families.size(); ++rank) {
+      std::vector<std::int64_t>& indices = shrunk[one.families[rank]];
+      if (std::cmp_less(rank, config.shrinks_per_case) && std::ssize(indices) < config.shrinks_per_family)
+        indices.push_back(one.index);
+    }
+  return shrunk;
+}
+
+TEST_F(Runs, ShrinkTheEarliestFailuresOfACaseAndCountTheOthers) {
+  for (const int most : {1, 2, 1000}) {
+    RunConfig config = config_of(40, 2);
+    config.draw.characters = {"human"};
+    config.shrinks_per_case = most, config.shrinks_per_family = 3, config.shrink.max_evaluations = 0;
+    std::vector<FailingCase> failing;
+    const RunResult result = run_fuzz(
+        config, library(), create(folder_ / std::to_string(most)), [](const RunProgress&) {}, [] { return false; },
+        [&](const FailingCase& one) { failing.push_back(one); });
+    std::map<std::string, std::vector<std::int64_t>> shrunk;
+    for (const auto& [family, count] : result.record.families) shrunk[family] = count.first_indices;
+    EXPECT_EQ(shrunk, shrunk_by_the_rule(failing, config)) << most;
+    EXPECT_EQ(most == 1000, std::ranges::none_of(shrunk, [](const auto& f) { return f.second.empty(); })) << most;
+  }
+}
+
 TEST_F(Runs, AreRecordedInTheCorpus) {
   const Corpus corpus = create(folder_ / "corpus");
-  const RunResult result = run(config_of(20, 2), corpus);
+  RunConfig config = config_of(20, 2);
+  config.shrinks_per_case = 1000;
+  const RunResult result = run(config, corpus);
   std::vector<Issue> damaged;
   const std::vector<RunRecord> records = runs_of(corpus, damaged);
   EXPECT_EQ(records, std::vector<RunRecord>{result.record});

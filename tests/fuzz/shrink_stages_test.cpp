@@ -175,45 +175,68 @@ TEST(ShrinkStages, WhatDoesNotFailAnyMoreIsGone) {
   EXPECT_EQ(result.minimal.spec, healthy.spec);
 }
 
-// A trial in which the family is "planted|human|rule", and others are seen beside it.
+// A trial in which the family is "planted|human|rule", and others are seen beside it: "old" in all specs, "shallow"
+// less deep than half in what does not hold, "gone" only in what holds, "later" only in what does not.
 class CrowdedTrial final : public Trial {
  public:
   TrialResult run(const Spec& spec, int) override {
     TrialResult shown;
     shown.built = shown.fails = true;
     shown.depth = 1.0;
-    shown.met = {of_check("at_once", spec)};
+    shown.met = {of_check("at_once", spec, 1.0)};
     return shown;
   }
   std::vector<Case> others(const Spec& spec) override {
-    return spec.hold_frames > 0 ? std::vector{of_check("old", spec)}
-                                : std::vector{of_check("old", spec), of_check("later", spec)};
+    const bool holds = spec.hold_frames > 0;
+    return {of_check(holds ? "gone" : "later", spec, 1.0), of_check("nan", spec, std::nan("")),
+            of_check("old", spec, holds ? 4.0 : 2.0), of_check("shallow", spec, holds ? 4.0 : 1.9)};
   }
 
  private:
-  static Case of_check(const std::string& check, const Spec& spec) {
+  static Case of_check(const std::string& check, const Spec& spec, double depth) {
     Case other;
     other.spec = spec;
     other.expect.check = check;
     other.expect.subject = "it";
+    other.expect.worst_margin = -depth;
+    other.expect.depth = std::isnan(depth) ? 0.0 : depth;
     return other;
   }
 };
 
-TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
-  CrowdedTrial trial;
+Case holding() {
   Case original;
   original.spec = spec_of({pose_use("arm_left", {}), pose_use("head", {})});
   original.spec.hold_frames = 5;
-  const Shrunk result = shrink_with(trial, original, stock_library(), {});
-  ASSERT_EQ(result.also.size(), 2U) << "what the original shows is no news";
-  EXPECT_EQ(family_of(result.also[0]), "at_once|human|it");
-  EXPECT_EQ(family_of(result.also[1]), "later|human|it");
-  for (const Case& other : result.also) EXPECT_EQ(other.spec, result.minimal.spec);
-  EXPECT_EQ(result.minimal.also, (std::vector<std::string>{"at_once|human|it", "later|human|it"}));
+  return original;
+}
+
+TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
+  CrowdedTrial trial;
+  const Shrunk result = shrink_with(trial, holding(), stock_library(), {});
+  ASSERT_EQ(result.met.size(), 2U) << "what the original shows is no news";
+  EXPECT_EQ(family_of(result.met[0]), "at_once|human|it");
+  EXPECT_EQ(family_of(result.met[1]), "later|human|it");
+  for (const Case& other : result.met) EXPECT_EQ(other.spec, result.minimal.spec);
+}
+
+TEST(ShrinkStages, TheMinimalCaseNamesWhatOfTheOriginalItStillShowsHalfAsDeep) {
+  CrowdedTrial trial;
+  const Shrunk result = shrink_with(trial, holding(), stock_library(), {});
+  EXPECT_EQ(result.minimal.also, (std::vector<std::string>{"nan|human|it", "old|human|it"}));
   EXPECT_TRUE(result.worst.also.empty());
   const Shrunk again = shrink_with(trial, result.minimal, stock_library(), {});
   EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
+}
+
+TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
+  CrowdedTrial trial;
+  ShrinkConfig config;
+  config.max_evaluations = 2;
+  const Shrunk result = shrink_with(trial, holding(), stock_library(), config);
+  EXPECT_EQ(result.stopped, "evaluations");
+  EXPECT_EQ(result.minimal.also,
+            (std::vector<std::string>{"gone|human|it", "nan|human|it", "old|human|it", "shallow|human|it"}));
 }
 
 Shrunk shrunk_ending(const Spec& spec, const Ending& ending, const std::function<void(const Spec&)>& work) {
@@ -240,8 +263,8 @@ TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
   const auto work = [](const Spec& x) { ::raise(actions_of(x) == 2 ? SIGSEGV : SIGFPE); };
   const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
   EXPECT_EQ(actions_of(result.minimal.spec), 2);
-  ASSERT_EQ(result.also.size(), 1U);
-  EXPECT_EQ(family_of(result.also[0]), "crash|human|SIGFPE");
+  ASSERT_EQ(result.met.size(), 1U);
+  EXPECT_EQ(family_of(result.met[0]), "crash|human|SIGFPE");
 }
 
 TEST(ShrinkEndings, ARealSpecThatFinishesIsGone) {

@@ -90,8 +90,8 @@ TEST(ShrinkGuarded, GoesRoundWhatCrashesAndHandsItBack) {
   EXPECT_EQ(result.stopped, "fixpoint");
   EXPECT_EQ(family_of(result.minimal), family_of(original));
   EXPECT_EQ(actions_of(result.minimal.spec), 2);
-  const auto met = std::ranges::find(result.also, "crash|human|SIGUSR1", [](const Case& c) { return family_of(c); });
-  ASSERT_NE(met, result.also.end());
+  const auto met = std::ranges::find(result.met, "crash|human|SIGUSR1", [](const Case& c) { return family_of(c); });
+  ASSERT_NE(met, result.met.end());
   EXPECT_EQ(actions_of(met->spec), 1);
 }
 
@@ -115,7 +115,7 @@ TEST(ShrinkLawsSlow, TheWorstAndTheOthersFailAsTheySay) {
   for (const Case& original : drawn_failures(30)) {
     const Shrunk result = shrink(original, stock_library(), config(0.5));
     EXPECT_GE(result.worst.expect.depth, result.minimal.expect.depth);
-    std::vector<Case> all = result.also;
+    std::vector<Case> all = result.met;
     others += all.size();
     all.push_back(result.worst);
     for (const Case& shown : all) {

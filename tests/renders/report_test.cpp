@@ -132,6 +132,18 @@ TEST(Report, ShowsEverythingOfARow) {
     EXPECT_TRUE(contains(html, wanted)) << wanted;
 }
 
+TEST(Report, NamesWhatComesWithAFailure) {
+  ReportRow row = row_of("pop", "human: head/neck", "new", true);
+  EXPECT_FALSE(contains(report_html(model_of({row})), "<dt>comes with</dt><dd>pop"));
+  row.also = {"pop|human|torso/lumbar_flex", "self_collision|human|a/b ~ c/d"};
+  EXPECT_TRUE(contains(report_html(model_of({row})),
+                       "<dt>comes with</dt><dd>pop torso/lumbar_flex, self_collision a/b ~ c/d</dd>"));
+  row.also = {"a|h|1", "a|h|2", "a|h|3", "a|h|4", "a|h|5", "a|h|6", "a|h|7"};
+  EXPECT_TRUE(contains(report_html(model_of({row})), "<dd>a 1, a 2, a 3, a 4, a 5, and 2 more</dd>"));
+  row.also = {kHostile, "one|two"};
+  EXPECT_FALSE(contains(body_of(report_html(model_of({row}))), kHostile));
+}
+
 TEST(Report, SaysWhereAPictureIsMissing) {
   ReportRow row = row_of("c", "a", "new", true);
   for (const char* none : {"", "../outside.png"}) {
