@@ -42,7 +42,7 @@ constexpr const char* kCrash = "crash|small|SIGUSR1";
 
 TEST_F(RunCrashes, FindWhatCrashesOnlyWhileItIsShrunk) {
   const Corpus one = create(folder_ / "one"), three = create(folder_ / "three");
-  const RunResult result = run(config_with_crash(64, 1), one);
+  const RunResult result = run(config_with_crash(32, 1), one);
   EXPECT_EQ(result.issue.code, "");
   EXPECT_TRUE(result.unconfirmed.empty());
   EXPECT_FALSE(result.record.families.contains(kCrash)) << "no case has shown it";
@@ -58,13 +58,13 @@ TEST_F(RunCrashes, FindWhatCrashesOnlyWhileItIsShrunk) {
     EXPECT_GT(read_case(one.folder_of(bucket) + "/" + bucket.min)->provenance.shrink_evaluations, 2) << bucket.family;
   }
 
-  run(config_with_crash(64, 3), three);
+  run(config_with_crash(32, 3), three);
   EXPECT_EQ(first_difference(tree_of(one.folder()), tree_of(three.folder())), "");
 }
 
 TEST_F(RunCrashes, ThatWereStoppedFindTheSameCrashesInShrinking) {
   const Corpus whole = create(folder_ / "whole"), broken = create(folder_ / "broken");
-  RunConfig config = config_with_crash(64, 2);
+  RunConfig config = config_with_crash(32, 2);
   run(config, whole);
   config.resume = true;
   for (int stops = 1; run_until(40 * stops, config, broken).interrupted; ++stops) ASSERT_LT(stops, 200);
@@ -91,7 +91,7 @@ TEST_F(RunCrashes, ListACrashInShrinkingThatDoesNotHappenAgain) {
 }
 
 TEST_F(RunCrashes, OfThreeShardsMergeTheirCrashesInShrinking) {
-  expect_shards_make_one_run(folder_, config_with_crash(300, 2), 3);
+  expect_shards_make_one_run(folder_, config_with_crash(96, 2), 3);
 }
 
 }  // namespace
