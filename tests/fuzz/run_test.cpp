@@ -137,6 +137,37 @@ std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::v
   return shrunk;
 }
 
+// When each family begins, and how deep it is then, negated: in this order they come.
+std::map<std::string, std::pair<int, double>> begins_of(const Spec& spec) {
+  std::map<std::string, std::pair<int, double>> begins;
+  for (const Finding& f : Evaluator().run(*build_stage(spec, library())).findings) {
+    const std::string family = f.check + "|" + spec.character.name + "|" + f.subject;
+    const std::pair begin(f.first_frame, -f.depth);
+    const auto [known, is_new] = begins.try_emplace(family, begin);
+    if (!is_new) known->second = std::min(known->second, begin);
+  }
+  return begins;
+}
+
+TEST_F(Runs, FamiliesOfACaseComeByTheirFirstFramesAndThoseThatBeginTogetherTheDeepestFirst) {
+  RunConfig config = config_of(20, 1);
+  config.draw.characters = {"human"};
+  config.shrink.max_evaluations = 0;
+  int together = 0;
+  run_fuzz(
+      config, library(), create(folder_ / "corpus"), [](const RunProgress&) {}, [] { return false; },
+      [&](const FailingCase& one) {
+        const auto begins = begins_of(one.spec);
+        ASSERT_EQ(one.families.size(), begins.size());
+        for (std::size_t i = 1; i < one.families.size(); ++i) {
+          const auto &before = begins.at(one.families[i - 1]), &after = begins.at(one.families[i]);
+          EXPECT_LE(before, after) << one.families[i - 1] << ", " << one.families[i];
+          together += before.first == after.first;
+        }
+      });
+  EXPECT_GT(together, 0);
+}
+
 TEST_F(Runs, ShrinkTheEarliestFailuresOfACaseAndCountTheOthers) {
   for (const int most : {1, 2, 1000}) {
     RunConfig config = config_of(40, 2);
