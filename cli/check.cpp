@@ -55,11 +55,22 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   std::printf("\n");
 }
 
-void run(const ClipCheckOptions& options, Context& context) {
+// The first option on the command line that a spec has no use for: it says its character, rate and limits itself.
+std::string option_for_animations(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json") return option->get_name();
+  return "";
+}
+
+void run(const ClipCheckOptions& options, const CLI::App& command, Context& context) {
   if (options.all_clips) return check_clips(options, context);
   if (options.files.size() > 1)
     return context.fail({"usage.too_many_files", "", "found several files; --all-clips checks more than one"});
   if (is_animation(options.files.front())) return check_clips(options, context);
+  if (const std::string option = option_for_animations(command); !option.empty())
+    return context.fail(
+        {"usage.for_animations", "",
+         option + " is for animations, and " + options.files.front() + " is none: .glb, .gltf, .bvh and .amc are"});
   check_spec(options.files.front(), options.json, context);
 }
 
@@ -113,7 +124,7 @@ void add_check(CLI::App& app, Context& context) {
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
       "         contort check captures --all-clips");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, command, &context] { run(*options, *command, context); });
 }
 
 }  // namespace contort::cli

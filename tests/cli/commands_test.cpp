@@ -117,6 +117,22 @@ TEST_F(Commands, FuzzBeginsWithSpecsAndCasesOfAFolder) {
   EXPECT_TRUE(out["families"].contains(std::string("joint_range|human|") + kElbow)) << out["families"];
 }
 
+TEST_F(Commands, CheckOfASpecRefusesWhatOnlyAnimationsHave) {
+  const std::vector<std::vector<std::string>> options = {
+      {"--max-gap-m", "0.01"}, {"--loops", "*"},      {"--max-speed-deg-s", "3000"},
+      {"--clip", "walk"},      {"--rate-hz", "60"},   {"--character", "human"},
+      {"--skeleton", "a.asf"}, {"--all-clips=false"}, {"--character", "human", "--map", "a.json"}};
+  for (const std::vector<std::string>& given : options) {
+    std::vector<std::string> words = {"check", spec_file(100)};
+    words.insert(words.end(), given.begin(), given.end());
+    const Ran ran = contort_program(words);
+    EXPECT_EQ(ran.code, 2) << given.front();
+    EXPECT_NE(ran.err.find("usage.for_animations"), std::string::npos) << given.front() << ran.err;
+  }
+  EXPECT_EQ(contort_program({"check", spec_file(100), "--json"}).code, 0);
+  EXPECT_EQ(contort_program({"check", glb(100), "--max-gap-m", "0.01"}).code, 0);
+}
+
 TEST_F(Commands, CheckPrintsJson) {
   const Ran ran = contort_program({"check", spec_file(190), "--json"});
   EXPECT_EQ(ran.code, 1);
