@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include "corpus/runs.h"
@@ -83,33 +82,6 @@ TEST_F(RunsSlow, OfTheStockCharactersAreTheSameOnOneThreadAndOnThree) {
   expect_all_replay_as_the_same(one);
 }
 
-// Two in one motion, one after the other: what the minimal spec of the first shows as well has no bucket for that.
-TEST_F(Runs, WhatTheMinimalSpecOfAnEarlierFailureShowsTooHasNoBucketOfItsOwn) {
-  const Corpus corpus = create(folder_ / "corpus");
-  RunConfig config = config_of(20, 2);
-  config.draw.characters = {"human"};
-  config.shrink.max_evaluations = 60;
-  const RunResult result = run(config, corpus);
-  std::map<std::int64_t, std::vector<Case>> of_case;
-  for (const Bucket& bucket : buckets_of(corpus)) {
-    const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
-    of_case[min.provenance.index].push_back(min);
-  }
-  std::size_t told = 0;
-  for (const auto& [index, cases] : of_case)
-    for (const Case& before : cases) {
-      told += before.also.size();
-      for (const Case& after : cases) {
-        const bool is_told = std::ranges::find(before.also, family_of(after)) != before.also.end();
-        EXPECT_FALSE(is_told && before.provenance.rank < after.provenance.rank)
-            << family_of(before) << ", " << family_of(after);
-      }
-    }
-  EXPECT_GT(told, 0U);
-  EXPECT_LT(buckets_of(corpus).size(), result.record.families.size());
-  EXPECT_TRUE(fs::is_empty(corpus.folder() + "/leads"));
-}
-
 TEST_F(Runs, CountWhatTheyDid) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run(config_of(40, 2), corpus);
@@ -122,66 +94,6 @@ TEST_F(Runs, CountWhatTheyDid) {
   for (const auto& [what, count] : result.record.tested)
     if (what.rfind("character ", 0) == 0) characters += count;
   EXPECT_EQ(characters, 40);
-}
-
-// Which failures are shrunk, by the rule alone: families of a case, the earliest first.
-std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector<FailingCase>& failing,
-                                                                    const RunConfig& config) {
-  std::map<std::string, std::vector<std::int64_t>> shrunk;
-  for (const FailingCase& one : failing)
-    for (std::size_t rank = 0; rank < one.families.size(); ++rank) {
-      std::vector<std::int64_t>& indices = shrunk[one.families[rank]];
-      if (std::cmp_less(rank, config.shrinks_per_case) && std::ssize(indices) < config.shrinks_per_family)
-        indices.push_back(one.index);
-    }
-  return shrunk;
-}
-
-// When each family begins, and how deep it is then, negated: in this order they come.
-std::map<std::string, std::pair<int, double>> begins_of(const Spec& spec) {
-  std::map<std::string, std::pair<int, double>> begins;
-  for (const Finding& f : Evaluator().run(*build_stage(spec, library())).findings) {
-    const std::string family = f.check + "|" + spec.character.name + "|" + f.subject;
-    const std::pair begin(f.first_frame, -f.depth);
-    const auto [known, is_new] = begins.try_emplace(family, begin);
-    if (!is_new) known->second = std::min(known->second, begin);
-  }
-  return begins;
-}
-
-TEST_F(Runs, FamiliesOfACaseComeByTheirFirstFramesAndThoseThatBeginTogetherTheDeepestFirst) {
-  RunConfig config = config_of(20, 1);
-  config.draw.characters = {"human"};
-  config.shrink.max_evaluations = 0;
-  int together = 0;
-  run_fuzz(
-      config, library(), create(folder_ / "corpus"), [](const RunProgress&) {}, [] { return false; },
-      [&](const FailingCase& one) {
-        const auto begins = begins_of(one.spec);
-        ASSERT_EQ(one.families.size(), begins.size());
-        for (std::size_t i = 1; i < one.families.size(); ++i) {
-          const auto &before = begins.at(one.families[i - 1]), &after = begins.at(one.families[i]);
-          EXPECT_LE(before, after) << one.families[i - 1] << ", " << one.families[i];
-          together += before.first == after.first;
-        }
-      });
-  EXPECT_GT(together, 0);
-}
-
-TEST_F(Runs, ShrinkTheEarliestFailuresOfACaseAndCountTheOthers) {
-  for (const int most : {1, 2, 1000}) {
-    RunConfig config = config_of(40, 2);
-    config.draw.characters = {"human"};
-    config.shrinks_per_case = most, config.shrinks_per_family = 3, config.shrink.max_evaluations = 0;
-    std::vector<FailingCase> failing;
-    const RunResult result = run_fuzz(
-        config, library(), create(folder_ / std::to_string(most)), [](const RunProgress&) {}, [] { return false; },
-        [&](const FailingCase& one) { failing.push_back(one); });
-    std::map<std::string, std::vector<std::int64_t>> shrunk;
-    for (const auto& [family, count] : result.record.families) shrunk[family] = count.first_indices;
-    EXPECT_EQ(shrunk, shrunk_by_the_rule(failing, config)) << most;
-    EXPECT_EQ(most == 1000, std::ranges::none_of(shrunk, [](const auto& f) { return f.second.empty(); })) << most;
-  }
 }
 
 TEST_F(Runs, AreRecordedInTheCorpus) {
