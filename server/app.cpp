@@ -208,7 +208,12 @@ Answer App::stream(const std::string& client, std::function<std::vector<Event>(b
   answer.headers.emplace_back("Cache-Control", "no-store");
   answer.pieces = [this, held = *counted, next](bool& more) {
     std::string text;
-    for (const Event& event : next(more)) text += print_event(event);
+    try {
+      for (const Event& event : next(more)) text += print_event(event);
+    } catch (const std::exception& error) {  // the page asks for another stream; the others' must not end with it
+      std::fprintf(stderr, "contort: internal error: %s\n", error.what());
+      ++failed_, more = false;
+    }
     if (closed_) more = false;
     return text;
   };

@@ -31,10 +31,11 @@ Result<std::shared_ptr<Session>> Session::open(const SessionDesc& desc, Engine& 
   if (!model) return model.issue();
   Result<PlayedTake> take = session->made(1, desc.spec, desc.modes);
   if (!take) return take.issue();
+  const std::lock_guard lock(session->mutex_);
   session->model_ = *model;
   session->model_number_ = 1;
   session->used_ = now();
-  session->install(std::move(take).value(), desc.modes, true);
+  session->begin_take(std::move(take).value(), desc.modes);
   return session;
 }
 
@@ -72,26 +73,30 @@ Result<std::string> Session::made_model(const Spec& spec) {
   return worked.reply->head;
 }
 
-// With commands_ held, or before anybody knows the session.
-void Session::install(PlayedTake take, std::vector<Mode> modes, bool begins) {
-  {
-    const std::lock_guard lock(mutex_);
-    ++revision_;
-    if (begins) {
-      changes_.clear();
-      clock_.set(0, clock_.playing(), now());
-      ++clock_version_;
-    } else {
-      std::map<Mode, int> from;
-      for (const auto& [mode, played] : take.played) from[mode] = played->first_difference(*take_.played.at(mode));
-      changes_.emplace_back(revision_, std::move(from));
-    }
-    take_ = std::move(take);
-    modes_ = std::move(modes);
-    judged_.clear();
-  }
+// All of these with mutex_ held, and with commands_ unless nobody knows the session yet. Takes change under one lock:
+// whoever reads between two would find a session without motions.
+void Session::install(PlayedTake take, std::vector<Mode> modes) {
+  ++revision_;
+  take_ = std::move(take);
+  modes_ = std::move(modes);
+  judged_.clear();
   changed_.notify_all();
   judge_soon();
+}
+
+void Session::begin_take(PlayedTake take, std::vector<Mode> modes) {
+  if (revision_ > 0) before_ = std::move(take_);
+  changes_.clear();
+  clock_.set(0, clock_.playing(), now());
+  ++clock_version_;
+  install(std::move(take), std::move(modes));
+}
+
+void Session::amend_take(PlayedTake take) {
+  std::map<Mode, int> from;
+  for (const auto& [mode, played] : take.played) from[mode] = played->first_difference(*take_.played.at(mode));
+  changes_.emplace_back(revision_ + 1, std::move(from));
+  install(std::move(take), modes_);
 }
 
 void Session::judge_soon() {
@@ -142,7 +147,8 @@ Result<Done> Session::command(const Edit& edit) {
   if (!spec) return spec.issue();
   Result<PlayedTake> take = made(number, *spec, modes);
   if (!take) return take.issue();
-  install(std::move(take).value(), modes, false);
+  lock.lock();
+  amend_take(std::move(take).value());
   return Done{};
 }
 
@@ -172,10 +178,8 @@ Result<Done> Session::change(const Change& change) {
     return rest_ = rest, take.issue();
   }
   lock.lock();
-  before_ = std::move(take_);
   if (model_ != *model) model_ = *model, ++model_number_;
-  lock.unlock();
-  install(std::move(take).value(), modes, true);
+  begin_take(std::move(take).value(), std::move(modes));
   return Done{};
 }
 
@@ -245,7 +249,7 @@ void Session::roll() {
   prepare_next();
   const std::unique_lock command(commands_, std::try_to_lock);
   if (!command.owns_lock() || !has_ended()) return;
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   if (!next_ || next_for_ != revision_) {  // it could not be made: stand still
     next_for_ = -1;  // who plays again asks again
     clock_.set(last_frame(), false, now());
@@ -253,11 +257,7 @@ void Session::roll() {
     changed_.notify_all();
     return;
   }
-  PlayedTake next = *std::exchange(next_, std::nullopt);
-  before_ = std::move(take_);
-  const std::vector<Mode> modes = modes_;
-  lock.unlock();
-  install(std::move(next), modes, true);
+  begin_take(*std::exchange(next_, std::nullopt), modes_);
 }
 
 // ---- what is asked

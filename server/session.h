@@ -96,7 +96,9 @@ class Session : public std::enable_shared_from_this<Session> {
 
   Result<PlayedTake> made(int number, const Spec& spec, const std::vector<Mode>& modes);
   Result<std::string> made_model(const Spec& spec);
-  void install(PlayedTake take, std::vector<Mode> modes, bool begins);
+  void install(PlayedTake take, std::vector<Mode> modes);
+  void begin_take(PlayedTake take, std::vector<Mode> modes);
+  void amend_take(PlayedTake take);  // another spec of the same take
   void judge_soon();
   void judge();
   int frame_now() const;

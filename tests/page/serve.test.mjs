@@ -33,9 +33,11 @@ before(async () => {
 after(async () => {
   if (!server) return;
   server.removeAllListeners('exit');
-  const ended = new Promise((done) => { server.on('exit', done); });
-  server.kill();
-  await ended;
+  if (server.exitCode === null && server.signalCode === null) {  // else nothing would ever be heard of it
+    const ended = new Promise((done) => { server.on('exit', done); });
+    server.kill();
+    await ended;
+  }
   rmSync(scratch, { recursive: true, force: true });
 });
 
