@@ -275,7 +275,8 @@ void Gait::choose_swing(const Leg& leg, double lift_m, Step& step) const {
   constexpr double kMargins[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
   const Vec3 way = step.to.p_m - step.from.p_m;
   const double horizontal_m = std::sqrt(way.x * way.x + way.z * way.z);
-  const double least_m = lift_m * std::min(1.0, horizontal_m / 0.15);
+  // Lower on a short way, but a step of a centimetre scrapes if it is not lifted by as much.
+  const double least_m = std::max(lift_m * std::min(1.0, horizontal_m / 0.15), std::min(kClearance_m, horizontal_m));
   step.margin = kMargins[0], step.bump_m = least_m;
   if (environment_->is_level() || horizontal_m < 1e-6) return;
   const double enough_m = 2.0 * lift_m + 0.5 * std::fabs(way.y);

@@ -35,7 +35,7 @@ inline Places operator*(const Places& a, const Places& b) { return {a.q * b.q, a
 
 // Number i of each of the frames, which are `stride` numbers apart.
 inline Lanes gather(const double* first, std::size_t stride) {
-  Lanes out;
+  Lanes out{};
   for (std::size_t lane = 0; lane < kLanes; ++lane) out[lane] = first[lane * stride];
   return out;
 }
@@ -45,7 +45,7 @@ inline Turns hinge_turns(const Vec3& axis, const double* coord, std::size_t stri
   det::SinCos turns[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) halves[lane] = 0.5 * coord[lane * stride];
   det::sincos(halves, turns);
-  Lanes sin, cos;
+  Lanes sin{}, cos{};
   for (std::size_t lane = 0; lane < kLanes; ++lane) sin[lane] = turns[lane].sin, cos[lane] = turns[lane].cos;
   return {cos, sin * axis.x, sin * axis.y, sin * axis.z};
 }

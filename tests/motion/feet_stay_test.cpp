@@ -78,6 +78,17 @@ TEST_P(FeetStay, WhereAnInterruptCutsAWalk) {
   }
 }
 
+// Steps of a centimetre are lifted, too: feet that only almost leave the ground slide farther with each of them.
+TEST_P(FeetStay, WhereStepsAreShort) {
+  const auto walk = [](int start, int duration, double speed_m_s) {
+    return legs(GetParam(), "walk", start, duration, 20, {{"speed_m_s", speed_m_s}});
+  };
+  EXPECT_EQ(of_feet(spec_of(GetParam(), {walk(0, 38, 1.2), walk(38, 33, 1.6), walk(71, 58, 0.7), walk(130, 31, 1.4)})),
+            std::vector<std::string>{});
+  for (const double speed_m_s : {0.01, 0.03, 0.06, 0.1})
+    EXPECT_EQ(of_feet(spec_of(GetParam(), {walk(0, 1200, speed_m_s)})), std::vector<std::string>{}) << speed_m_s;
+}
+
 TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
   const auto walk = [](int blend_frames) {
     return spec_of(GetParam(), {legs(GetParam(), "walk", 0, 240, blend_frames, {{"speed_m_s", 0.6}})});
