@@ -55,7 +55,7 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   std::printf("\n");
 }
 
-// The first option on the command line that a spec has no use for: it says its character, rate and limits itself.
+// An option that was given and that a spec has no use for: it says its character, rate and limits itself.
 std::string option_for_animations(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json") return option->get_name();

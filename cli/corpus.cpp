@@ -135,6 +135,8 @@ void show(const Options& options, Context& context) {
   line("features", bucket->features);
   for (const std::string& build : bucket->passed_in) line("passed in", build);
   for (const std::string& run : bucket->runs) line("run", run);
+  if (const Result<Case> minimal = read_case(corpus->folder_of(*bucket) + "/" + bucket->min))
+    for (const std::string& other : minimal->also) line("comes with", other);
   for (const std::string& file : files_of(*bucket))
     line(file.substr(0, file.find('-')).c_str(),
          replay_command(corpus->folder_of(*bucket) + "/" + file, context.library_folders));

@@ -197,7 +197,7 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
               static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
   if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
     std::printf(
-        "%lld families came only behind %d earlier ones of their case: counted, not shrunk "
+        "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), options.shrinks_per_case);
   if (result.interrupted || result.waiting > 0)

@@ -1,0 +1,71 @@
+// Cases that break much at once: what contort fuzz shrinks of them, and where it says what it left.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "corpus/corpus.h"
+#include "tests/cli/program.h"
+
+namespace contort {
+namespace {
+
+// Two failing cases of the human.
+class CrowdedCases : public ::testing::Test {
+ protected:
+  Ran fuzz(const std::string& corpus, int shrinks_per_case, int evaluations = 60) const {
+    return contort_program({"fuzz", "--profile", "smoke", "--character", "human", "--seed", "3", "--cases", "2",
+                            "--shrink-evaluations", std::to_string(evaluations), "--shrinks-per-case",
+                            std::to_string(shrinks_per_case), "--corpus", corpus});
+  }
+  static std::ptrdiff_t new_buckets(const Ran& ran) {
+    const auto lines = lines_of(ran.out);
+    return std::ranges::count_if(lines, [](const std::string& line) { return line.starts_with("NEW "); });
+  }
+  static std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+  }
+  TempFolder folder_;
+};
+
+TEST_F(CrowdedCases, TheOptionSaysHowManyOfACaseAreShrunk) {
+  const Ran one = fuzz(folder_ / "one", 1), three = fuzz(folder_ / "three", 3);
+  EXPECT_LE(new_buckets(one), 2) << one.out;
+  EXPECT_GT(new_buckets(three), new_buckets(one)) << three.out;
+  EXPECT_LE(new_buckets(three), 6) << three.out;
+  EXPECT_NE(one.out.find("came only behind the 1 earliest of"), std::string::npos) << one.out;
+  EXPECT_NE(three.out.find("came only behind the 3 earliest of"), std::string::npos) << three.out;
+}
+
+TEST_F(CrowdedCases, NothingIsSaidOfLateOnesWhereAllAreShrunk) {
+  const Ran all = fuzz(folder_ / "all", 1000000, 0);
+  EXPECT_GT(new_buckets(all), 10) << all.out;
+  EXPECT_EQ(all.out.find("came only behind"), std::string::npos) << all.out;
+}
+
+// On the screen, in the bucket, and where the case is shrunk again.
+TEST_F(CrowdedCases, WhatComesWithAFailureIsToldWithIt) {
+  const Ran ran = fuzz(folder_ / "corpus", 1);
+  const Result<Corpus> corpus = Corpus::open(folder_ / "corpus");
+  ASSERT_TRUE(corpus);
+  std::vector<Issue> damaged;
+  int with_others = 0;
+  for (const Bucket& bucket : corpus->buckets(damaged)) {
+    const std::string file = corpus->folder_of(bucket) + "/" + bucket.min;
+    const std::vector<std::string> also = read_case(file)->also;
+    if (also.empty()) continue;
+    ++with_others;
+    EXPECT_NE(ran.out.find(" and " + std::to_string(also.size()) + " that come with it"), std::string::npos) << ran.out;
+    const Ran shown = contort_program({"corpus", "show", corpus->folder(), bucket.id});
+    EXPECT_NE(shown.out.find("comes with " + also.front()), std::string::npos) << shown.out << shown.err;
+    const Ran shrunk = contort_program({"shrink", file, "-o", folder_ / "again.json"});
+    EXPECT_NE(shrunk.out.find("comes with it: "), std::string::npos) << shrunk.out << shrunk.err;
+  }
+  EXPECT_GT(with_others, 0) << ran.out;
+}
+
+}  // namespace
+}  // namespace contort
