@@ -112,8 +112,6 @@ void bend(const RuleInput& in, double share, Posture& posture) {
   });
 }
 
-double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
-
 }  // namespace
 
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
@@ -131,7 +129,7 @@ void run_rule(const RuleInput& in, Posture& posture) {
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }
 bool crouch_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void crouch_rule(const RuleInput& in, Posture& posture) {
-  bend(in, ease_jerk(in.time.progress), posture);
+  bend(in, minimum_jerk(in.time.progress), posture);
 }
 
 std::vector<ParamDef> squat_params(const Character&, const Part&) { return params_of_bend(); }

@@ -57,6 +57,10 @@ double rotation_angle(const Quat& q);
 // perpendicular when they are opposite.
 Quat shortest_arc(const Vec3& from, const Vec3& to);
 
+// From 0 to 1 with neither speed nor acceleration at its ends, as hands go from place to place (Flash and Hogan, The
+// coordination of arm movements, J. Neurosci. 5, 1985); u in [0, 1].
+inline double minimum_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+
 // Spherical interpolation along the shorter arc; t in [0, 1].
 Quat slerp_short(const Quat& a, const Quat& b, double t);
 

@@ -4,21 +4,18 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/motion/foothold.h"
 
 namespace contort {
 
 namespace {
 
-constexpr double kGravity_m_s2 = 9.81;
-constexpr double kLongestTilt_rad = 25.0 * kRadPerDeg;  // of a sole: about what ankles can do
-constexpr double kBend = 0.01;                          // of a moving leg's length: a knee never snaps straight
-constexpr double kClearance_m = 0.015;                  // of a swinging foot
-
-double ease_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+constexpr double kBend = 0.01;          // of a moving leg's length: a knee never snaps straight
+constexpr double kClearance_m = 0.015;  // of a swinging foot
 
 // Swing, horizontally: between two margins of its time, so that the foot leaves and meets the ground vertically.
 double swing_share(double swing, double margin) {
-  return ease_jerk(std::clamp((swing - margin) / (1.0 - 2.0 * margin), 0.0, 1.0));
+  return minimum_jerk(std::clamp((swing - margin) / (1.0 - 2.0 * margin), 0.0, 1.0));
 }
 double swing_bump(double swing) {
   const double left = swing * (1.0 - swing);
@@ -29,109 +26,10 @@ double swing_bump(double swing) {
 // asks more of its ankle the more the knee bends.
 double toes_down_rad(const Leg& leg, double bump_m, double swing) {
   const double toes_m = std::max(leg.high_m.z, 0.01);
-  return std::min(0.5 * bump_m / toes_m, kLongestTilt_rad) * swing_bump(swing) * 2.0 * (1.0 - swing);
-}
-
-double least_length_m(std::span<const Leg> legs) {
-  double least = 1e9;
-  for (const Leg& leg : legs) least = std::min(least, leg.length_m);
-  return legs.empty() ? 1.0 : least;
-}
-
-// Points under a foot, in its sole's frame: a grid over the footprint.
-constexpr int kAcross = 3;
-constexpr int kLong = 7;
-Vec3 footprint_point(const Leg& leg, int across, int lengthwise) {
-  const double u = static_cast<double>(across) / (kAcross - 1);
-  const double w = static_cast<double>(lengthwise) / (kLong - 1);
-  return {leg.low_m.x + u * (leg.high_m.x - leg.low_m.x), 0.0, leg.low_m.z + w * (leg.high_m.z - leg.low_m.z)};
-}
-
-using Foothold = Gait::Foothold;
-
-Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
-  double heights[kAcross][kLong];
-  Vec3 middle(0.0);
-  double mean = 0.0;
-  for (int i = 0; i < kAcross; ++i)
-    for (int j = 0; j < kLong; ++j) {
-      const Vec3 point = footprint_point(leg, i, j);
-      const Vec3 at = world_from_sole * point;
-      heights[i][j] = environment.height_at(at.x, at.z);
-      mean += heights[i][j] / (kAcross * kLong);
-      middle += point / static_cast<double>(kAcross * kLong);
-    }
-  double xx = 1e-12, zz = 1e-12, xh = 0.0, zh = 0.0;
-  for (int i = 0; i < kAcross; ++i)
-    for (int j = 0; j < kLong; ++j) {
-      const Vec3 point = footprint_point(leg, i, j) - middle;
-      xx += point.x * point.x, zz += point.z * point.z;
-      xh += point.x * (heights[i][j] - mean), zh += point.z * (heights[i][j] - mean);
-    }
-  Foothold foothold;
-  const double steepest = det::sin(kLongestTilt_rad) / det::cos(kLongestTilt_rad);
-  foothold.slope_x = std::clamp(xh / xx, -steepest, steepest);
-  foothold.slope_z = std::clamp(zh / zz, -steepest, steepest);
-  // The plane is laid on the highest points, so that nothing is below the ground.
-  double highest = -1e9, lowest = 1e9;
-  for (int i = 0; i < kAcross; ++i)
-    for (int j = 0; j < kLong; ++j) {
-      const Vec3 point = footprint_point(leg, i, j);
-      const double over = heights[i][j] - foothold.slope_x * point.x - foothold.slope_z * point.z;
-      highest = std::max(highest, over), lowest = std::min(lowest, over);
-    }
-  foothold.height_m = highest;
-  foothold.unevenness_m = highest - lowest;
-  return foothold;
-}
-
-GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double stride_per_leg) {
-  GaitParams params;
-  const double length_m = least_length_m(legs);
-  params.speed_m_s = speed_m_s;
-  const double root_of_froude = speed_m_s / std::sqrt(kGravity_m_s2 * length_m);
-  // Strides grow with the square root of dimensionless speed (Alexander 1989: stride / leg about 2.3 Fr^0.3).
-  const double stride_m = stride_per_leg * length_m * std::sqrt(std::max(root_of_froude, 0.04));
-  params.cycle_s = stride_m / std::max(speed_m_s, 0.05);
-  params.lift_m = 0.08 * length_m;
-  params.lower_m = 0.03 * length_m;
-  return params;
-}
-
-// How far the hips must be below their height at rest for every leg to bend a little still at the ends of its stance,
-// when its foot is half of the stance's way in front or behind. Near straight, a knee turns very fast for a small step.
-double lower_for(std::span<const Leg> legs, double stance_m) {
-  constexpr double kBent = 0.97;
-  double lower_m = 0.0;
-  for (const Leg& leg : legs) {
-    const double up_m = leg.hip_m.y - leg.sole_from_ankle.y;
-    const double along_m = std::fabs(leg.hip_m.z - leg.home_m.z - leg.sole_from_ankle.z) + 0.5 * stance_m;
-    const double reach_m = kBent * leg.length_m;
-    const double room = reach_m * reach_m - along_m * along_m;
-    lower_m = std::max(lower_m, up_m - std::sqrt(std::max(room, 0.5 * reach_m * reach_m)));
-  }
-  return lower_m;
+  return std::min(0.5 * bump_m / toes_m, kSteepestSole_rad) * swing_bump(swing) * 2.0 * (1.0 - swing);
 }
 
 }  // namespace
-
-GaitParams walk_params(std::span<const Leg> legs, double speed_m_s) {
-  const bool many = legs.size() > 2;  // more legs bear, and each takes its time: dogs walk so (Hildebrand 1968)
-  GaitParams params = params_for(legs, speed_m_s, many ? 1.9 : 1.7);
-  params.duty = many ? 0.66 : 0.62;
-  if (many) params.lower_m = lower_for(legs, params.duty * params.cycle_s * speed_m_s);
-  return params;
-}
-
-GaitParams run_params(std::span<const Leg> legs, double speed_m_s) {
-  GaitParams params = params_for(legs, speed_m_s, 1.7);
-  params.trot = true;
-  params.duty = legs.size() > 2 ? 0.45 : 0.4;
-  params.lift_m *= 1.5;
-  params.lower_m *= 1.5;
-  params.bounce_m = 0.03 * least_length_m(legs);
-  return params;
-}
 
 void Gait::begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
                  const Rigid& world_from_start, std::span<const Rigid> seen_soles) {
@@ -302,7 +200,7 @@ void Gait::take_step(const GaitParams& params, const Pace& pace, const Leg& leg,
 // How much the leg of a runner holds the hips down: not while it swings, when its foot may trail.
 double hold_of(double swing) {
   const double off = std::clamp(std::min(swing, 1.0 - swing) / 0.2, 0.0, 1.0);
-  return 1.0 - ease_jerk(off);
+  return 1.0 - minimum_jerk(off);
 }
 
 // Over the feet, upright or along their slope, and as low as the leg with the longest way needs.
@@ -375,8 +273,8 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
                                         axis_angle(Vec3(1, 0, 0), toes_down_rad(legs_[i], step.bump_m, cycle.swing));
     frame.feet[i].stands = cycle.swing == 0.0 || step.bump_m == 0.0;
   }
-  const double in = ease_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
-  const double out = ease_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
+  const double in = minimum_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
+  const double out = minimum_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
   const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
   const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
   const Vec3 way = travel(params, travelled_m(pace, time_s));

@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "generator/motion/foothold.h"
 #include "generator/motion/legs.h"
 #include "generator/world/environment.h"
 
@@ -26,6 +27,8 @@ struct GaitParams {
 // Sensible parameters for a speed on these legs: longer legs step more slowly, as pendulums do (Froude number).
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s);
 GaitParams run_params(std::span<const Leg> legs, double speed_m_s);
+
+double least_length_m(std::span<const Leg> legs);  // 1 where there is none
 
 struct FootTarget {
   Rigid world_from_sole;
@@ -54,14 +57,6 @@ class Gait {
 
   // At a time of a course of duration_s; it begins and ends standing, at the end with every foot at home.
   GaitFrame at(const GaitParams& params, double time_s, double duration_s);
-
-  // The ground under a footprint at a place, as a plane h + x·a + z·b through its points, and what sticks out of it.
-  struct Foothold {
-    double height_m = 0.0;
-    double slope_x = 0.0;
-    double slope_z = 0.0;
-    double unevenness_m = 0.0;
-  };
 
  private:
   struct Step {
