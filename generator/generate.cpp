@@ -14,7 +14,8 @@ namespace {
 
 using Hold = GenerateScratch::Hold;
 
-constexpr double kCutFade_s = 0.15;  // of what an interrupt cuts, and of a course when it goes on
+constexpr double kCutFade_s = 0.15;  // of an additive that an interrupt cuts
+constexpr double kComesBack_s = 0.3;  // of a course that goes on after a cut, at least: a foot in the air comes down
 
 class Generation {
  public:
@@ -248,7 +249,7 @@ class Generation {
     blend(p, hold, from, s_.target, weight, out);
   }
 
-  int cut_fade() const { return std::max(1, static_cast<int>(kCutFade_s * stage_.rate_hz)); }
+  int frames_of(double seconds) const { return std::max(1, static_cast<int>(seconds * stage_.rate_hz)); }
 
   // A course that was cut comes in again where it goes on: a walk would start with both feet at home, wherever they are.
   // Key poses, on the layer overwrite, start from where the part is by themselves.
@@ -256,7 +257,7 @@ class Generation {
     const PlannedAction& action = planned(hold);
     const double in = blended_in(action, hold.came, content(hold));
     if (action.def->layer != Layer::ik || action.def->timing == Timing::goal || hold.came <= action.start) return in;
-    return std::min(in, ease(static_cast<double>(frame_ - hold.frame) / cut_fade()));
+    return std::min(in, ease(static_cast<double>(frame_ - hold.frame) / frames_of(kComesBack_s)));
   }
 
   // Legs under a root that blends put their feet where they belong: blended angles would have them slide.
@@ -304,7 +305,7 @@ class Generation {
   // An additive that is cut would be gone from one frame to the next: it runs on while it fades, and fades in again where
   // it goes on.
   void add_additives(std::size_t p) {
-    const int fade = cut_fade();
+    const int fade = frames_of(kCutFade_s);
     const std::span<const QueueSpan> history = s_.queue.history();
     std::size_t first = history.size();
     while (first > 0 && history[first - 1].last_frame >= frame_ - fade) --first;

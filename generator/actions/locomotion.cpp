@@ -3,6 +3,7 @@
 
 #include "generator/actions/action.h"
 #include "generator/core/detmath.h"
+#include "generator/motion/foot_roll.h"
 
 namespace contort {
 
@@ -56,7 +57,9 @@ Rigid blended_sole(const RuleInput& in, std::size_t leg) {
   const Rigid& first = in.body.first_soles[leg];
   if (left <= 0.0 || seen == first) return wanted;
   const Quat off = seen.q * glm::conjugate(first.q) * wanted.q;
-  return {slerp_short(wanted.q, off, left), wanted.p_m + left * (seen.p_m - first.p_m)};
+  const Quat q = slerp_short(wanted.q, off, left);
+  const Vec3 on = lower_end_m(in.legs[leg], seen);  // a foot that stands on its toes turns about them
+  return {q, wanted * on + left * (seen * on - first * on) - q * on};
 }
 
 // The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
@@ -96,7 +99,6 @@ void follow(const RuleInput& in, Posture& posture, Make make) {
 
 void go(const RuleInput& in, GaitParams params, Posture& posture) {
   params.lead = static_cast<int>(in.params[0]);
-  params.heading_rad = in.params[2] * kRadPerDeg;
   follow(in, posture, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
 }
 
@@ -117,13 +119,13 @@ void bend(const RuleInput& in, double share, Posture& posture) {
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
 bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void walk_rule(const RuleInput& in, Posture& posture) {
-  go(in, walk_params(in.legs, in.params[1]), posture);
+  go(in, walk_params(in.legs, in.params[1], in.params[2] * kRadPerDeg), posture);
 }
 
 std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
 bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void run_rule(const RuleInput& in, Posture& posture) {
-  go(in, run_params(in.legs, in.params[1]), posture);
+  go(in, run_params(in.legs, in.params[1], in.params[2] * kRadPerDeg), posture);
 }
 
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/motion/foot_roll.h"
 #include "generator/motion/foothold.h"
 
 namespace contort {
@@ -20,6 +21,10 @@ double swing_share(double swing, double margin) {
 double swing_bump(double swing) {
   const double left = swing * (1.0 - swing);
   return 16.0 * left * left;
+}
+
+double across_m(const Vec3& from, const Vec3& to) {
+  return std::sqrt((to.x - from.x) * (to.x - from.x) + (to.z - from.z) * (to.z - from.z));
 }
 
 // Toes hang while a foot comes up behind, as far as they have half of its lift above the ground: a foot that stays level
@@ -51,7 +56,8 @@ Rigid Gait::first_sole(const Leg& leg, const Rigid* seen) const {
   const double off_m = std::sqrt(off.x * off.x + off.z * off.z);
   if (seen == nullptr || off_m > kFarthest * leg.length_m)
     return stand_at(leg, home, world_from_start_.q * Vec3(0, 0, 1));
-  const Rigid placed = put_down(seen->p_m, foothold_at(*environment_, leg, {world_from_start_.q, seen->p_m}));
+  const Vec3 at = *seen * lower_end_m(leg, *seen) - world_from_start_.q * lower_end_m(leg, *seen);
+  const Rigid placed = put_down(at, foothold_at(*environment_, leg, {world_from_start_.q, at}));
   const Vec3 up_seen = seen->q * Vec3(0, 1, 0), up_placed = placed.q * Vec3(0, 1, 0);
   const bool stands = std::fabs(placed.p_m.y - seen->p_m.y) < kStands_m && glm::dot(up_seen, up_placed) > 0.999;
   return stands ? *seen : placed;
@@ -68,7 +74,7 @@ Gait::Cycle Gait::cycle_of(const GaitParams& params, const Leg& leg, double time
   const double whole = std::floor(cycles + 1e-9);
   const double within = std::max(0.0, cycles - whole);
   const double swing = (within - params.duty) / (1.0 - params.duty);
-  return {static_cast<int>(whole), std::clamp(swing, 0.0, 1.0)};
+  return {static_cast<int>(whole), std::min(within / params.duty, 1.0), std::clamp(swing, 0.0, 1.0)};
 }
 
 // When a leg's first swing begins.
@@ -138,7 +144,7 @@ Rigid Gait::stand_at(const Leg& leg, const Vec3& home_m, const Vec3& direction) 
 // after the end.
 Rigid Gait::foothold(const GaitParams& params, const Pace& pace, const Leg& leg, int step) const {
   const double lifted_s = (step - 1 + params.duty - phase(params, leg)) * params.cycle_s;
-  const double middle_s = (step + 0.5 * params.duty - phase(params, leg)) * params.cycle_s;
+  const double middle_s = (step + params.under * params.duty - phase(params, leg)) * params.cycle_s;
   if (lifted_s < 0.0) return first_soles_[static_cast<std::size_t>(&leg - legs_.data())];
   const Vec3 home =
       world_from_start_ * Vec3(leg.home_m.x, 0.0, leg.home_m.z) + travel(params, travelled_m(pace, middle_s));
@@ -172,7 +178,7 @@ double Gait::clear_bump(const Leg& leg, const Step& step, double margin) const {
 void Gait::choose_swing(const Leg& leg, double lift_m, Step& step) const {
   constexpr double kMargins[] = {0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
   const Vec3 way = step.to.p_m - step.from.p_m;
-  const double horizontal_m = std::sqrt(way.x * way.x + way.z * way.z);
+  const double horizontal_m = across_m(step.from.p_m, step.to.p_m);
   // Lower on a short way, but a step of a centimetre scrapes if it is not lifted by as much.
   const double least_m = std::max(lift_m * std::min(1.0, horizontal_m / 0.15), std::min(kClearance_m, horizontal_m));
   step.margin = kMargins[0], step.bump_m = least_m;
@@ -194,7 +200,34 @@ void Gait::take_step(const GaitParams& params, const Pace& pace, const Leg& leg,
   // A swing that began before the course did is not made: the foot stands where it is.
   const bool swings = (number + params.duty - phase(params, leg)) * params.cycle_s >= 0.0;
   step.to = swings ? foothold(params, pace, leg, number + 1) : step.from;
+  choose_rolling(params, leg, foothold(params, pace, leg, number - 1), step);
   choose_swing(leg, params.lift_m, step);
+}
+
+// 0 where what is above a sole's end would turn into a riser.
+double Gait::room_to_roll(const Leg& leg, const Rigid& world_from_sole, double end_m, double beyond_m) const {
+  if (environment_->is_level()) return 1.0;
+  for (const double x : {leg.low_m.x, 0.0, leg.high_m.x}) {
+    const Vec3 at = world_from_sole * Vec3(x, 0.0, end_m + beyond_m);
+    if (environment_->height_at(at.x, at.z) > at.y + kClearance_m) return 0.0;
+  }
+  return 1.0;
+}
+
+// Less on a way shorter than a stride.
+void Gait::choose_rolling(const GaitParams& params, const Leg& leg, const Rigid& before, Step& step) const {
+  const double stride_m = std::max(params.speed_m_s * params.cycle_s, 1e-6), beyond_m = 0.7 * leg.sole_from_ankle.y;
+  const double came = std::min(1.0, across_m(before.p_m, step.from.p_m) / stride_m);
+  const double goes = std::min(1.0, across_m(step.from.p_m, step.to.p_m) / stride_m);
+  step.landed_up = came * room_to_roll(leg, step.from, leg.low_m.z, -beyond_m);
+  step.leaves_up = goes * room_to_roll(leg, step.from, leg.high_m.z, beyond_m);
+  step.lands_up = goes * room_to_roll(leg, step.to, leg.low_m.z, -beyond_m);
+}
+
+Rigid Gait::sole_roll(const GaitParams& params, const Leg& leg, const Step& step, const Cycle& cycle) {
+  const double toes_up = cycle.swing > 0.0 ? step.lands_up : step.landed_up;
+  return rolled_sole(leg, params.heel_up_rad * step.leaves_up * heel_rise(cycle.stance, cycle.swing),
+                     params.toes_up_rad * toes_up * toe_rise(cycle.stance, cycle.swing));
 }
 
 // How much the leg of a runner holds the hips down: not while it swings, when its foot may trail.
@@ -254,11 +287,22 @@ GaitFrame Gait::stand(double lower_share) {
   return frame;
 }
 
+// Of the way that half a cycle takes at full speed.
+double Gait::step_share(const GaitParams& params, const Pace& pace, double time_s) {
+  const double quarter_s = 0.25 * params.cycle_s;
+  const double way_m = travelled_m(pace, time_s + quarter_s) - travelled_m(pace, time_s - quarter_s);
+  return way_m / std::max(2.0 * quarter_s * params.speed_m_s, 1e-6);
+}
+
 GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
   GaitFrame frame;
   std::array<Vec3, kMaxLegs> feet;  // on their straight ways, without the lift
   std::array<double, kMaxLegs> holds{};
   const Pace pace = pace_of(params, duration_s);
+  const double in = minimum_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
+  const double out = minimum_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
+  GaitParams rolling = params;  // from flat feet to flat feet
+  rolling.heel_up_rad *= in * out, rolling.toes_up_rad *= in * out;
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     const Cycle cycle = cycle_of(params, legs_[i], time_s);
     take_step(params, pace, legs_[i], cycle.step, steps_[i]);
@@ -268,15 +312,14 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
     feet[i] = step.from.p_m + share * (step.to.p_m - step.from.p_m);
     frame.feet[i].world_from_sole = {slerp_short(step.from.q, step.to.q, share), feet[i]};
     frame.feet[i].world_from_sole.p_m.y += step.bump_m * swing_bump(cycle.swing);
+    frame.feet[i].world_from_sole = frame.feet[i].world_from_sole * sole_roll(rolling, legs_[i], step, cycle);
     if (environment_->is_level())  // elsewhere the swing is fitted to the ground with level toes
       frame.feet[i].world_from_sole.q = frame.feet[i].world_from_sole.q *
                                         axis_angle(Vec3(1, 0, 0), toes_down_rad(legs_[i], step.bump_m, cycle.swing));
     frame.feet[i].stands = cycle.swing == 0.0 || step.bump_m == 0.0;
   }
-  const double in = minimum_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
-  const double out = minimum_jerk(std::clamp((duration_s - time_s) / (0.5 * params.cycle_s), 0.0, 1.0));
-  const double beat = 0.5 - 0.5 * det::cos(4.0 * kPi * (time_s / params.cycle_s - 0.5 * params.duty));
-  const double lower_m = in * out * (params.lower_m - params.bounce_m * beat);
+  const double bounce_m = params.bounce_m * root_beat(params, time_s / params.cycle_s) * step_share(params, pace, time_s);
+  const double lower_m = in * out * (params.lower_m - bounce_m);
   const Vec3 way = travel(params, travelled_m(pace, time_s));
   frame.stands_at = {world_from_start_.q, world_from_start_.p_m + way};
   frame.root = root_over(std::span(feet).first(legs_.size()), holds, frame, way, lower_m, in * out);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/detmath.h"
+#include "generator/motion/foot_roll.h"
 #include "generator/motion/gait.h"
 
 namespace contort {
@@ -9,10 +11,10 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 
-GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double stride_per_leg) {
+GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double heading_rad, double stride_per_leg) {
   GaitParams params;
   const double length_m = least_length_m(legs);
-  params.speed_m_s = speed_m_s;
+  params.speed_m_s = speed_m_s, params.heading_rad = heading_rad;
   const double root_of_froude = speed_m_s / std::sqrt(kGravity_m_s2 * length_m);
   // Strides grow with the square root of dimensionless speed (Alexander 1989: stride / leg about 2.3 Fr^0.3).
   const double stride_m = stride_per_leg * length_m * std::sqrt(std::max(root_of_froude, 0.04));
@@ -37,6 +39,55 @@ double lower_for(std::span<const Leg> legs, double stance_m) {
   return lower_m;
 }
 
+// The same for one leg whose rolled sole is so far in front of its home.
+double lower_for(const Leg& leg, double ahead_m, const Rigid& flat_from_rolled) {
+  constexpr double kBent = 0.985;
+  const Vec3 ankle = leg.home_m + Vec3(0.0, 0.0, ahead_m) + flat_from_rolled * leg.sole_from_ankle;
+  const double reach_m = kBent * leg.length_m, along_m = ankle.z - leg.hip_m.z;
+  return leg.hip_m.y - ankle.y - std::sqrt(std::max(reach_m * reach_m - along_m * along_m, 0.5 * reach_m * reach_m));
+}
+
+// How much lower hips must be at their lowest than over a standing foot, so that no leg is stretched where it reaches
+// farthest: in front when its swing has all but ended, behind when it leaves the ground.
+double dip_for(std::span<const Leg> legs, const GaitParams& params) {
+  constexpr double kArrives = 0.88;  // of the swing
+  const double stride_m = params.speed_m_s * params.cycle_s, stance_m = params.duty * stride_m;
+  const double early = (1.0 - kArrives) * (1.0 - params.duty);  // of the cycle, before it stands
+  const double in_front = root_beat(params, -early), behind = root_beat(params, params.duty);
+  double dip_m = 0.0;
+  for (const Leg& leg : legs) {
+    const Rigid heel_first = rolled_sole(leg, 0.0, params.toes_up_rad * toe_rise(0.0, kArrives));
+    const Rigid toes_last = rolled_sole(leg, params.heel_up_rad, 0.0);
+    const double front_m = params.under * stance_m + early * stride_m, back_m = (params.under - 1.0) * stance_m;
+    dip_m = std::max({dip_m, (lower_for(leg, front_m, heel_first) - params.lower_m) / in_front,
+                      (lower_for(leg, back_m, toes_last) - params.lower_m) / behind});
+  }
+  return dip_m;
+}
+
+// Animals' legs are many, bear more of the time, and step slowly (Hildebrand 1968).
+GaitParams walk_on_many(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
+  GaitParams params = params_for(legs, speed_m_s, heading_rad, 1.9);
+  params.duty = 0.66;
+  params.lower_m = lower_for(legs, params.duty * params.cycle_s * speed_m_s);
+  return params;
+}
+
+// Feet roll forward, the more the longer the stance is, up to 0.8 of a leg; sideways and backward they stay flat. Angles,
+// and where the hips are, were chosen so that human and mech walk up to 1.4 and 1.3 m/s within their joints' speeds.
+GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
+  const double length_m = least_length_m(legs), forward = std::max(0.0, det::cos(heading_rad));
+  GaitParams params = params_for(legs, speed_m_s, heading_rad, 1.7 + 0.3 * forward);
+  params.duty = 0.62;
+  const double roll = forward * std::min(1.0, params.duty * params.cycle_s * speed_m_s / (0.8 * length_m));
+  params.heel_up_rad = roll * 42.0 * kRadPerDeg;
+  params.toes_up_rad = roll * 15.0 * kRadPerDeg;
+  params.under = 0.5 - 0.06 * roll;
+  params.lower_m = (0.03 - 0.01 * forward) * length_m;
+  params.bounce_m = -forward * std::min(dip_for(legs, params), 0.05 * length_m);
+  return params;
+}
+
 }  // namespace
 
 double least_length_m(std::span<const Leg> legs) {
@@ -45,16 +96,16 @@ double least_length_m(std::span<const Leg> legs) {
   return legs.empty() ? 1.0 : least;
 }
 
-GaitParams walk_params(std::span<const Leg> legs, double speed_m_s) {
-  const bool many = legs.size() > 2;  // more legs bear, and each takes its time: dogs walk so (Hildebrand 1968)
-  GaitParams params = params_for(legs, speed_m_s, many ? 1.9 : 1.7);
-  params.duty = many ? 0.66 : 0.62;
-  if (many) params.lower_m = lower_for(legs, params.duty * params.cycle_s * speed_m_s);
-  return params;
+double root_beat(const GaitParams& params, double cycles) {
+  return 0.5 - 0.5 * det::cos(4.0 * kPi * (cycles - params.under * params.duty));
 }
 
-GaitParams run_params(std::span<const Leg> legs, double speed_m_s) {
-  GaitParams params = params_for(legs, speed_m_s, 1.7);
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
+  return legs.size() > 2 ? walk_on_many(legs, speed_m_s, heading_rad) : walk_on_two(legs, speed_m_s, heading_rad);
+}
+
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
+  GaitParams params = params_for(legs, speed_m_s, heading_rad, 1.7);
   params.trot = true;
   params.duty = legs.size() > 2 ? 0.45 : 0.4;
   params.lift_m *= 1.5;

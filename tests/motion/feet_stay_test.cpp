@@ -91,7 +91,7 @@ TEST_P(FeetStay, WhereStepsAreShort) {
 
 TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
   const auto walk = [](int blend_frames) {
-    return spec_of(GetParam(), {legs(GetParam(), "walk", 0, 240, blend_frames, {{"speed_m_s", 0.6}})});
+    return spec_of(GetParam(), {legs(GetParam(), "walk", 0, 300, blend_frames, {{"speed_m_s", 0.6}})});
   };
   const Motion plain = generate(stage_of(walk(0))), faded = generate(stage_of(walk(30)));
   EXPECT_GT(plain.root.back().p_m.z, 1.0);

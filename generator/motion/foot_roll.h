@@ -1,0 +1,22 @@
+// How a sole that stands rolls: it comes down on its heel, lies flat, and leaves the ground over its toes. With rolling
+// feet a leg reaches farther in front and behind than with flat ones, so that hips need not dip in long strides (J.
+// Perry, Gait Analysis, 1992: heel, ankle and forefoot rockers).
+#pragma once
+
+#include "generator/motion/legs.h"
+
+namespace contort {
+
+// Shares of the largest angles, in [0, 1]. `stance` is how much of the stance is over, [0, 1]; `swing` of the swing, 0
+// while the foot stands. Neither jumps where a stance begins or ends.
+double heel_rise(double stance, double swing);
+double toe_rise(double stance, double swing);
+
+// From the sole that lies flat to the one that rolls: the heel is raised about the footprint's front end, the toes
+// about its rear end. No point of the sole is lower for it. Angles >= 0.
+Rigid rolled_sole(const Leg& leg, double heel_up_rad, double toes_up_rad);
+
+// What a sole stands on in its own frame: the middle of its lower end, or its origin where it lies flat.
+Vec3 lower_end_m(const Leg& leg, const Rigid& world_from_sole);
+
+}  // namespace contort
