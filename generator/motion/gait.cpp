@@ -56,11 +56,14 @@ Rigid Gait::first_sole(const Leg& leg, const Rigid* seen) const {
   const double off_m = std::sqrt(off.x * off.x + off.z * off.z);
   if (seen == nullptr || off_m > kFarthest * leg.length_m)
     return stand_at(leg, home, world_from_start_.q * Vec3(0, 0, 1));
-  const Vec3 at = *seen * lower_end_m(leg, *seen) - world_from_start_.q * lower_end_m(leg, *seen);
-  const Rigid placed = put_down(at, foothold_at(*environment_, leg, {world_from_start_.q, at}));
+  const auto placed_about = [&](const Vec3& on) {
+    const Vec3 at = *seen * on - world_from_start_.q * on;
+    return put_down(at, foothold_at(*environment_, leg, {world_from_start_.q, at}));
+  };
+  const Rigid placed = placed_about(Vec3(0.0));
   const Vec3 up_seen = seen->q * Vec3(0, 1, 0), up_placed = placed.q * Vec3(0, 1, 0);
   const bool stands = std::fabs(placed.p_m.y - seen->p_m.y) < kStands_m && glm::dot(up_seen, up_placed) > 0.999;
-  return stands ? *seen : placed;
+  return stands ? *seen : placed_about(lower_end_m(leg, *seen));
 }
 
 double Gait::phase(const GaitParams& params, const Leg& leg) const {

@@ -6,6 +6,7 @@
 
 #include "checks/evaluate.h"
 #include "generator/generate.h"
+#include "generator/motion/gait.h"
 #include "tests/character/stock.h"
 
 namespace contort {
@@ -57,6 +58,22 @@ TEST(FootRoll, NeverJumps) {
   EXPECT_NEAR(toe_rise(0.0, 0.0), toes, 0.01);
   EXPECT_EQ(heel_rise(1.0, 0.0), 1.0);
   EXPECT_EQ(toe_rise(0.4, 0.0), 0.0) << "it lies flat then";
+}
+
+// A sole that lies on a slope is tilted, and stands on its toes for all that no more than a level one.
+TEST(Walk, BeginsWhereFeetStandOnASlope) {
+  for (const double slope_deg : {0.0, 12.0, 24.0})
+    for (const double heading_deg : {0.0, 90.0, 180.0}) {
+      Spec spec;
+      spec.environment.ground = SlopeGround{slope_deg, heading_deg};
+      const Result<Stage> stage = build_stage(spec, stock_library());
+      ASSERT_TRUE(stage);
+      Gait gait;
+      gait.begin(*stage->character, stage->legs, stage->environment, {}, {});
+      const auto stood = gait.first_soles();
+      gait.begin(*stage->character, stage->legs, stage->environment, {}, std::span(stood).first(stage->legs.size()));
+      EXPECT_EQ(gait.first_soles(), stood) << slope_deg << " to " << heading_deg;
+    }
 }
 
 std::vector<std::string> found_in_walk(const std::string& character, double speed_m_s, double heading_deg = 0.0) {
