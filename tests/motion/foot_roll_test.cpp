@@ -76,6 +76,22 @@ TEST(Walk, BeginsWhereFeetStandOnASlope) {
     }
 }
 
+// Hips go up and down with the steps, and not where there is none: from a quarter of a cycle after the way until they rise.
+TEST(Walk, HoldsItsHipsStillWhereItStands) {
+  const Result<Stage> stage = build_stage(Spec{}, stock_library());
+  ASSERT_TRUE(stage);
+  const GaitParams params = walk_params(stage->legs, 1.2, 0.0);
+  ASSERT_LT(params.bounce_m, -0.01);
+  constexpr double kDuration_s = 6.0;
+  Gait gait;
+  gait.begin(*stage->character, stage->legs, stage->environment, {}, {});
+  const auto hips_m = [&](double cycles_left) {
+    return gait.at(params, kDuration_s - cycles_left * params.cycle_s, kDuration_s).root.p_m.y;
+  };
+  for (double cycles = 0.74; cycles > 0.5; cycles -= 0.02) EXPECT_NEAR(hips_m(cycles), hips_m(0.75), 1e-9) << cycles;
+  EXPECT_GT(std::abs(hips_m(2.25) - hips_m(2.0)), 0.01) << "while it walks";
+}
+
 std::vector<std::string> found_in_walk(const std::string& character, double speed_m_s, double heading_deg = 0.0) {
   ActionUse use;
   use.action = "walk", use.slot = character == "quadruped" ? "hips" : "waist";
