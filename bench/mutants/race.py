@@ -1,7 +1,8 @@
 """Looks for mutants with one profile, and keeps what it saw."""
 
+import contextlib
 import json
-import os
+import subprocess
 import tempfile
 import time
 from pathlib import Path
@@ -9,7 +10,20 @@ from pathlib import Path
 from faults import CLEAN, run, say, short_hash, write_json
 
 ARMS = {"mixture": {}, "uniform": {"guided": 0, "uniform": 1}}
-FIRST_CHUNK = 256  # cases; every further chunk begins anew with four times as many
+LOOKS_AGAIN_S = 0.02  # at the log of a run
+FIRST_CASES = 32  # are run alone: a run tells of its cases a round at a time, and most faults are found before
+
+
+def followed(log, process):
+    """Lines of a log, as a process adds them."""
+    with log.open() as file:
+        rest, ended = "", False
+        while not ended:
+            ended = process.poll() is not None  # before reading: nothing can be added afterwards
+            *lines, rest = (rest + file.read()).split("\n")
+            yield from lines
+            if not lines:
+                time.sleep(LOOKS_AGAIN_S)
 
 
 class Race:
@@ -27,15 +41,25 @@ class Race:
         for mode, arms in ARMS.items():
             write_json(self.results / f"{mode}.profile.json", dict(profile, **arms))
 
-    def fuzz(self, name, mode, seed, cases, corpus, shrinks, log):
+    @contextlib.contextmanager
+    def fuzzing(self, name, mode, seed, cases, folder, shrinks):
+        """A run in this folder. Left before its end, it is stopped."""
         per_family, evaluations = shrinks
-        command = ["nice", "timeout", str(self.args.run_timeout), self.builds.binary(name), "fuzz", "--profile",
-                   self.results / f"{mode}.profile.json", "--seed", seed, "--cases", cases, "--jobs", 1, "--corpus", corpus,
-                   "--shrinks-per-family", per_family, "--shrink-evaluations", evaluations, "--case-timeout",
-                   self.args.case_timeout, "--log", log]
-        done = run(command)
-        if done.returncode not in (0, 1, 4):
-            raise RuntimeError(f"{name} {mode} seed {seed}: exit code {done.returncode}: {done.stderr[-500:]}")
+        command = ["nice", "timeout", self.args.run_timeout, self.builds.binary(name), "fuzz", "--profile",
+                   self.results / f"{mode}.profile.json", "--seed", seed, "--cases", cases, "--jobs", 1, "--corpus",
+                   folder / "corpus", "--shrinks-per-family", per_family, "--shrink-evaluations", evaluations,
+                   "--case-timeout", self.args.case_timeout, "--log", folder / "log.jsonl"]
+        (folder / "log.jsonl").touch()
+        with (folder / "stderr").open("w") as errors:
+            process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=errors)
+        try:
+            yield process
+            if process.wait() not in (0, 1, 4):
+                why = (folder / "stderr").read_text()[-500:]
+                raise RuntimeError(f"{name} {mode} seed {seed}: exit code {process.returncode}: {why}")
+        finally:
+            process.terminate()
+            process.wait()
 
     # ---- what a generator shows of one spec
 
@@ -43,7 +67,8 @@ class Race:
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             json.dump(spec, file)
             file.flush()
-            done = run(["nice", "timeout", "60", self.builds.binary(name), "check", file.name, "--json"])
+            patience_s = 2.0 * self.args.case_timeout
+            done = run(["nice", "timeout", patience_s, self.builds.binary(name), "check", file.name, "--json"])
         character = spec["character"]["name"]
         if done.returncode == 124:
             return {f"timeout|{character}|evaluation"}
@@ -76,27 +101,23 @@ class Race:
         fits = result["id"] == identity and result["case_timeout"] == self.args.case_timeout
         return result if fits and (result["cases"] >= self.args.cases or result.get("found")) else None
 
-    def chunks(self):
-        cases = FIRST_CHUNK
-        while cases < self.args.cases:
-            yield cases
-            cases *= 4
-        yield self.args.cases
-
-    def kills(self, name, mode, seed, first, cases):
-        """Cases, from `first` on, that fail in a way in which the clean generator's do not, with the family that shows it."""
-        with tempfile.TemporaryDirectory(dir=self.out) as folder:
-            log = Path(folder) / "log.jsonl"
-            self.fuzz(name, mode, seed, cases, Path(folder) / "corpus", (1, 0), log)
-            with log.open() as lines:
-                for case in map(json.loads, lines):
-                    families = case["families"] if case["index"] >= first else []
-                    news = next((family for family in families if self.is_news(name, case["spec"], family)), None)
+    def kills(self, name, mode, seed, cases):
+        """Cases that fail in a way in which the clean generator's do not, with the family that shows it."""
+        with tempfile.TemporaryDirectory(dir=self.out, ignore_cleanup_errors=True) as made:
+            folder = Path(made)
+            with self.fuzzing(name, mode, seed, cases, folder, (1, 0)) as process:
+                for case in map(json.loads, followed(folder / "log.jsonl", process)):
+                    news = next((f for f in case["families"] if self.is_news(name, case["spec"], f)), None)
                     if news:
                         yield {"found": case["index"] + 1, "family": news, "arm": case["arm"]}
 
-    def first_kill(self, name, mode, seed, first, cases):
-        return next(self.kills(name, mode, seed, first, cases), {})
+    def first_kill(self, name, mode, seed):
+        for cases in (min(FIRST_CASES, self.args.cases), self.args.cases):
+            with contextlib.closing(self.kills(name, mode, seed, cases)) as kills:
+                kill = next(kills, None)
+            if kill:
+                return kill
+        return {}
 
     def count_path(self, name, mode, seed):
         return self.results / mode / f"{name}.seed_{seed}.of_{self.args.count}.json"
@@ -106,7 +127,7 @@ class Race:
         path = self.count_path(mutant.name, mode, seed)
         if path.exists() and json.loads(path.read_text())["id"] == mutant.id:
             return
-        count = sum(1 for _ in self.kills(mutant.name, mode, seed, 0, self.args.count))
+        count = sum(1 for _ in self.kills(mutant.name, mode, seed, self.args.count))
         write_json(path, {"id": mutant.id, "kills": count})
         say(f"{mutant.name} {mode} seed {seed}: {count} of {self.args.count}")
 
@@ -122,12 +143,7 @@ class Race:
         if self.known(path, mutant.id):
             return
         started = time.monotonic()
-        kill, first = {}, 0
-        for cases in self.chunks():
-            kill = self.first_kill(mutant.name, mode, seed, first, cases)
-            if kill:
-                break
-            first = cases
+        kill = self.first_kill(mutant.name, mode, seed)
         result = {"id": mutant.id, "cases": self.args.cases, "case_timeout": self.args.case_timeout}
         write_json(path, dict(result, **kill, seconds=round(time.monotonic() - started, 1)))
         what = f"case {kill['found']}, {kill['arm']}, {kill['family']}" if kill else "not found"
@@ -142,10 +158,12 @@ class Race:
         path = self.bucket_path(name)
         if path.exists() and json.loads(path.read_text()).get("id") == identity:
             return
-        with tempfile.TemporaryDirectory(dir=self.out) as corpus:
-            self.fuzz(name, "mixture", 1, self.args.bucket_cases, corpus, (2, self.args.bucket_evaluations), os.devnull)
+        with tempfile.TemporaryDirectory(dir=self.out) as made:
+            shrinks = (2, self.args.bucket_evaluations)
+            with self.fuzzing(name, "mixture", 1, self.args.bucket_cases, Path(made), shrinks):
+                pass
             buckets = []
-            for file in sorted(Path(corpus).glob("buckets/*/bucket.json")):
+            for file in sorted(Path(made).glob("corpus/buckets/*/bucket.json")):
                 described = json.loads(file.read_text())
                 least = json.loads((file.parent / described["min"]).read_text())["spec"]
                 if name == CLEAN or not self.is_on_clean(least, described["family"]):
