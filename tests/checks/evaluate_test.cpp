@@ -169,6 +169,15 @@ Shown lingering(const Character& character, double margin) {
   return {motion, timeline_of("hit_reaction", 0, 10, {})};
 }
 
+// It goes on one frame too late, which is a millisecond at 1 kHz.
+Shown skipping(const Character& character, double margin) {
+  Motion motion = small::at_rest(character, 14, 1.0 / (0.001 - margin));
+  motion.queue = {{0, 4, 0, 0}, {4, 6, 1, 0}, {6, 11, 0, 5}};
+  Shown shown{motion, timeline_of("hit_reaction", 0, 10, {})};
+  shown.timeline.sequences.push_back({"", 2, {}});
+  return shown;
+}
+
 const std::map<std::string, Exemplar>& exemplars() {
   static const std::map<std::string, Exemplar> all = {
       {"non_finite", lost},
@@ -182,6 +191,7 @@ const std::map<std::string, Exemplar>& exemplars() {
       {"reach_error", missed},
       {"residue", left_over},
       {"stuck", lingering},
+      {"queue_gap", skipping},
       {"joint_torque", strained},
       {"balance", unbalanced},
       {"tracking_error", late},
@@ -221,7 +231,8 @@ TEST(Manifest, EveryExemplarBelongsToACheck) {
 
 // Some judge the whole figure, and bone_position only what the character's file declares.
 int fewest_subjects(std::string_view check, const Character& character) {
-  if (check == "balance" || check == "bind_pose_flash" || check == "stuck") return 1;
+  if (check == "balance" || check == "bind_pose_flash" || check == "stuck" || check == "queue_gap")
+    return 1;
   if (check == "self_collision") return static_cast<int>(character.judged_pairs().size());
   if (check == "bone_position") return static_cast<int>(character.regions().size());
   return static_cast<int>(character.parts().size());

@@ -1,4 +1,4 @@
-// foot_slide, bind_pose_flash, pop, angular_acceleration, residue, reach_error and stuck on motions that are known:
+// foot_slide, bind_pose_flash, pop, angular_acceleration, residue, reach_error, stuck and queue_gap on motions that are known:
 // made by hand for one property, or generated from specs that must be quiet.
 #include <gtest/gtest.h>
 
@@ -156,7 +156,7 @@ TEST(AngularAcceleration, ABlowMayChangeSpeedsAtOnce) {
   EXPECT_TRUE(Evaluator().judge(character, motion, "angular_acceleration").empty());
 }
 
-// ---- residue, reach_error, stuck
+// ---- residue, reach_error, stuck, queue_gap
 
 TEST(Residue, NothingIsLeftOfAdditivesThatPlay) {
   for (const char* action : {R"({"action": "hit_reaction", "slot": "torso", "start_frame": 5})",
@@ -236,6 +236,36 @@ TEST(Stuck, QueuesOfSpecsRunDry) {
   ASSERT_EQ(motion.queue.size(), 1U);
   motion.queue[0].last_frame = motion.frame_count - 1;
   EXPECT_EQ(Evaluator().judge(*stage.character, motion, "stuck", stage.environment, &stage.timeline).size(), 1U);
+}
+
+// A pose of 40 frames, cut by others in frames 10 and 20.
+Stage cut_twice() {
+  return staged(R"({"format": "contort.spec/1", "character": {"name": "human"}, "hold_frames": 5,
+    "sequences": [{"clips": [{"actions": [{"action": "pose", "slot": "arm_left", "duration_frames": 40}]}]}],
+    "interrupts": [
+      {"when": {"event": "frame", "frame": 10}, "sequence": {"clips": [{"actions": [
+        {"action": "pose", "slot": "head", "duration_frames": 6}]}]}},
+      {"when": {"event": "frame", "frame": 20}, "sequence": {"clips": [{"actions": [
+        {"action": "pose", "slot": "head", "duration_frames": 1}]}]}}]})");
+}
+
+TEST(QueueGap, WhatIsCutGoesOnWhereItWas) {
+  const Stage stage = cut_twice();
+  const Motion motion = generate(stage);
+  ASSERT_EQ(motion.queue.size(), 5U);
+  EXPECT_TRUE(found(stage, "queue_gap").empty());
+  const auto judged = [&](const Motion& changed) {
+    return Evaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &stage.timeline);
+  };
+  for (std::size_t span = 0; span < motion.queue.size(); ++span)
+    for (const int skipped : {-1, 1}) {
+      Motion changed = motion;
+      changed.queue[span].first_content += skipped;
+      const std::vector<Finding> findings = judged(changed);
+      ASSERT_FALSE(findings.empty()) << span;
+      EXPECT_EQ(findings[0].worst_frame, motion.queue[span].first_frame) << span;
+      EXPECT_NEAR(findings[0].worst_margin, 0.001 - 1.0 / motion.rate_hz, 1e-12) << span;
+    }
 }
 
 }  // namespace
