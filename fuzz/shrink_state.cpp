@@ -72,6 +72,7 @@ bool ShrinkState::accept(Spec candidate) {
   if (!shown || !shown->built) return false;
   tried_[text] = shown->fails ? shown->depth : -1.0;
   if (!shown->fails || shown->depth < least_depth_) return false;
+  if (std::isinf(shown->depth) && !std::isinf(least_depth_)) return false;  // no number is another fault
   best_.spec = std::move(candidate);
   best_.expect = shown->expect;
   shown_ = std::move(*shown);

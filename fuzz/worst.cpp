@@ -41,7 +41,7 @@ class Climb {
     if (candidate == worst_.spec || state_.evaluations() - first_evaluation_ >= kMostEvaluations) return false;
     if (!tried_.insert(print_spec(candidate)).second || !state_.allows(candidate)) return false;
     const std::optional<TrialResult> shown = state_.run(candidate);
-    if (!shown || !shown->fails || shown->depth <= depth_) return false;
+    if (!shown || !shown->fails || shown->depth <= depth_ || !std::isfinite(shown->depth)) return false;
     worst_.spec = candidate;
     worst_.expect = shown->expect;
     depth_ = shown->depth;

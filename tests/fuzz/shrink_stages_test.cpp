@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "fuzz/shrink.h"
 #include "tests/corpus/sample_cases.h"
@@ -143,6 +144,21 @@ TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
   EXPECT_GT(result.worst.expect.depth, 90.0);
   EXPECT_NEAR(number(result.worst.spec, 0, "elbow_deg"), 300, 10);
   EXPECT_EQ(actions_of(result.worst.spec), 1);
+}
+
+// A margin that is no number is another fault, however deep: its minimal spec would explain nothing.
+TEST(ShrinkStages, AFailureWithANumberKeepsOne) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const Spec two = spec_of({pose_use("arm_left", {}), pose_use("arm_right", {})});
+  EXPECT_EQ(actions_of(shrunk(two, [](const Spec& x) { return actions_of(x) == 2 ? 1.0 : kNone; }).minimal.spec), 2);
+  EXPECT_EQ(actions_of(shrunk(two, [](const Spec& x) { return actions_of(x) > 0 ? kNone : 1.0; }).minimal.spec), 1);
+  const auto over_200 = [](const Spec& x) {
+    const double elbow_deg = actions_of(x) == 1 ? number(x, 0, "elbow_deg") : 0.0;
+    return elbow_deg > 260 ? kNone : elbow_deg - 200;
+  };
+  const double deepest = shrunk(bent_elbow(240), over_200, 0.5).worst.expect.depth;
+  EXPECT_GT(deepest, 40.0);
+  EXPECT_LE(deepest, 60.0);
 }
 
 TEST(ShrinkStages, WhatDoesNotFailTheSameWayTwiceIsFlakyAndStays) {
