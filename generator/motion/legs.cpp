@@ -172,21 +172,23 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
   double swivel_rad = 0.0;
   reach_for(character, chain, world, ankle, swivel_rad, row);
   place_below(character, leg, chain.upper, row, world);
+  const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
   if (leg.has_ankle_pair) {
     const Joint& flex = joint_at(character, leg.ankles[0]);
-    const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
     swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
   }
+  // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands upright
+  // below its hip, and without bounds where it lies level.
+  const double steepness = glm::dot(unit_or(ankle - hip, -up), up);
   for (int pass = 0; pass < kPasses; ++pass) {
     reach_for(character, chain, world, ankle, swivel_rad, row);
     place_below(character, leg, chain.upper, row, world);
     level_foot(character, leg, world, up, row);
     if (leg.ankle_count > 0) place_below(character, leg, leg.ankles[0], row, world);
     const Vec3 now = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
-    // The leg points down, so that a turn about it is one about the vertical the other way round.
     const double off_rad = det::atan2(glm::dot(up, glm::cross(now, toes)), glm::dot(now, toes));
     if (std::fabs(off_rad) < 1e-10) return;
-    swivel_rad -= off_rad;
+    swivel_rad += std::fabs(off_rad) > 0.5 * kPi ? kPi : steepness * off_rad;  // the other way round, or nearly there
   }
 }
 
