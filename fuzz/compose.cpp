@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
+#include <variant>
 
 #include "fuzz/compose_dynamics.h"
 #include "fuzz/compose_params.h"
@@ -176,16 +179,36 @@ SequenceDesc& named_sequence(Spec& spec, int raw) {
   return sequence;
 }
 
-// Slots whose parts can tell of an event: feet and what aims.
-std::vector<std::string> slots_that_tell(Event event, const Character& character) {
+// Where the queue plays this action, each slot once.
+std::vector<std::string> slots_playing(std::string_view action, const Spec& spec) {
   std::vector<std::string> slots;
-  if (event == Event::contact)
+  for (const SequenceDesc& sequence : spec.sequences)
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions)
+        if (use.action == action && std::ranges::find(slots, use.slot) == slots.end()) slots.push_back(use.slot);
+  return slots;
+}
+
+bool plays(std::string_view action, const Spec& spec) { return !slots_playing(action, spec).empty(); }
+
+// Slots whose parts can tell of an event: feet and what aims.
+std::vector<std::string> slots_that_tell(Event event, const Character& character, const Spec& spec) {
+  if (event == Event::aim_reached) return slots_playing("aim", spec);
+  std::vector<std::string> slots;
+  if (event == Event::contact && (plays("walk", spec) || plays("run", spec)))
     for (const Leg& leg : find_legs(character))
       slots.push_back(character.parts()[static_cast<std::size_t>(leg.foot_part)].slot);
-  if (event == Event::aim_reached)
-    for (const Part& part : character.parts())
-      if (find_action(character, part, "aim")) slots.push_back(part.slot);
   return slots;
+}
+
+bool waits_for_slot(Event event) { return event == Event::contact || event == Event::aim_reached; }
+
+// As far as can be told before it is played: what nothing brings about, no interrupt should wait for.
+bool can_happen(Event event, std::span<const std::string> slots, const Spec& spec) {
+  if (waits_for_slot(event)) return !slots.empty();
+  if (event == Event::impact) return plays("hit_reaction", spec);
+  if (event == Event::near_obstacle) return !spec.environment.obstacles.empty();
+  return event != Event::ground_steeper || !std::holds_alternative<PlaneGround>(spec.environment.ground);
 }
 
 ConditionDesc compose_condition(const RawInterrupt& raw, const Character& character, Spec& spec) {
@@ -194,14 +217,11 @@ ConditionDesc compose_condition(const RawInterrupt& raw, const Character& charac
                                Event::impact,  Event::sequence_ended, Event::ground_steeper,
                                Event::contact, Event::aim_reached,    Event::near_obstacle};
   when.event = kEvents[pick(raw.event, std::size(kEvents))];
-  const std::vector<std::string> slots = slots_that_tell(when.event, character);
-  const bool waits_for_slot = when.event == Event::contact || when.event == Event::aim_reached;
-  const bool cannot_happen = (waits_for_slot && slots.empty()) ||
-                             (when.event == Event::near_obstacle && spec.environment.obstacles.empty());
-  if (cannot_happen) when.event = Event::frame;
+  const std::vector<std::string> slots = slots_that_tell(when.event, character, spec);
+  if (!can_happen(when.event, slots, spec)) when.event = Event::frame;
   if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
   if (when.event == Event::near_obstacle) when.distance_m = contort::on_lattice(0.1 * between(raw.what, 2, 20), 10.0);
-  if (waits_for_slot && !cannot_happen) when.slot = slots[pick(raw.what, slots.size())];
+  if (waits_for_slot(when.event)) when.slot = slots[pick(raw.what, slots.size())];
   if (when.event == Event::sequence_ended) when.name = named_sequence(spec, raw.what).name;
   if (when.event == Event::clip_ended) {
     SequenceDesc& sequence = named_sequence(spec, raw.what);

@@ -56,12 +56,12 @@ DynamicsDesc compose_dynamics(const std::array<int, kRawDynamics>& raw, const Fe
   const Profile& profile = features.profile();
   if (!happens(raw[0], profile.tracking + profile.dynamic)) return dynamics;
   dynamics.mode = happens(raw[0], profile.tracking) ? Mode::tracking : Mode::dynamic;
-  for (std::size_t i = 0; i < pick(raw[1], 3) && !character.sockets().empty(); ++i) {
+  for (std::size_t i = 0; i < pick(raw[kLoadCount], 3) && !character.sockets().empty(); ++i) {
     LoadDesc load = compose_load(&raw[3 + 2 * i], character);
     if (!load.slot.starts_with("object:")) dynamics.loads.push_back(std::move(load));
   }
   // Tracking alone has neither strength nor balance to answer a blow with.
-  const std::size_t blows = pick(raw[2], static_cast<std::size_t>(profile.impacts) + 1);
+  const std::size_t blows = pick(raw[kBlowCount], static_cast<std::size_t>(profile.impacts) + 1);
   for (std::size_t i = 0; i < blows && dynamics.mode == Mode::dynamic; ++i)
     dynamics.impacts.push_back(compose_impact(&raw[7 + 5 * i], character));
   return dynamics;

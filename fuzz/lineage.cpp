@@ -1,6 +1,7 @@
 #include "fuzz/lineage.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
@@ -47,8 +48,9 @@ Arm unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
   if (dice.below(50) < 50.0 * odds.uniform) return Arm::uniform;
-  constexpr Arm kMixed[] = {Arm::crowded, Arm::corners, Arm::swarm, Arm::corners_and_swarm};
-  return kMixed[dice.below(4)];
+  constexpr Arm kMixed[] = {Arm::corners, Arm::corners, Arm::corners, Arm::corners,
+                            Arm::crowded, Arm::crowded, Arm::swarm,   Arm::corners_and_swarm};
+  return kMixed[dice.below(static_cast<int>(std::size(kMixed)))];
 }
 
 RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage) {

@@ -148,10 +148,23 @@ using Change = void (*)(RawSpec&, const RawSpec& mate, Dice&);
 constexpr Change kChanges[] = {move_number, move_number, move_number, move_number,   move_number, copy_action,
                                drop_action, take_action, copy_clip,   take_sequence, drop_clip,   take_scene};
 
-template <class Numbers>
-void corners_among(Numbers& numbers, Dice& dice) {
-  for (int& number : numbers)
-    if (dice.one_in(4)) number = dice.one_in(2) ? 0 : kLattice;
+void perhaps_to_corner(int& number, Dice& dice) {
+  if (dice.one_in(4)) number = dice.one_in(2) ? 0 : kLattice;
+}
+
+void to_corners(std::span<int> numbers, Dice& dice) {
+  for (int& number : numbers) perhaps_to_corner(number, dice);
+}
+
+void to_corners(std::vector<RawClip>& clips, Dice& dice) {
+  for (RawClip& clip : clips) {
+    for (int* number : {&clip.start, &clip.stretch}) perhaps_to_corner(*number, dice);
+    for (RawAction& action : clip.actions) {
+      to_corners(action.values, dice);
+      for (int* number : {&action.start, &action.duration, &action.blend_in, &action.blend_out})
+        perhaps_to_corner(*number, dice);
+    }
+  }
 }
 
 template <class T>
@@ -178,17 +191,15 @@ void crowd(RawSpec& raw, const RawSpec& mate) {
   for (std::size_t s = 0; s < both; ++s) crowd_sequence(raw.sequences[s], mate.sequences[s]);
   add_up_to(kMostSequences, raw.sequences, beyond(both, mate.sequences));
   add_up_to(kMostInterrupts, raw.interrupts, std::span(mate.interrupts));
+  for (const std::size_t count : {kLoadCount, kBlowCount})
+    raw.dynamics[count] = std::max(raw.dynamics[count], mate.dynamics[count]);
+  raw.interrupted = std::min(raw.interrupted, mate.interrupted);  // the smaller, the likelier (compose.cpp)
 }
 
 void go_to_corners(RawSpec& raw, Dice& dice) {
-  for (std::vector<RawClip>& clips : raw.sequences)
-    for (RawClip& clip : clips)
-      for (RawAction& action : clip.actions) {
-        corners_among(action.values, dice);
-        for (int* number : {&action.start, &action.duration, &action.blend_in, &action.blend_out})
-          if (dice.one_in(4)) *number = dice.one_in(2) ? 0 : kLattice;
-      }
-  corners_among(raw.ground, dice);
+  for (std::vector<RawClip>& clips : raw.sequences) to_corners(clips, dice);
+  for (RawInterrupt& interrupt : raw.interrupts) to_corners(interrupt.clips, dice);
+  to_corners(raw.ground, dice);
 }
 
 void leave_out(RawSpec& raw, Dice& dice) { raw.omitted = 1 + dice.below(kLattice); }

@@ -13,13 +13,15 @@ namespace contort {
 inline constexpr std::size_t kMostSequences = 3;
 inline constexpr std::size_t kMostClips = 4;    // of a sequence
 inline constexpr std::size_t kMostActions = 6;  // of a clip
-inline constexpr std::size_t kMostInterrupts = 3;
+inline constexpr std::size_t kMostInterrupts = 6;
 
 // What another draw has comes along, behind what is there: its actions into the clips, its clips, sequences and
-// interrupts after the others, as far as there is room. So more of it meets.
+// interrupts after the others, as far as there is room. It is interrupted if one of them is, and has as many loads and
+// blows as the one that has most. So more of it meets.
 void crowd(RawSpec& raw, const RawSpec& mate);
 
-// Every fourth number goes to an end of its range: faults like to sit there, and an even draw rarely comes by.
+// Every fourth number of actions, of times of clips, and of the ground goes to an end of its range: faults like to sit
+// there, and an even draw rarely comes by.
 void go_to_corners(RawSpec& raw, Dice& dice);
 
 // Half of all features are left out (features.h).

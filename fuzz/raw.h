@@ -16,6 +16,7 @@ inline constexpr std::size_t kRawParts = 16;
 inline constexpr std::size_t kRawObjects = 4;
 inline constexpr std::size_t kRawGround = 16;
 inline constexpr std::size_t kRawDynamics = 24;
+inline constexpr std::size_t kLoadCount = 1, kBlowCount = 2;  // among those: the greater, the more
 
 struct RawAction {
   int slot = 0;

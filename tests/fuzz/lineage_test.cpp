@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <set>
+#include <span>
+#include <string>
 
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
@@ -39,6 +44,46 @@ TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
     EXPECT_EQ(raw_of(config, stock_library(), 3, {index}), draw_raw(3, index));
 }
 
+// Of 100 cases that are not guided, 10 are even, 45 have corners, 22.5 are crowded alone, and 11.25 leave features out,
+// with corners or without.
+TEST(Lineage, EveryArmHasItsShare) {
+  std::map<Arm, double> percent;
+  constexpr int kCases = 20000;
+  for (std::int64_t index = 0; index < kCases; ++index) percent[unguided(odds_of(1, {}), index)] += 100.0 / kCases;
+  const std::map<Arm, double> expected = {
+      {Arm::uniform, 10.0}, {Arm::corners, 45.0}, {Arm::crowded, 22.5}, {Arm::swarm, 11.25}, {Arm::corners_and_swarm, 11.25}};
+  for (const auto& [arm, share] : expected) EXPECT_NEAR(percent[arm], share, 1.0) << arm_name(arm);
+  EXPECT_EQ(percent.size(), expected.size());
+}
+
+// At both ends an eighth of each, but for the few that are drawn there.
+TEST(Corners, AreInSequencesAndInterruptsAndOnTheGround) {
+  std::map<std::string, std::array<int, 3>> seen;  // at 0, at the upper end, all
+  const auto look = [&](const std::string& name, std::span<const int> numbers) {
+    for (const int number : numbers) ++seen[name][2], seen[name][0] += number == 0, seen[name][1] += number == kLattice;
+  };
+  const auto look_at_clips = [&](const std::string& name, const std::vector<RawClip>& clips) {
+    for (const RawClip& clip : clips) {
+      look(name + " times", std::array{clip.start, clip.stretch});
+      for (const RawAction& action : clip.actions) {
+        look(name + " values", action.values);
+        look(name + " action times", std::array{action.start, action.duration, action.blend_in, action.blend_out});
+      }
+    }
+  };
+  for (std::int64_t index = 0; index < 400; ++index) {
+    RawSpec raw = draw_raw(1, index);
+    Dice dice(1, index, 0);
+    go_to_corners(raw, dice);
+    look("ground", raw.ground);
+    for (const std::vector<RawClip>& clips : raw.sequences) look_at_clips("sequence", clips);
+    for (const RawInterrupt& interrupt : raw.interrupts) look_at_clips("interrupt", interrupt.clips);
+  }
+  EXPECT_EQ(seen.size(), 7U);
+  for (const auto& [name, count] : seen)
+    for (const int end : {0, 1}) EXPECT_NEAR(count[end], count[2] / 8.0, count[2] / 32.0) << name;
+}
+
 TEST(Lineage, StreamsOfOneCaseDiffer) {
   EXPECT_NE(draw_raw(3, 5), draw_raw(3, 5, 1));
   EXPECT_NE(draw_raw(3, 5, 1), draw_raw(3, 5, 2));
@@ -55,7 +100,11 @@ TEST(Crowding, KeepsWhatIsThereAndAddsBehindIt) {
       for (std::size_t c = 0; c < before.sequences[s].size(); ++c)
         EXPECT_TRUE(begins_with(after.sequences[s][c].actions, before.sequences[s][c].actions));
     EXPECT_TRUE(begins_with(after.interrupts, before.interrupts));
-    after.sequences = before.sequences, after.interrupts = before.interrupts;
+    EXPECT_EQ(after.interrupted, std::min(before.interrupted, mate.interrupted));
+    for (const std::size_t count : {kLoadCount, kBlowCount})
+      EXPECT_EQ(after.dynamics[count], std::max(before.dynamics[count], mate.dynamics[count]));
+    after.sequences = before.sequences, after.interrupts = before.interrupts, after.interrupted = before.interrupted;
+    for (const std::size_t count : {kLoadCount, kBlowCount}) after.dynamics[count] = before.dynamics[count];
     EXPECT_EQ(after, before);
   }
 }
