@@ -1,5 +1,5 @@
-// queue_gap: a sequence begins with its first frame, and goes on with the one in which it was cut. What is judged is how
-// much of it is left out or played twice.
+// queue_gap: a sequence begins with its first frame, and goes on with the one in which it was cut. What is judged is
+// how much of it is left out or played twice.
 #include <algorithm>
 #include <cstdlib>
 

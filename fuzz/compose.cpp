@@ -153,8 +153,8 @@ Ground compose_ground(const std::array<int, kRawGround>& raw, const Features& fe
   field.columns = field.rows = 7;
   field.heights_m.clear();
   for (std::size_t i = 0; i < 49; ++i)  // two of the raw numbers make one height
-    field.heights_m.push_back(contort::on_lattice(
-        1e-2 * ((raw[2 + i % 7] / 100 + raw[9 + i / 7 % 7] / 100) % 13 - 6), 100.0));
+    field.heights_m.push_back(
+        contort::on_lattice(1e-2 * ((raw[2 + i % 7] / 100 + raw[9 + i / 7 % 7] / 100) % 13 - 6), 100.0));
   return field;
 }
 

@@ -177,8 +177,8 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
     const Joint& flex = joint_at(character, leg.ankles[0]);
     swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
   }
-  // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands upright
-  // below its hip, and without bounds where it lies level.
+  // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands
+  // upright below its hip, and without bounds where it lies level.
   const double steepness = glm::dot(unit_or(ankle - hip, -up), up);
   for (int pass = 0; pass < kPasses; ++pass) {
     reach_for(character, chain, world, ankle, swivel_rad, row);

@@ -231,8 +231,7 @@ TEST(Manifest, EveryExemplarBelongsToACheck) {
 
 // Some judge the whole figure, and bone_position only what the character's file declares.
 int fewest_subjects(std::string_view check, const Character& character) {
-  if (check == "balance" || check == "bind_pose_flash" || check == "stuck" || check == "queue_gap")
-    return 1;
+  if (check == "balance" || check == "bind_pose_flash" || check == "stuck" || check == "queue_gap") return 1;
   if (check == "self_collision") return static_cast<int>(character.judged_pairs().size());
   if (check == "bone_position") return static_cast<int>(character.regions().size());
   return static_cast<int>(character.parts().size());

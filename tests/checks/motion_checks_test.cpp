@@ -1,5 +1,5 @@
-// foot_slide, bind_pose_flash, pop, angular_acceleration, residue, reach_error, stuck and queue_gap on motions that are known:
-// made by hand for one property, or generated from specs that must be quiet.
+// foot_slide, bind_pose_flash, pop, angular_acceleration, residue, reach_error, stuck and queue_gap on motions that are
+// known: made by hand for one property, or generated from specs that must be quiet.
 #include <gtest/gtest.h>
 
 #include "checks/evaluate.h"

@@ -214,7 +214,8 @@ RawSpec filled(int value) {
 
 TEST(Compose, EveryRawValueMakesASpecThatBuilds) {
   for (const int value : {0, 1, 3333, 3334, 4999, 5000, 5001, 6666, 9998, 9999, kLattice})
-    for (const std::vector<std::string>& names : {std::vector<std::string>{"human"}, {"mech"}, {"quadruped"}, {"human", "mech", "quadruped"}}) {
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{"human"}, {"mech"}, {"quadruped"}, {"human", "mech", "quadruped"}}) {
       const Spec spec = compose(filled(value), {names}, stock_library());
       const Result<Stage> stage = build_stage(spec, stock_library());
       ASSERT_TRUE(stage) << value << ": " << to_line(stage.issue());

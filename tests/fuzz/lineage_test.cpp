@@ -50,8 +50,11 @@ TEST(Lineage, EveryArmHasItsShare) {
   std::map<Arm, double> percent;
   constexpr int kCases = 20000;
   for (std::int64_t index = 0; index < kCases; ++index) percent[unguided(odds_of(1, {}), index)] += 100.0 / kCases;
-  const std::map<Arm, double> expected = {
-      {Arm::uniform, 10.0}, {Arm::corners, 45.0}, {Arm::crowded, 22.5}, {Arm::swarm, 11.25}, {Arm::corners_and_swarm, 11.25}};
+  const std::map<Arm, double> expected = {{Arm::uniform, 10.0},
+                                          {Arm::corners, 45.0},
+                                          {Arm::crowded, 22.5},
+                                          {Arm::swarm, 11.25},
+                                          {Arm::corners_and_swarm, 11.25}};
   for (const auto& [arm, share] : expected) EXPECT_NEAR(percent[arm], share, 1.0) << arm_name(arm);
   EXPECT_EQ(percent.size(), expected.size());
 }
@@ -81,7 +84,7 @@ TEST(Corners, AreInSequencesAndInterruptsAndOnTheGround) {
   }
   EXPECT_EQ(seen.size(), 7U);
   for (const auto& [name, count] : seen)
-    for (const int end : {0, 1}) EXPECT_NEAR(count[end], count[2] / 8.0, count[2] / 32.0) << name;
+    for (const int at_end : {count[0], count[1]}) EXPECT_NEAR(at_end, count[2] / 8.0, count[2] / 32.0) << name;
 }
 
 TEST(Lineage, StreamsOfOneCaseDiffer) {

@@ -76,7 +76,8 @@ TEST(Walk, BeginsWhereFeetStandOnASlope) {
     }
 }
 
-// Hips go up and down with the steps, and not where there is none: from a quarter of a cycle after the way until they rise.
+// Hips go up and down with the steps, and not where there is none: from a quarter of a cycle after the way until they
+// rise.
 TEST(Walk, HoldsItsHipsStillWhereItStands) {
   const Result<Stage> stage = build_stage(Spec{}, stock_library());
   ASSERT_TRUE(stage);

@@ -28,7 +28,8 @@ TEST(PlaceFoot, OfALegThatLiesLevelIsTheSameWhereverItStands) {
     for (const double drop_m : {0.2, 0.02, 2e-3, 2e-4, 2e-5, -2e-5, -2e-4, -2e-3, -0.02, -0.2}) {
       const std::vector<double> here = placed_level(character, {}, drop_m);
       const std::vector<double> moved = placed_level(character, there, drop_m);
-      for (std::size_t c = 0; c < here.size(); ++c) EXPECT_NEAR(moved[c], here[c], 1e-9) << name << " " << drop_m << " " << c;
+      for (std::size_t c = 0; c < here.size(); ++c)
+        EXPECT_NEAR(moved[c], here[c], 1e-9) << name << " " << drop_m << " " << c;
     }
   }
 }
