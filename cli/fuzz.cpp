@@ -251,6 +251,7 @@ void run(const Options& options, Context& context) {
     if (const Result<std::string> text = read_file(context.settings_file)) config.settings = *text;
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
+  warn_of_other_rules(*corpus);
   Result<CaseLog> opened = CaseLog::open(options.log, options.resume);
   if (!opened) return context.fail(opened.issue());
   CaseLog log = std::move(opened).value();

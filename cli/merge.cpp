@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "corpus/merge.h"
 #include "generator/core/json_fields.h"
 
@@ -42,6 +43,7 @@ void run(const Options& options, Context& context) {
   const std::size_t buckets = into->buckets(damaged).size();
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest was merged
   if (options.require_complete && !merged->incomplete.empty()) context.exit_code = kInconclusive;
+  warn_of_other_rules(*into);
   print(options, *merged, buckets);
 }
 

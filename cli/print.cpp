@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "corpus/lifecycle.h"
+#include "corpus/upkeep.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -78,6 +79,14 @@ std::string waiver_state(const WaiverUse& use) {
 }
 
 }  // namespace
+
+void warn_of_other_rules(const Corpus& corpus) {
+  if (const int count = named_by_other_rules(corpus); count > 0)
+    std::fprintf(stderr,
+                 "contort: %d buckets are named by the rules of another version, so what comes back of them counts as "
+                 "new: contort corpus rekey %s\n",
+                 count, printable(corpus.folder()).c_str());
+}
 
 std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses) {
   std::vector<std::string> lines;

@@ -8,6 +8,7 @@
 #include "checks/fold.h"
 #include "checks/waive.h"
 #include "corpus/bucket.h"
+#include "corpus/corpus.h"
 
 namespace contort::cli {
 
@@ -28,6 +29,9 @@ std::string printable(const std::string& text);
 
 // What people know about a bucket: "ana, ticket 12, until 2027-03-01: soft stop"; what there is of it.
 std::string known_text(const Bucket& bucket, const std::string& today);
+
+// On standard error, where a corpus has buckets that were named by other rules than this version's.
+void warn_of_other_rules(const Corpus& corpus);
 
 // A finite number in short; "nan" where it is not one.
 std::string short_number(double value);

@@ -36,6 +36,18 @@ int count_clips(const Spec& spec) {
 
 std::string up_to_three(int count) { return count < 3 ? std::to_string(count) : "3+"; }
 
+// Of the queue and of what interrupts it, sorted.
+std::set<std::string> actions_of(const Spec& spec) {
+  std::set<std::string> names;
+  const auto add = [&](const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions) names.insert(use.action);
+  };
+  for (const SequenceDesc& sequence : spec.sequences) add(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) add(interrupt.sequence);
+  return names;
+}
+
 }  // namespace
 
 template <class V>
@@ -65,16 +77,23 @@ void fields(V& v, const Bucket*) {
 }
 
 std::string features_of(const Spec& spec) {
-  std::set<std::string> actions;
-  for (const SequenceDesc& sequence : spec.sequences)
-    for (const ClipDesc& clip : sequence.clips)
-      for (const ActionUse& use : clip.actions) actions.insert(use.action);
   std::string text = "actions=";
-  for (const std::string& action : actions) text += (text.back() == '=' ? "" : ",") + action;
+  for (const std::string& action : actions_of(spec)) text += (text.back() == '=' ? "" : ",") + action;
   text += " clips=" + up_to_three(count_clips(spec));
   text += " sequences=" + up_to_three(static_cast<int>(spec.sequences.size()));
-  if (!spec.character.parts.empty()) text += " swap";
-  if (!spec.character.attachments.empty()) text += " attachment";
+  const std::pair<bool, const char*> needed[] = {
+      {!spec.interrupts.empty(), "interrupt"},
+      {!spec.character.parts.empty(), "swap"},
+      {!spec.character.attachments.empty(), "attachment"},
+      {!std::holds_alternative<PlaneGround>(spec.environment.ground), "ground"},
+      {!spec.environment.obstacles.empty(), "obstacle"},
+      {!spec.dynamics.loads.empty(), "load"},
+      {!spec.dynamics.impacts.empty(), "impact"},
+  };
+  for (const auto& [is_needed, name] : needed)
+    if (is_needed) text += std::string(" ") + name;
+  if (spec.dynamics.mode != Mode::kinematic)
+    text += " " + std::string(mode_names()[static_cast<std::size_t>(spec.dynamics.mode)]);
   return text;
 }
 
@@ -97,6 +116,7 @@ Bucket bucket_of(const Case& minimal) {
   bucket.family = family_of(minimal);
   bucket.features = features_of(minimal.spec);
   bucket.id = bucket_id(bucket.family, bucket.features);
+  bucket.signature = kSignatureVersion;
   return bucket;
 }
 

@@ -12,9 +12,10 @@ namespace contort {
 
 // Rules by which family, features and id are made. A bucket says by which it was named; `contort corpus rekey` names it
 // anew.
-inline constexpr int kSignatureVersion = 1;
+inline constexpr int kSignatureVersion = 2;
 
-// Coarse features of a minimal spec: what it needed in order to fail. "actions=pose,reach clips=1 sequences=1 swap".
+// Coarse features of a minimal spec: what it needed in order to fail, without numbers.
+// "actions=pose,reach clips=1 sequences=1 interrupt swap".
 std::string features_of(const Spec& spec);
 
 // 12 hex digits over the family and the features.
@@ -32,7 +33,7 @@ struct Bucket {
   std::string check;
   std::string family;
   std::string features;
-  int signature = kSignatureVersion;
+  int signature = 1;  // kSignatureVersion of who named it; files of the first rules do not say it
   BucketState state = BucketState::fresh;
   BucketState was = BucketState::fresh;  // before it was flaky or invalid; meaningless in other states
   std::string owner;                     // open, quarantined: who looks after it

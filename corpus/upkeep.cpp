@@ -90,6 +90,12 @@ Result<Changes> rekey(const Corpus& corpus) {
   return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return rekey_one(corpus, b, changes); });
 }
 
+int named_by_other_rules(const Corpus& corpus) {
+  std::vector<Issue> ignored;
+  const auto by_others = [](const Bucket& bucket) { return bucket.signature != kSignatureVersion; };
+  return static_cast<int>(std::ranges::count_if(corpus.buckets(ignored), by_others));
+}
+
 Result<Changes> prune(const Corpus& corpus) {
   return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return prune_one(corpus, b, changes); });
 }

@@ -13,6 +13,10 @@ using Changes = std::vector<std::string>;
 // Names buckets anew, by today's rules, from their minimal cases, and moves them. Two that become one are merged.
 Result<Changes> rekey(const Corpus& corpus);
 
+// How many buckets are named by other rules than today's: what comes back of them gets a bucket of its own until
+// `rekey`. Those that cannot be read are not counted.
+int named_by_other_rules(const Corpus& corpus);
+
 // Drops the originals of fixed buckets: min and worst are enough to notice that one regresses.
 Result<Changes> prune(const Corpus& corpus);
 

@@ -1,6 +1,7 @@
 """Looks for mutants with one profile, and keeps what it saw."""
 
 import contextlib
+import itertools
 import json
 import subprocess
 import tempfile
@@ -42,13 +43,13 @@ class Race:
             write_json(self.results / f"{mode}.profile.json", dict(profile, **arms))
 
     @contextlib.contextmanager
-    def fuzzing(self, name, mode, seed, cases, folder, shrinks):
+    def fuzzing(self, name, mode, seed, cases, folder, shrinks, *options):
         """A run in this folder. Left before its end, it is stopped."""
         per_family, evaluations = shrinks
         command = ["nice", "timeout", self.args.run_timeout, self.builds.binary(name), "fuzz", "--profile",
                    self.results / f"{mode}.profile.json", "--seed", seed, "--cases", cases, "--jobs", 1, "--corpus",
                    folder / "corpus", "--shrinks-per-family", per_family, "--shrink-evaluations", evaluations,
-                   "--case-timeout", self.args.case_timeout, "--log", folder / "log.jsonl"]
+                   "--case-timeout", self.args.case_timeout, "--log", folder / "log.jsonl", *options]
         (folder / "log.jsonl").touch()
         with (folder / "stderr").open("w") as errors:
             process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=errors)
@@ -109,12 +110,12 @@ class Race:
                 for case in map(json.loads, followed(folder / "log.jsonl", process)):
                     news = next((f for f in case["families"] if self.is_news(name, case["spec"], f)), None)
                     if news:
-                        yield {"found": case["index"] + 1, "family": news, "arm": case["arm"]}
+                        yield {"found": case["index"] + 1, "family": news, "arm": case["arm"]}, case["spec"]
 
     def first_kill(self, name, mode, seed):
         for cases in (min(FIRST_CASES, self.args.cases), self.args.cases):
             with contextlib.closing(self.kills(name, mode, seed, cases)) as kills:
-                kill = next(kills, None)
+                kill, _ = next(kills, ({}, None))
             if kill:
                 return kill
         return {}
@@ -151,24 +152,34 @@ class Race:
 
     # ---- buckets
 
+    def fresh(self, path, identity, **parameters):
+        """What was measured of this very fault in this very way."""
+        known = json.loads(path.read_text()) if path.exists() else {}
+        return known if all(known.get(key) == value for key, value in dict(parameters, id=identity).items()) else None
+
+    @staticmethod
+    def buckets_in(corpus):
+        """Of each bucket its folder, its family, and its smallest spec."""
+        for file in sorted(Path(corpus).glob("buckets/*/bucket.json")):
+            described = json.loads(file.read_text())
+            least = json.loads((file.parent / described["min"]).read_text())["spec"]
+            yield file.parent.name, described["family"], least
+
     def bucket_path(self, name):
         return self.results / "buckets" / f"{name}.json"
 
     def find_buckets(self, name, identity):
         path = self.bucket_path(name)
-        if path.exists() and json.loads(path.read_text()).get("id") == identity:
+        if self.fresh(path, identity, cases=self.args.bucket_cases):
             return
         with tempfile.TemporaryDirectory(dir=self.out) as made:
             shrinks = (2, self.args.bucket_evaluations)
             with self.fuzzing(name, "mixture", 1, self.args.bucket_cases, Path(made), shrinks):
                 pass
-            buckets = []
-            for file in sorted(Path(made).glob("corpus/buckets/*/bucket.json")):
-                described = json.loads(file.read_text())
-                least = json.loads((file.parent / described["min"]).read_text())["spec"]
-                if name == CLEAN or not self.is_on_clean(least, described["family"]):
-                    buckets.append(file.parent.name)
-        write_json(path, {"id": identity, "buckets": buckets})
+            buckets = {bucket: {"family": family, "least": least}
+                       for bucket, family, least in self.buckets_in(Path(made) / "corpus")
+                       if name == CLEAN or not self.is_on_clean(least, family)}
+        write_json(path, {"id": identity, "cases": self.args.bucket_cases, "buckets": buckets})
         say(f"{name}: {len(buckets)} buckets")
 
     def own_buckets(self, name):
@@ -177,6 +188,36 @@ class Race:
             return None
         known = set(json.loads(self.bucket_path(CLEAN).read_text())["buckets"])
         return [b for b in json.loads(path.read_text())["buckets"] if b not in known]
+
+    def filed_path(self, name):
+        return self.results / "filed" / f"{name}.json"
+
+    def file_kills(self, mutant):
+        """In which buckets each of a fault's first kills is filed, every one in a corpus of its own."""
+        path = self.filed_path(mutant.name)
+        if self.fresh(path, mutant.id, kills=self.args.filed):
+            return
+        with contextlib.closing(self.kills(mutant.name, "mixture", 1, self.args.cases)) as kills:
+            specs = [spec for _, spec in itertools.islice(kills, self.args.filed)]
+        filed = [self.filed_in(mutant.name, spec) for spec in specs]
+        write_json(path, {"id": mutant.id, "kills": self.args.filed, "filed": filed})
+        say(f"{mutant.name}: {len(filed)} cases in {len(set(itertools.chain(*filed)))} buckets")
+
+    def filed_in(self, name, spec):
+        """Buckets of what the clean generator does not show for this spec, and whether their smallest specs still
+        tell the two apart: shrinking may have slipped to what is wrong with the clean one, too."""
+        with tempfile.TemporaryDirectory(dir=self.out, ignore_cleanup_errors=True) as made:
+            folder = Path(made)
+            write_json(folder / "seeds/spec.json", spec)
+            shrinks = (1, self.args.bucket_evaluations)
+            with self.fuzzing(name, "mixture", 1, 0, folder, shrinks, "--seeds", folder / "seeds"):
+                pass
+            return {bucket: {"is_news": not self.is_on_clean(least, family), "family": family, "least": least}
+                    for bucket, family, least in self.buckets_in(folder / "corpus") if not self.is_on_clean(spec, family)}
+
+    def filed(self, mutant):
+        known = self.fresh(self.filed_path(mutant.name), mutant.id, kills=self.args.filed)
+        return known["filed"] if known else []
 
     # ---- what was measured
 

@@ -2,6 +2,7 @@
 """How many cases the fuzzer needs to find faults that were planted in the generator: docs/mutants.md."""
 
 import argparse
+import collections
 import concurrent.futures
 import json
 import math
@@ -68,6 +69,8 @@ class Bench:
         if self.args.buckets:
             faults = [(m.race.find_buckets, m.name, m.id) for m in self.mutants if not m.is_equivalent]
             self.run_all([(race.find_buckets, CLEAN, CLEAN) for race in self.races] + faults)
+        if self.args.filed:
+            self.run_all([(m.race.file_kills, m) for m in self.mutants if not m.is_equivalent])
 
     # ---- the table
 
@@ -141,17 +144,30 @@ class Bench:
         return f"{statistics.geometric_mean(ratios):.2f} ({len(ratios)} mutants)" if ratios else "not measured"
 
     def bucket_summary(self, faults):
-        measured = {m.name: m.race.own_buckets(m.name) for m in faults}
-        measured = {name: own for name, own in measured.items() if own}
-        if not measured:
-            return []
-        filed, seen = 0, set()
-        for own in measured.values():
-            filed += len(own)
-            seen |= set(own)
-        median = statistics.median([len(own) for own in measured.values()])
-        return [f"* Buckets of a fault, median of {len(measured)} faults with any: {median:g}.",
-                f"* Cases filed in a bucket that an earlier fault has too: {100.0 * (filed - len(seen)) / filed:.1f} %."]
+        measured = [len(own) for own in (m.race.own_buckets(m.name) for m in faults) if own]
+        lines = []
+        if measured:
+            lines.append(f"* Buckets of a fault, median of {len(measured)} faults with any: {statistics.median(measured):g}.")
+        if self.args.filed:
+            lines.append(self.filed_summary(faults))
+        return lines
+
+    def filed_summary(self, faults):
+        """A bucket is the fault's of which most cases are in it; all others in it are hidden there. So are cases whose
+        smallest specs fail on the clean generator."""
+        in_bucket = collections.defaultdict(collections.Counter)
+        for mutant in faults:
+            for bucket, made in (item for case in mutant.race.filed(mutant) for item in case.items()):
+                in_bucket[bucket][mutant.name if made["is_news"] else CLEAN] += 1
+        filed = sum(counts.total() for counts in in_bucket.values())
+        slipped = sum(counts.pop(CLEAN, 0) for counts in in_bucket.values())
+        hidden = sum(counts.total() - max(counts.values(), default=0) for counts in in_bucket.values())
+        for bucket, counts in sorted(in_bucket.items()):
+            if len(counts) > 1:
+                say(f"{bucket}: {', '.join(f'{name} {n}' for name, n in counts.most_common())}")
+        share = 100.0 / max(filed, 1)
+        return (f"* Of {filed} times that a case was filed, {hidden} in a bucket that is mostly another fault's "
+                f"({share * hidden:.1f} %), {slipped} by a spec that the clean generator fails, too ({share * slipped:.1f} %).")
 
 
 def parse_args():
@@ -165,8 +181,10 @@ def parse_args():
     parser.add_argument("--modes", nargs="+", choices=list(ARMS), default=list(ARMS))
     parser.add_argument("--only", nargs="+", help="mutants whose names contain one of these words")
     parser.add_argument("--buckets", action="store_true", help="measure buckets too: shorter runs with shrinking")
+    parser.add_argument("--filed", type=int, default=0, metavar="N",
+                        help="measure in which buckets the first N cases of each fault are filed")
     parser.add_argument("--bucket-cases", type=int, default=512)
-    parser.add_argument("--bucket-evaluations", type=int, default=150, help="motions generated per shrink, at most")
+    parser.add_argument("--bucket-evaluations", type=int, default=150, help="motions generated per shrink of --buckets and --filed, at most")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time, each with one worker")
     parser.add_argument("--build-jobs", type=int, default=2)
     parser.add_argument("--case-timeout", type=float, default=5.0, help="seconds for one case")

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/lifecycle.h"
+#include "generator/core/files.h"
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_corpus.h"
 
@@ -157,6 +158,23 @@ TEST_F(StoredCorpus, UpkeepOfAFreshCorpusChangesNothing) {
     EXPECT_EQ(last_line(ran.out), "0 changes") << command;
   }
   expect_unchanged(before);
+}
+
+TEST_F(StoredCorpus, BucketsNamedByOtherRulesAreToldUntilTheyAreRekeyed) {
+  const Bucket old = left();
+  std::string text = read_file(corpus_.folder_of(old) + "/bucket.json").value();
+  const std::size_t at = text.find("\"signature\": 2");
+  ASSERT_NE(at, std::string::npos) << text;
+  text[at + 13] = '1';
+  spill(corpus_.folder_of(old) + "/bucket.json", text);
+  const std::vector<std::string> commands[] = {
+      {"fuzz", "--cases", "0", "--corpus", corpus_.folder()},
+      {"merge", corpus_.folder(), "-o", folder_ / "merged"},
+  };
+  for (const auto& command : commands) EXPECT_TRUE(says(run(command).err, "1 buckets are named by")) << command[0];
+  EXPECT_EQ(last_line(corpus("rekey").out), "1 changes");
+  EXPECT_EQ(run(commands[0]).err, "");
+  EXPECT_EQ(left(), old);
 }
 
 TEST_F(StoredCorpus, AFolderWithoutACorpusIsRefused) {

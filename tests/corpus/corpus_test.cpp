@@ -275,6 +275,24 @@ TEST(CorpusCost, FeaturesNameWhatAMinimalSpecNeeds) {
   EXPECT_EQ(features_of(Spec{}), "actions= clips=0 sequences=0");
 }
 
+TEST(CorpusCost, FeaturesNameWhatCutsInAndWhatActsFromOutside) {
+  Spec spec = bent_elbow(160);
+  InterruptDesc interrupt;
+  interrupt.sequence = spec.sequences[0];
+  interrupt.sequence.clips[0].actions[0].action = "reach";
+  spec.interrupts.push_back(interrupt);
+  EXPECT_EQ(features_of(spec), "actions=pose,reach clips=1 sequences=1 interrupt");
+  spec.interrupts.clear();
+  spec.environment.ground = StepsGround{};
+  spec.environment.obstacles.emplace_back();
+  EXPECT_EQ(features_of(spec), "actions=pose clips=1 sequences=1 ground obstacle");
+  spec.environment = {};
+  spec.dynamics.loads.emplace_back();
+  spec.dynamics.impacts.emplace_back();
+  spec.dynamics.mode = Mode::tracking;
+  EXPECT_EQ(features_of(spec), "actions=pose clips=1 sequences=1 load impact tracking");
+}
+
 TEST(CorpusCost, FeaturesHoldNoNumbers) {
   EXPECT_EQ(features_of(bent_elbow(160)), features_of(bent_elbow(200, 99)));
   EXPECT_NE(bucket_id("a", "b"), bucket_id("a", "c"));

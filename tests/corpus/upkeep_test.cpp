@@ -12,6 +12,7 @@
 #include "corpus/fsck.h"
 #include "corpus/lifecycle.h"
 #include "corpus/lock.h"
+#include "generator/core/files.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
@@ -65,6 +66,19 @@ TEST_F(Upkeep, RekeyNamesABucketByTodaysRulesAndKeepsItsState) {
   EXPECT_EQ(only_bucket(corpus_), expected);
   EXPECT_FALSE(fs::exists(corpus_.folder_of(old)));
   expect_nothing_to_do(rekey);
+}
+
+// A file of the first rules says nothing of rules.
+TEST_F(Upkeep, BucketsOfOtherRulesAreCountedUntilTheyAreRekeyed) {
+  EXPECT_EQ(named_by_other_rules(corpus_), 0);
+  Bucket old = named_otherwise("made by other rules");
+  old.signature = 1;
+  ASSERT_TRUE(write_bucket(corpus_.folder_of(old), old));
+  EXPECT_EQ(read_file(corpus_.folder_of(old) + "/bucket.json").value().find("signature"), std::string::npos);
+  EXPECT_EQ(named_by_other_rules(corpus_), 1);
+  done(rekey(corpus_));
+  EXPECT_EQ(named_by_other_rules(corpus_), 0);
+  EXPECT_EQ(only_bucket(corpus_), bucket_);
 }
 
 TEST_F(Upkeep, RekeyMergesBucketsThatAreOneNow) {
