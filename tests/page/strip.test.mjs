@@ -8,19 +8,20 @@ import vm from 'node:vm';
 import { animatedJoints, bytesOf, middleOf, overlap, turnJoint } from './silhouette.mjs';
 import { copyOf, openCase, openPage, options, picture, readCases, settle, urlOf } from './support.mjs';
 
-// Measured: 0.90 to 0.95 for what is the same, as edges and soles differ at 320 pixels. With the near arm turned by 40
-// degrees 0.77, with the far one, half of which the trunk hides, 0.86.
-const kSame = 0.87;
+// Measured in 14 of 15 cases: 0.92 to 0.98 for what is the same, as edges and soles differ at 320 pixels. With an arm
+// turned by 60 degrees 0.59 to 0.90, the most with the far one, half of which the trunk hides.
+const kSame = 0.905;
 
 const cases = readCases(options.report);
 const stripFile = (data, kind) => join(options.report, data.strip?.replace(/png$/, kind) ?? 'none');
 
-// Told apart from ground and shadow by its colours, so a figure that has some, and no ghost, arrows or obstacles.
+// Told apart from ground and shadow by its colours, so a figure that has some, and no ghost, arrows or obstacles. The
+// fan of a joint's range is in the strip alone.
 const fits = ([, data]) => {
   const [motion] = data.motions ?? [];
-  return data.strip && existsSync(stripFile(data, 'js')) && existsSync(stripFile(data, 'png')) && motion.worst_frame >= 0 &&
-    motion.spec.character.name === 'human' && !motion.ghost_glb && motion.obstacles.length === 0 &&
-    motion.ground.level !== undefined;
+  return data.strip && data.check !== 'joint_range' && existsSync(stripFile(data, 'js')) &&
+    existsSync(stripFile(data, 'png')) && motion.worst_frame >= 0 && motion.spec.character.name === 'human' &&
+    !motion.ghost_glb && motion.obstacles.length === 0 && motion.ground.level !== undefined;
 };
 const [key, data] = [...cases].find(fits) ?? [];
 const skip = key === undefined ? 'the report has no film strip of a human without dynamics' : false;
