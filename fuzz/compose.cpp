@@ -243,6 +243,10 @@ InterruptDesc compose_interrupt(const RawInterrupt& raw, const Stock& stock, Spe
 
 }  // namespace
 
+bool is_level(const std::array<int, kRawGround>& ground, const Profile& profile) {
+  return std::holds_alternative<PlaneGround>(compose_ground(ground, Features(profile, 0)));
+}
+
 Spec compose(const RawSpec& raw, const DrawConfig& config, const Library& library) {
   const Features features(config.profile, raw.omitted);
   const std::string& name = config.characters[pick(raw.character, config.characters.size())];

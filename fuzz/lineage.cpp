@@ -12,8 +12,11 @@ namespace {
 
 enum Stream : std::uint64_t { kChoice, kChange };
 
-constexpr int kThrows = 8;           // of one mutation
-constexpr std::uint64_t kMates = 4;  // that crowd a case; what that is worth: docs/fuzzing.md
+constexpr int kThrows = 8;  // of one mutation
+
+// What these are worth: docs/fuzzing.md
+constexpr std::uint64_t kMates = 4;    // that crowd a case
+constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a case that is on level ground
 
 // Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
 // families, and even draws 144 (docs/fuzzing.md).
@@ -29,6 +32,16 @@ RawSpec child_of(const RawSpec& parent, const RawSpec& mate, Dice& dice, const D
     mutate(child, mate, dice);
   }
   return child;
+}
+
+RawSpec crowded(std::int64_t seed, std::int64_t index, const Profile& profile) {
+  RawSpec raw = draw_raw(seed, index);
+  for (std::uint64_t i = 1; i <= kMates; ++i) {
+    const RawSpec mate = draw_raw(seed, index, i);
+    crowd(raw, mate);
+    if (i <= kGrounds && is_level(raw.ground, profile)) raw.ground = mate.ground;
+  }
+  return raw;
 }
 
 }  // namespace
@@ -47,18 +60,17 @@ bool wants_guidance(const Odds& odds, std::int64_t index) {
 Arm unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
-  if (dice.below(50) < 50.0 * odds.uniform) return Arm::uniform;
-  constexpr Arm kMixed[] = {Arm::corners, Arm::corners, Arm::corners, Arm::corners,
-                            Arm::crowded, Arm::crowded, Arm::swarm,   Arm::corners_and_swarm};
+  if (dice.below(100) < 100.0 * odds.uniform) return Arm::uniform;
+  constexpr Arm kMixed[] = {Arm::corners, Arm::corners, Arm::corners, Arm::corners, Arm::corners,
+                            Arm::corners, Arm::crowded, Arm::crowded, Arm::swarm,   Arm::corners_and_swarm};
   return kMixed[dice.below(static_cast<int>(std::size(kMixed)))];
 }
 
 RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage) {
-  RawSpec raw = draw_raw(seed, lineage.front());
-  const Arm arm = unguided(odds_of(seed, config.profile), lineage.front());
-  Dice dice(seed, lineage.front(), kChange);
-  for (std::uint64_t mate = 1; arm != Arm::uniform && mate <= kMates; ++mate)
-    crowd(raw, draw_raw(seed, lineage.front(), mate));
+  const std::int64_t drawn = lineage.front();
+  const Arm arm = unguided(odds_of(seed, config.profile), drawn);
+  RawSpec raw = arm == Arm::uniform ? draw_raw(seed, drawn) : crowded(seed, drawn, config.profile);
+  Dice dice(seed, drawn, kChange);
   if (arm == Arm::corners || arm == Arm::corners_and_swarm) go_to_corners(raw, dice);
   if (arm == Arm::swarm || arm == Arm::corners_and_swarm) leave_out(raw, dice);
   for (std::size_t i = 1; i < lineage.size(); ++i) {

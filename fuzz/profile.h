@@ -48,7 +48,7 @@ struct Profile {
   double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
   std::vector<DrawRule> rules{};
   double guided = 0.5;            // of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
-  double uniform = 0.1;           // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
+  double uniform = 0.05;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
   std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
   std::string time;               // the same: "45s", "10m", "2h"; "" where there is none
   bool operator==(const Profile&) const = default;

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <variant>
 
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
@@ -50,11 +51,11 @@ TEST(Lineage, EveryArmHasItsShare) {
   std::map<Arm, double> percent;
   constexpr int kCases = 20000;
   for (std::int64_t index = 0; index < kCases; ++index) percent[unguided(odds_of(1, {}), index)] += 100.0 / kCases;
-  const std::map<Arm, double> expected = {{Arm::uniform, 10.0},
-                                          {Arm::corners, 45.0},
-                                          {Arm::crowded, 22.5},
-                                          {Arm::swarm, 11.25},
-                                          {Arm::corners_and_swarm, 11.25}};
+  const std::map<Arm, double> expected = {{Arm::uniform, 5.0},
+                                          {Arm::corners, 57.0},
+                                          {Arm::crowded, 19.0},
+                                          {Arm::swarm, 9.5},
+                                          {Arm::corners_and_swarm, 9.5}};
   for (const auto& [arm, share] : expected) EXPECT_NEAR(percent[arm], share, 1.0) << arm_name(arm);
   EXPECT_EQ(percent.size(), expected.size());
 }
@@ -136,6 +137,25 @@ TEST(Crowding, MakesCasesThatBuildAndHaveTwiceTheActions) {
   }
   EXPECT_GT(even, 0U);
   EXPECT_GT(crowded, 2 * even) << crowded << " beside " << even;
+}
+
+// Half of all draws have a level plane, and a crowd only if three of them have; where the profile has no other, all.
+TEST(Crowding, BringsGroundsThatAreNotLevel) {
+  const auto level_percent = [](const DrawConfig& config) {
+    double level = 0.0, all = 0.0;
+    for (std::int64_t index = 0; index < 4000; ++index) {
+      if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
+      const Spec spec = compose(raw_of(config, stock_library(), 1, {index}), config, stock_library());
+      ++all, level += std::holds_alternative<PlaneGround>(spec.environment.ground);
+    }
+    return 100.0 * level / all;
+  };
+  DrawConfig config{{"human"}};
+  EXPECT_NEAR(level_percent(config), 12.5, 3.0);
+  config.profile.grounds = {"plane", "steps"};  // five of six draws are level
+  EXPECT_NEAR(level_percent(config), 100.0 * 125.0 / 216.0, 4.5);
+  config.profile.grounds = {"plane"};
+  EXPECT_EQ(level_percent(config), 100.0);
 }
 
 }  // namespace
