@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "fuzz/profile_files.h"
 #include "generator/core/files.h"
@@ -35,6 +36,8 @@ void fields(V& v, const Profile*) {
   v.constant("format", "contort.profile/1");
   v.field("name", &Profile::name, {.required = true}, "For reports.");
   v.field("about", &Profile::about, {.text = Text::prose, .may_be_empty = true}, "What it is for, in a sentence.");
+  v.field("base", &Profile::base, {.may_be_empty = true},
+          "A built-in profile, for what the file says nothing of; its rules come before those of the file.");
   v.field("characters", &Profile::characters, kNames, "Characters that are drawn; empty: all.");
   v.field("slots", &Profile::slots, kNames, "Slots whose parts move by themselves; empty: all.");
   v.field("actions", &Profile::actions, kNames, "Actions that are drawn; empty: all.");
@@ -108,10 +111,41 @@ Result<Done> check(const Profile& profile) {
   return Done{};
 }
 
+Result<Profile> read_profile(std::string_view json, Profile base = {}) {
+  return json_fields::read_document<Profile>(json, "profile", std::move(base));
+}
+
+const StockFile* built_in_file(const std::string& name) {
+  const auto file = std::ranges::find(profile_files(), name + ".json", &StockFile::name);
+  return file == profile_files().end() ? nullptr : &*file;
+}
+
+Issue unknown_profile(const std::string& name, const std::string& pointer) {
+  std::string names;
+  for (const StockFile& file : profile_files())
+    names += (names.empty() ? "" : ", ") + std::string(file.name.substr(0, file.name.rfind('.')));
+  return {"profile.unknown", pointer, "no profile is called " + json_fields::quoted(name) + "; there are " + names};
+}
+
+Result<Profile> read_over_base(const std::string& name, std::string_view json) {
+  const StockFile* file = built_in_file(name);
+  if (file == nullptr) return unknown_profile(name, "/base");
+  Profile base = parse_profile(file->text).value();
+  const std::vector<DrawRule> first = std::exchange(base.rules, {});
+  base.about.clear();
+  Result<Profile> read = read_profile(json, std::move(base));
+  if (!read) return read;
+  Profile profile = std::move(read).value();
+  profile.rules.insert(profile.rules.begin(), first.begin(), first.end());
+  profile.base.clear();
+  return profile;
+}
+
 }  // namespace
 
 Result<Profile> parse_profile(std::string_view json) {
-  Result<Profile> profile = json_fields::read_document<Profile>(json, "profile");
+  Result<Profile> profile = read_profile(json);
+  if (profile && !profile->base.empty()) profile = read_over_base(profile->base, json);
   if (profile)
     if (const Result<Done> good = check(*profile); !good) return good.issue();
   return profile;
@@ -136,9 +170,11 @@ std::string profile_schema() { return json_fields::write_schema<Profile>("Contor
 Result<Profile> load_profile(const std::string& name_or_path) {
   for (const Profile& profile : built_in_profiles())
     if (profile.name == name_or_path) return profile;
-  if (name_or_path.find_first_of("./") == std::string::npos)
-    return Issue{"profile.unknown", "",
-                 "no profile is called \"" + name_or_path + "\"; there are nightly, pr, smoke, tame, and files"};
+  if (name_or_path.find_first_of("./") == std::string::npos) {
+    Issue issue = unknown_profile(name_or_path, "");
+    issue.text += ", and files";
+    return issue;
+  }
   const Result<std::string> text = read_regular_file(name_or_path, json_fields::kMaxDocumentBytes);
   if (!text) return text.issue();
   Result<Profile> profile = parse_profile(*text);

@@ -30,6 +30,7 @@ struct DrawRule {
 struct Profile {
   std::string name = "all";
   std::string about;                    // one sentence
+  std::string base;                     // of a file: the built-in profile that it begins with; never of what was read
   std::vector<std::string> characters;  // names in the library; empty: all
   std::vector<std::string> slots;       // names of slots; empty: all
   std::vector<std::string> actions;     // empty: all
@@ -60,8 +61,9 @@ struct Profile {
 
 std::span<const Profile> built_in_profiles();
 
-// A built-in profile by name, or a file. Codes profile.unknown, profile.unknown_character and json.*.
+// A built-in profile by name, or a file. Codes profile.* and json.*.
 Result<Profile> load_profile(const std::string& name_or_path);
+// Where the text names a base, that one's fields count for those that it does not have, and its own rules come last.
 Result<Profile> parse_profile(std::string_view json);
 std::string print_profile(const Profile& profile);
 std::string profile_schema();

@@ -344,12 +344,12 @@ struct Codec<std::variant<Ts...>> {
 
 // ---- whole documents
 
+// Fields that the text does not have are as in `value`.
 template <class S>
-Result<S> read_document(std::string_view text, std::string_view area) {
+Result<S> read_document(std::string_view text, std::string_view area, S value = {}) {
   const Result<Json> tree = parse_document(text);
   if (!tree) return tree.issue();
   ReadContext context(area);
-  S value{};
   Codec<S>::read(*tree, Rule{}, value, context);
   if (!context.ok()) return context.take_issue();
   return value;

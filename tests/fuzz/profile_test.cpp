@@ -150,6 +150,28 @@ TEST(Profile, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(refused(R"("shortest_frames":30,"longest_frames":20)"), "profile.no_range at /longest_frames");
 }
 
+TEST(Profile, WhatAFileSaysNothingOfIsAsInItsBase) {
+  const Profile tame = load_profile("tame").value();
+  const Profile mine = profile(R"("base":"tame","range":0.25,"grounds":[],"rules":[{"param":"elbow_deg","low":[5],"high":[6]}])");
+  EXPECT_EQ(mine.name, "x");
+  EXPECT_EQ(mine.base + mine.about, "");
+  EXPECT_EQ(mine.range, 0.25);
+  EXPECT_TRUE(mine.grounds.empty()) << "said, so not as in the base, though it is what a profile without base has";
+  EXPECT_EQ(mine.characters, tame.characters);
+  EXPECT_EQ(mine.longest_frames, tame.longest_frames);
+  ASSERT_EQ(mine.rules.size(), tame.rules.size() + 1);
+  EXPECT_EQ(mine.rules.front(), tame.rules.front());
+  EXPECT_EQ(mine.rule_for("arm_left", "pose", "elbow_deg")->high, std::vector<double>{6.0}) << "its own rules come last";
+  EXPECT_EQ(profile(R"("base":"tame","grounds":["plane"])").rules, tame.rules) << "a file without rules";
+}
+
+TEST(Profile, ABaseThatIsNotBuiltInIsRefused) {
+  EXPECT_EQ(refused(R"("base":"tamer")"), "profile.unknown at /base");
+  EXPECT_EQ(refused(R"("base":"../tame.json")"), "profile.bad_text at /base");
+  EXPECT_EQ(refused(R"("base":"tame","longest_frames":7)"), "profile.no_range at /longest_frames") << "checked as a whole";
+  EXPECT_EQ(load_profile("tamer").issue().text, "no profile is called \"tamer\"; there are nightly, pr, smoke, tame, and files");
+}
+
 // What it finds is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.
 TEST(Profile, TameFindsNothing) {
   const Profile tame = load_profile("tame").value();
