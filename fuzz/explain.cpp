@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "fuzz/places.h"
 #include "fuzz/shrink_state.h"
@@ -12,16 +11,20 @@ namespace contort {
 
 namespace {
 
-constexpr std::size_t kOtherValues = 3;
+constexpr int kQuarters = 4;
 
-// The ends of the range and the middle of the larger side, those that are not the present value.
+// The default first, as most fields are there because without them all is well: then one motion answers. Further half
+// of the way to it, and the ends and quarters of the range.
 std::vector<double> other_numbers(const SpecPlace& place) {
-  if (!std::isfinite(place.low) || !std::isfinite(place.high)) return {};
-  const double far = place.high - place.value > place.value - place.low ? place.high : place.low;
-  std::set<double> values = {place.low, place.high};
-  values.insert(on_lattice(0.5 * (place.value + far), place.steps_per_unit));
-  values.erase(place.value);
-  return {values.begin(), values.end()};
+  if (!std::isfinite(place.low) || !std::isfinite(place.high) || place.low == place.high) return {};
+  std::vector<double> values = {place.preset, 0.5 * (place.value + place.preset)};
+  for (int i = 0; i <= kQuarters; ++i) values.push_back(place.low + (place.high - place.low) * i / kQuarters);
+  std::vector<double> others;
+  for (const double value : values) {
+    const double near = std::clamp(on_lattice(value, place.steps_per_unit), place.low, place.high);
+    if (near != place.value && std::ranges::find(others, near) == others.end()) others.push_back(near);
+  }
+  return others;
 }
 
 std::vector<Spec> with_others(const Spec& spec, const SpecPlace& place) {
@@ -32,8 +35,7 @@ std::vector<Spec> with_others(const Spec& spec, const SpecPlace& place) {
   };
   if (place.is_number)
     for (const double value : other_numbers(place)) add(value);
-  for (const std::string& word : place.words)
-    if (candidates.size() < kOtherValues) add(word);
+  for (const std::string& word : place.words) add(word);
   std::erase(candidates, spec);
   return candidates;
 }
@@ -42,7 +44,7 @@ std::vector<Spec> with_other_parts(const Spec& spec, const std::string& slot, co
   std::vector<Spec> candidates;
   for (const SlotDesc& desc : character.slots)
     for (const std::string& part : desc.parts) {
-      if (desc.name != slot || part == spec.character.parts.at(slot) || candidates.size() == kOtherValues) continue;
+      if (desc.name != slot || part == spec.character.parts.at(slot)) continue;
       candidates.push_back(spec);
       candidates.back().character.parts[slot] = part;
     }
@@ -50,8 +52,7 @@ std::vector<Spec> with_other_parts(const Spec& spec, const std::string& slot, co
 }
 
 bool all_fail(ShrinkState& state, const std::vector<Spec>& candidates) {
-  return !candidates.empty() && std::all_of(candidates.begin(), candidates.end(),
-                                            [&](const Spec& candidate) { return state.fails(candidate); });
+  return !candidates.empty() && std::ranges::all_of(candidates, [&](const Spec& c) { return state.fails(c); });
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace contort {
 
 class ShrinkState;
 
-// JSON pointers into the spec. A field is free if three other legal values of it fail in the same family, however deep:
-// the ends of its range and something between; for a choice or a part, others that are allowed. One that refuses any of
-// them, or has none, matters.
+// JSON pointers into the spec. A field is free if its default, both ends and the quarters of its range, and what is half
+// way to the default fail in the same family, however deep; of a choice or a part, all others that there are. One of
+// which any of them does not fail, or does not build, or which has none, matters.
 std::vector<std::string> free_fields_of(ShrinkState& state, const Library& library);
 
 }  // namespace contort

@@ -125,14 +125,32 @@ TEST(ShrinkStages, NumbersEndAtTheSmallestOfTwoDigits) {
   EXPECT_EQ(least(33.25, 30.5), 31);
 }
 
+// Fails with any hip, but hardly with one at rest, so that the depth floor keeps the field.
 TEST(ShrinkStages, AFieldThatMayHaveAnyValueIsFree) {
-  Spec spec = spec_of({pose_use("leg_left", {{"knee_deg", 90.0}, {"hip_flex_deg", 30.0}}, 60)});
+  const Spec spec = spec_of({pose_use("leg_left", {{"knee_deg", 90.0}, {"hip_flex_deg", 30.0}}, 60)});
   const auto rule = [](const Spec& x) {
-    return actions_of(x) == 1 && number(x, 0, "knee_deg") >= 60.0 && number(x, 0, "hip_flex_deg") != 0.0 ? 1.0 : 0.0;
+    if (actions_of(x) != 1 || number(x, 0, "knee_deg") < 60.0) return 0.0;
+    return number(x, 0, "hip_flex_deg") == 0.0 ? 0.2 : 1.0;
   };
-  const Shrunk result = shrunk(spec, rule);
+  const Shrunk result = shrunk(spec, rule, 0.5);
   const std::vector<std::string> expected = {"/sequences/0/clips/0/actions/0/params/hip_flex_deg"};
   EXPECT_EQ(result.minimal.free_fields, expected) << pretty_spec(result.minimal.spec);
+}
+
+// At its ends and in the middle each of these fails: what it is at rest, or between, is what tells.
+TEST(ShrinkStages, AFieldWhoseDefaultOrQuarterPassesIsNotFree) {
+  const Spec spec = spec_of({pose_use("leg_left", {{"hip_flex_deg", 30.0}}, 60)});
+  const auto free_fields = [&](const std::function<bool(double)>& fails) {
+    const auto rule = [&](const Spec& x) {
+      if (actions_of(x) != 1) return 0.0;
+      const double hip = number(x, 0, "hip_flex_deg");
+      return !fails(hip) ? 0.0 : hip == 0.0 ? 0.2 : 1.0;
+    };
+    return shrunk(spec, rule, 0.5).minimal.free_fields;
+  };
+  EXPECT_EQ(free_fields([](double hip) { return hip != 0.0; }), std::vector<std::string>{});
+  EXPECT_EQ(free_fields([](double hip) { return std::abs(hip + 180.0) > 45.0; }), std::vector<std::string>{});
+  EXPECT_EQ(free_fields([](double) { return true; }).size(), 1U) << "the rule alone makes the difference";
 }
 
 TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
