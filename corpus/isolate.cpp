@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "corpus/process.h"
+
 namespace contort {
 
 namespace {
@@ -52,16 +54,6 @@ void write_all(int file, const std::string& text) {
   ::_exit(0);
 }
 
-// 0 where the process has ended meanwhile.
-std::int64_t resident_bytes(pid_t process) {
-  FILE* file = ::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "re");
-  if (file == nullptr) return 0;
-  long long all = 0, resident = 0;
-  const int read = ::fscanf(file, "%lld %lld", &all, &resident);
-  ::fclose(file);
-  return read == 2 ? resident * ::sysconf(_SC_PAGESIZE) : 0;
-}
-
 // What the child writes, until it ends or, where it has too much memory, is ended.
 struct Heard {
   std::string text;
@@ -90,11 +82,6 @@ int wait_for(pid_t child) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
-}
-
-std::string signal_name(int number) {
-  const char* name = ::sigabbrev_np(number);
-  return "SIG" + (name != nullptr ? std::string(name) : std::to_string(number));
 }
 
 Ending ending_of(Heard heard, int status) {

@@ -12,9 +12,9 @@
 
 #include "checks/check.h"
 #include "corpus/leads.h"
+#include "corpus/worker_pool.h"
 #include "fuzz/islands.h"
 #include "fuzz/run.h"
-#include "fuzz/worker_pool.h"
 
 namespace contort {
 

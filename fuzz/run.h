@@ -14,11 +14,11 @@
 
 #include "corpus/corpus.h"
 #include "corpus/runs.h"
+#include "corpus/worker_pool.h"
 #include "fuzz/draw.h"
 #include "fuzz/lineage.h"
 #include "fuzz/shard.h"
 #include "fuzz/shrink.h"
-#include "fuzz/worker_pool.h"
 
 namespace contort {
 

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-#include "fuzz/whole_bytes.h"
+#include "corpus/whole_bytes.h"
 
 namespace contort::server {
 

@@ -1,4 +1,4 @@
-#include "fuzz/whole_bytes.h"
+#include "corpus/whole_bytes.h"
 
 #include <sys/socket.h>
 #include <sys/types.h>

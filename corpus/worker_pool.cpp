@@ -1,4 +1,4 @@
-#include "fuzz/worker_pool.h"
+#include "corpus/worker_pool.h"
 
 #include <poll.h>
 #include <signal.h>
@@ -16,7 +16,8 @@
 #include <new>
 #include <system_error>
 
-#include "fuzz/whole_bytes.h"
+#include "corpus/process.h"
+#include "corpus/whole_bytes.h"
 #include "generator/core/assert.h"
 
 namespace contort {
@@ -61,22 +62,8 @@ std::optional<std::string> take_message(std::string& received) {
   return text;
 }
 
-std::int64_t resident_bytes(pid_t pid) {
-  std::FILE* file = std::fopen(("/proc/" + std::to_string(pid) + "/statm").c_str(), "r");
-  if (file == nullptr) return 0;
-  long long pages = 0, resident = 0;
-  const int read = std::fscanf(file, "%lld %lld", &pages, &resident);
-  std::fclose(file);
-  return read == 2 ? resident * ::sysconf(_SC_PAGESIZE) : 0;
-}
-
-std::string name_of_signal(int number) {
-  const char* name = ::sigabbrev_np(number);
-  return name == nullptr ? "signal " + std::to_string(number) : std::string("SIG") + name;
-}
-
 std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) return name_of_signal(WTERMSIG(status));
+  if (WIFSIGNALED(status)) return signal_name(WTERMSIG(status));
   return "exit " + std::to_string(WEXITSTATUS(status));
 }
 
