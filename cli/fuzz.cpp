@@ -9,6 +9,7 @@
 #include "cli/case_log.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/limits.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
@@ -36,8 +37,7 @@ struct Options {
   std::string profile;
   std::string seeds;
   bool resume = false;
-  double case_timeout_s = 10.0;
-  std::int64_t memory_mb = 4096;
+  LimitOptions limits;
   int shrinks_per_family = 2;
   int shrinks_per_case = 4;
   int shrink_evaluations = 1000;
@@ -145,7 +145,7 @@ Result<RunConfig> configure(const Options& options, const CheckSettings& setting
   if (!shard) return shard.issue();
   config.shard = *shard;
   config.resume = options.resume;
-  config.limits = {options.case_timeout_s, options.memory_mb << 20};
+  config.limits = options.limits.limits();
   config.seed = options.seed;
   config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   if (const Result<Done> chosen = choose_shrinking(options, config); !chosen) return chosen.issue();
@@ -297,12 +297,7 @@ void add_fuzz(CLI::App& app, Context& context) {
                       "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or "
                       "CI_NODE_ variables say)");
   command->add_flag("--resume", options->resume, "Go on where a run with the same options was killed");
-  command->add_option("--case-timeout", options->case_timeout_s, "Seconds for one case; a longer one is a finding")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->capture_default_str();
-  command->add_option("--memory-limit", options->memory_mb, "MB for one worker; a case that needs more is a finding")
-      ->check(CLI::Range(64, 1 << 20))
-      ->capture_default_str();
+  add_limit_options(*command, options->limits);
   command
       ->add_option("--shrinks-per-family", options->shrinks_per_family,
                    "Failures of one family that are shrunk and stored")

@@ -10,9 +10,11 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/limits.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "corpus/corpus.h"
+#include "corpus/guarded_replay.h"
 #include "corpus/verify.h"
 #include "generator/core/json_fields.h"
 
@@ -31,6 +33,7 @@ struct Options {
   std::string time;
   std::string build;
   std::string baseline;
+  LimitOptions limits;
 };
 
 std::string explain(const Case& stored, const Replay& result) {
@@ -88,15 +91,10 @@ struct Totals {
 // One call of the command.
 class Session {
  public:
-  Session(const Options& options, const Library& library, CheckSettings settings, Context& context)
-      : options_(options), library_(library), evaluator_(std::move(settings)), context_(context) {}
+  Session(const Options& options, RunCase replay, Context& context)
+      : options_(options), replay_(std::move(replay), options.limits.limits()), context_(context) {}
 
   Result<Done> prepare() {
-    if (!options_.level.empty()) {
-      const Result<Level> parsed = parse_level(options_.level);
-      if (!parsed) return parsed.issue();
-      level_ = *parsed;
-    }
     const Result<Baseline> known = load_baseline(options_.baseline);
     if (!known) return known.issue();
     known_ = *known;
@@ -115,7 +113,7 @@ class Session {
       ++totals_.verdicts[Verdict::refused];
       return;
     }
-    const Replay result = replay(*stored, library_, evaluator_, level_);
+    const Replay result = replay_(*stored);
     ++totals_.verdicts[result.verdict];
     raise(exit_code_of(result.verdict));
     if (options_.json)
@@ -164,8 +162,7 @@ class Session {
   }
 
   void run_bucket(const Corpus& corpus, const Bucket& bucket) {
-    const BucketReplay ran =
-        replay_bucket(corpus, bucket, [&](const Case& c) { return replay(c, library_, evaluator_); });
+    const BucketReplay ran = replay_bucket(corpus, bucket, [&](const Case& c) { return replay_(c); });
     const Observation seen{ran.shown,
                            "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
     const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };
@@ -227,10 +224,8 @@ class Session {
   }
 
   const Options& options_;
-  const Library& library_;
-  Evaluator evaluator_;
+  GuardedReplay replay_;
   Context& context_;
-  Level level_;
   Baseline known_;
   std::optional<Clock::time_point> end_;
   bool has_corpus_ = false;
@@ -243,7 +238,13 @@ void run(const Options& options, Context& context) {
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
-  Session session(options, *library, *settings, context);
+  const Result<Level> level = options.level.empty() ? Result<Level>(Level{}) : parse_level(options.level);
+  if (!level) return context.fail(level.issue());
+  Evaluator evaluator(*settings);
+  const auto replay_one = [&](const Case& stored) {
+    return replay(stored, *library, evaluator, *level, isolation_of(options.limits.limits()));
+  };
+  Session session(options, replay_one, context);
   if (const Result<Done> ready = session.prepare(); !ready) return context.fail(ready.issue());
   for (const std::string& path : options.paths) {
     std::error_code error;
@@ -269,6 +270,7 @@ void add_replay(CLI::App& app, Context& context) {
   command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
   command->add_option("--time", options->time, "Of a corpus: stop after this time: 45s, 10m, 2h");
   command->add_option("--build", options->build, "What --update writes behind the version: a commit of your library");
+  add_limit_options(*command, options->limits);
   add_baseline_option(*command, options->baseline);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(

@@ -10,7 +10,7 @@
 #include "cli/input.h"
 #include "cli/print.h"
 #include "corpus/corpus.h"
-#include "corpus/replay.h"
+#include "corpus/guarded_replay.h"
 #include "fuzz/departures.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
@@ -35,7 +35,8 @@ std::optional<Case> failing_now(const Options& options, const Library& library, 
   Result<Case> stored = read_case(options.input);
   if (!stored) return context.fail(stored.issue()), std::nullopt;
   Evaluator evaluator(settings);
-  const Replay now = replay(*stored, library, evaluator, {}, options.config.isolation);
+  GuardedReplay guarded([&](const Case& c) { return replay(c, library, evaluator); }, {});
+  const Replay now = guarded(*stored);
   if (now.verdict == Verdict::refused) return context.fail(now.issue), std::nullopt;
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
     return context.fail(

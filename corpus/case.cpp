@@ -39,6 +39,8 @@ void fields(V& v, const Expectation*) {
   v.field("trace", &Expectation::trace, {.text = Text::hex}, "Running hash, four hex digits a frame.");
   v.field("phase", &Expectation::phase, kText,
           "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
+  v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400}, "Of a timeout: it did not end in so many seconds.");
+  v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
 }
 
 template <class V>

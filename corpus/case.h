@@ -26,6 +26,8 @@ struct Expectation {
   std::string character_hash;  // the same; another one means that the parts changed since
   std::string trace;           // motion_trace, four hex digits a frame: tells the first frame that differs
   std::string phase{};         // of the worst frame, a name of checks/circumstances.h; "" where no motion was judged
+  int limit_s = 0;             // of a timeout: in so many seconds it did not end
+  int limit_MB = 0;            // of memory: it took more than this
   bool operator==(const Expectation&) const = default;
 };
 

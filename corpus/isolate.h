@@ -29,8 +29,11 @@ struct Ending {
 // has one thread only: what another one holds at that moment is held in the child for ever. Code isolate.no_process.
 Result<Ending> isolate(const std::function<std::string()>& work, const Isolation& isolation = {});
 
-// A finding of its own (is_ending): check and subject say what ended, depth 1, without frames or hashes. Not for what
-// finished.
-Case ending_case(const Spec& spec, const Ending& ending);
+// A finding of its own (is_ending): check and subject say what ended, within what limit, depth 1, without frames or
+// hashes. Not for what finished.
+Case ending_case(const Spec& spec, const Ending& ending, const Isolation& isolation = {});
+
+// The limits in which a stored ending came about, where it says them: in others it may come to another end.
+Isolation isolation_of(const Expectation& stored, Isolation otherwise);
 
 }  // namespace contort

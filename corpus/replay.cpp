@@ -58,14 +58,15 @@ Replay replay_here(const Case& stored, const Library& library, Evaluator& evalua
 }  // namespace
 
 Replay replay_ending(const Case& stored, const std::function<Replay()>& work, const Isolation& isolation) {
-  const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation);
+  const Isolation limits = isolation_of(stored.expect, isolation);
+  const Result<Ending> ending = isolate([&] { return work(), std::string(); }, limits);
   Replay result;
   if (!ending) {
     result.issue = ending.issue();
     return result;
   }
   if (ending->kind == Ending::Kind::finished) return work();
-  result.now = ending_case(stored.spec, *ending).expect;
+  result.now = ending_case(stored.spec, *ending, limits).expect;
   const bool same = result.now.check == stored.expect.check && result.now.subject == stored.expect.subject;
   result.verdict = same ? Verdict::same : Verdict::different;
   return result;

@@ -28,8 +28,11 @@ struct Replay {
   Issue issue;                     // for `refused`
 };
 
+using RunCase = std::function<Replay(const Case&)>;
+
 // At a level below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
-// its process (is_ending) is run in a child process first: the caller has one thread then.
+// its process (is_ending) is run in a child process first, within the limits that it says, else those of `isolation`: the
+// caller has one thread then.
 Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level = {},
               const Isolation& isolation = {});
 

@@ -26,7 +26,6 @@ struct BucketReplay {
 
 // Runs all cases. One that does not show what it showed runs a second time, to tell a change from chance; those of a
 // flaky bucket run three times.
-using RunCase = std::function<Replay(const Case&)>;
 BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const RunCase& run);
 
 // Regressed, new, quarantined, open, flaky, invalid, fixed. Within a state by name, or, with `shuffle`, in an order

@@ -8,11 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <algorithm>
 #include <new>
 #include <system_error>
 
@@ -68,6 +69,19 @@ std::string how_it_ended(int status) {
 }
 
 }  // namespace
+
+Ending ending_of(const WorkerEvent& event) {
+  CONTORT_ASSERT(event.end != WorkerEnd::replied);
+  switch (event.end) {
+    case WorkerEnd::timed_out: return {Ending::Kind::timeout, {}, {}};
+    case WorkerEnd::out_of_memory: return {Ending::Kind::memory, {}, {}};
+    default: return {Ending::Kind::crash, event.text, {}};
+  }
+}
+
+Isolation isolation_of(const WorkerLimits& limits) {
+  return {std::max(1, static_cast<int>(std::ceil(limits.seconds))), limits.bytes, true};
+}
 
 void WorkerSlot::note(std::string_view text) {
   length_ = 0;

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "corpus/isolate.h"
+
 namespace contort {
 
 // Memory that a worker shares with its pool. It outlives the worker.
@@ -44,6 +46,12 @@ struct WorkerEvent {
   std::string text;  // the reply; of a crash the signal: "SIGSEGV", or "exit 3"
   std::string note;  // where it did not reply: what it was doing
 };
+
+// Not of a reply.
+Ending ending_of(const WorkerEvent& event);
+
+// The same limits for one process.
+Isolation isolation_of(const WorkerLimits& limits);
 
 class WorkerPool {
  public:

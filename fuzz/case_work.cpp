@@ -111,8 +111,8 @@ std::optional<Ending> ending_of(const std::string& family) {
 // The failure as the second time shows it, or nothing.
 std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec) {
   if (const std::optional<Ending> ending = ending_of(task.family)) {
-    const Case ended = ending_case(spec, *ending);
-    const Replay again = replay(ended, library_, evaluator_, {}, isolation());
+    const Case ended = ending_case(spec, *ending, isolation_of(config_.limits));
+    const Replay again = replay(ended, library_, evaluator_, {}, isolation_of(config_.limits));
     return again.verdict == Verdict::same ? std::optional<Case>(ended) : std::nullopt;
   }
   const Result<Stage> stage = build_stage(spec, library_);
@@ -166,14 +166,10 @@ Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, Case
   return keep_lead(corpus_, lead);
 }
 
-Isolation CaseWork::isolation() const {
-  return {std::max(1, static_cast<int>(config_.limits.seconds)), config_.limits.bytes, true};
-}
-
 Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const {
   ShrinkConfig config = config_.shrink;
   config.checks = config_.checks;
-  config.isolation = isolation();
+  config.isolation = isolation_of(config_.limits);
   config.guarded = guarded;
   config.allowed = within(config_.draw.profile, original.spec, library_);
   config.before_run = [&](const Spec& spec) {

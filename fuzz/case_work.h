@@ -68,7 +68,6 @@ class CaseWork {
   std::vector<NearMiss> near_misses(const Character& character, int group);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
-  Isolation isolation() const;
   Shrunk shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const;
   Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
   Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;

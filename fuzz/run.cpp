@@ -26,16 +26,12 @@ std::string plan_of(const RunConfig& config) {
 }
 
 // "crash|human|SIGSEGV": what became of the process that ran a spec.
-Case case_of_ending(const WorkerEvent& event) {
+Case case_of_ending(const WorkerEvent& event, const WorkerLimits& limits) {
   const Result<Spec> noted = parse_spec(event.note);
   Spec spec;
   spec.character.name = "unknown";
   if (noted) spec = *noted;
-  switch (event.end) {
-    case WorkerEnd::timed_out: return ending_case(spec, {Ending::Kind::timeout, {}, {}});
-    case WorkerEnd::out_of_memory: return ending_case(spec, {Ending::Kind::memory, {}, {}});
-    default: return ending_case(spec, {Ending::Kind::crash, event.text, {}});
-  }
+  return ending_case(spec, ending_of(event), isolation_of(limits));
 }
 
 class Run {
@@ -161,7 +157,7 @@ class Run {
     } else {
       place.report = CaseReport{};
       place.report->built = true;
-      place.task.ending = family_of(case_of_ending(event));
+      place.task.ending = family_of(case_of_ending(event, config_.limits));
       place.report->broken = {place.task.ending};
     }
     --open_;
@@ -243,7 +239,7 @@ class Run {
   // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
   // again, or else it is not confirmed. It still comes before the later failures of its case.
   void shrink_guarded(CaseTask task, const WorkerEvent& event) {
-    Lead lead{state_.record.name, case_of_ending(event), {}};
+    Lead lead{state_.record.name, case_of_ending(event, config_.limits), {}};
     lead.original.provenance = provenance_in(config_, task.lineage.back());
     lead.original.provenance.met_shrinking = task.family;
     if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) return fail(kept.issue());

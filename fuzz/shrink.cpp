@@ -81,7 +81,7 @@ Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& 
     if (config.before_run) config.before_run(spec);
     if (const Result<Stage> stage = build_stage(spec, library)) Evaluator(config.checks).run(*stage);
   };
-  EndingTrial trial(original.expect, work, config.isolation);
+  EndingTrial trial(original.expect, work, isolation_of(original.expect, config.isolation));
   return shrink_with(trial, original, library, config);
 }
 

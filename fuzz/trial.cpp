@@ -71,7 +71,7 @@ GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation) : inner_(in
 std::optional<Case> GuardedTrial::ended(const Spec& spec, const std::function<void()>& work) const {
   const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation_);
   if (!ending || ending->kind == Ending::Kind::finished) return std::nullopt;
-  return ending_case(spec, *ending);
+  return ending_case(spec, *ending, isolation_);
 }
 
 TrialResult GuardedTrial::run(const Spec& spec, int most_frames) {
@@ -104,7 +104,7 @@ TrialResult EndingTrial::run(const Spec& spec, int) {
   timed_ = true;
   shown.built = true;
   if (ending->kind == Ending::Kind::finished) return shown;
-  const Case ended = ending_case(spec, *ending);
+  const Case ended = ending_case(spec, *ending, isolation_);
   shown.fails = ended.expect.check == check_ && ended.expect.subject == subject_;
   if (!shown.fails) shown.met.push_back(ended);
   shown.depth = ended.expect.depth;
