@@ -1,9 +1,11 @@
 // contort fuzz: compose, generate, check, shrink, store.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 #include <thread>
 
 #include "cli/case_log.h"
@@ -15,6 +17,7 @@
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/seeds.h"
+#include "corpus/leads.h"
 #include "corpus/lifecycle.h"
 #include "fuzz/run.h"
 #include "generator/core/files.h"
@@ -159,7 +162,7 @@ void print_found(const RunResult& result, const std::vector<std::string>& librar
     std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
   }
   for (const std::string& lead : result.unconfirmed)
-    std::printf("NOT CONFIRMED (a second run differed): %s\n", lead.c_str());
+    std::printf("NOT CONFIRMED (a second run differed)  %s\n", replay_command(lead, library_folders).c_str());
 }
 
 void print_totals(const RunResult& result, const Options& options, const CheckSettings& settings,
@@ -182,6 +185,7 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
                              {"shards", t.shards},
                              {"new_buckets", result.new_buckets},
                              {"known_buckets", result.known_buckets},
+                             {"waiting", result.waiting},
                              {"unconfirmed", result.unconfirmed},
                              {"discarded", t.discarded},
                              {"waivers", json_fields::Json::parse(waivers_json(settings, result.waivers))},
@@ -200,8 +204,11 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
         "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), options.shrinks_per_case);
-  if (result.interrupted || result.waiting > 0)
-    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.waiting);
+  if (result.interrupted)
+    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
+  if (!result.waiting.empty())
+    std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
+                result.waiting.size(), options.corpus.c_str());
   if (t.shards > 1)
     std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
                 options.corpus.c_str());
@@ -210,14 +217,14 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
 // The last line, whatever else was printed.
 void print_result(const RunResult& result) {
   const RunRecord& t = result.record;
-  std::printf("RESULT findings=%lld new=%zu known=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
+  std::printf("RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
               static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(),
-              t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
+              result.waiting.size(), t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
               static_cast<long long>(t.frames));
 }
 
 // Whether anything that was found fails a build: what people know of, or the baseline has, does not.
-Result<bool> any_gates(const RunResult& result, const Options& options, const std::string& today) {
+Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Options& options, const std::string& today) {
   const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
   if (!baseline) return baseline.issue();
   for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
@@ -226,7 +233,12 @@ Result<bool> any_gates(const RunResult& result, const Options& options, const st
       if (!bucket) return bucket.issue();
       if (is_gating(*bucket, today, *baseline)) return true;
     }
-  return false;
+  std::vector<Issue> damaged;
+  const std::set<std::string> known = known_families(corpus.buckets(damaged), today, *baseline);
+  return std::ranges::any_of(result.waiting, [&](const std::string& path) {
+    const Result<Lead> lead = read_lead(path);
+    return lead && !known.contains(family_of(lead->original));
+  });
 }
 
 int exit_code_of(const RunResult& result, bool gates) {
@@ -260,7 +272,7 @@ void run(const Options& options, Context& context) {
       config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; },
       log.listener());
   line.clear();
-  const Result<bool> gates = any_gates(result, options, context.day());
+  const Result<bool> gates = any_gates(result, *corpus, options, context.day());
   if (!gates) context.fail(gates.issue());
   const int code = exit_code_of(result, !gates || *gates);
   context.exit_code = code;

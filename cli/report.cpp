@@ -19,6 +19,7 @@
 #include "cli/variants.h"
 #include "corpus/baseline.h"
 #include "corpus/corpus.h"
+#include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/parallel.h"
 #include "generator/actions/action.h"
@@ -45,11 +46,11 @@ struct Media {
 };
 
 // As code hosts want it: below the folder where we are, which in CI is the project's, or else below the corpus.
-std::string location_of(const Bucket& bucket, const std::string& path) {
+std::string location_of(const Corpus& corpus, const std::string& path) {
   std::error_code error;
   const std::string here = std::filesystem::proximate(path, error).generic_string();
   const bool is_below = !error && !here.starts_with("..") && !here.starts_with("/");
-  return is_below ? here : "buckets/" + folder_name(bucket) + "/" + bucket.min;
+  return is_below ? here : std::filesystem::proximate(path, corpus.folder(), error).generic_string();
 }
 
 // Goes up when strips of the same case show something else: 2 joins nearest points and has skins.
@@ -63,34 +64,93 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
-// `settings`: the text of --settings.
-ReportRow row_of(const Bucket& bucket, const std::string& folder, const Case& stored, const Baseline& known,
-                 const std::string& settings, const Context& context) {
+// What rows are made with.
+struct RowContext {
+  const Corpus& corpus;
+  const Baseline& known;
+  const std::string settings;  // the text of --settings
+  const Context& context;
+};
+
+// What the case says by itself. `key` names the files of the row.
+ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
   ReportRow row;
-  const std::string path = folder + "/" + bucket.min;
-  row.family = bucket.family, row.check = bucket.check, row.key = folder_name(bucket),
+  row.family = family_of(stored), row.check = stored.expect.check, row.key = key;
   row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
-  row.bucket = bucket.id, row.state = state_name(bucket.state);
-  row.gating = is_gating(bucket, context.day(), known);
-  row.note = known.contains(bucket.id) ? "in the baseline" : known_text(bucket, context.day());
-  row.case_file = location_of(bucket, path);
+  row.case_file = location_of(with.corpus, path);
   row.spec_json = pretty_spec(stored.spec);
-  row.replay_command = replay_command(path, context.library_folders);
-  if (row.has_motion && context.gl != "none") {
-    const std::string name = picture_name(row, stored, settings);
+  row.replay_command = replay_command(path, with.context.library_folders);
+  if (row.has_motion && with.context.gl != "none") {
+    const std::string name = picture_name(row, stored, with.settings);
     row.strip = name + ".png", row.clip = name + ".webp";
   }
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
-  row.features = bucket.features, row.needs = needs_of(stored.spec);
+  row.needs = needs_of(stored.spec);
   row.also = stored.also;
   row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
-    if (check.name == bucket.check) row.meaning = check.help;
+    if (check.name == row.check) row.meaning = check.help;
   return row;
+}
+
+ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& with) {
+  const std::string path = with.corpus.folder_of(bucket) + "/" + bucket.min, day = with.context.day();
+  ReportRow row = row_of_case(stored, path, folder_name(bucket), with);
+  row.family = bucket.family, row.features = bucket.features;
+  row.bucket = bucket.id, row.state = state_name(bucket.state);
+  row.gating = is_gating(bucket, day, with.known);
+  row.note = with.known.contains(bucket) ? "in the baseline" : known_text(bucket, day);
+  return row;
+}
+
+// Of what is found and in no bucket. One that did not come again gates nothing: the run has said so.
+ReportRow row_of(const Lead& lead, const std::set<std::string>& known, const RowContext& with) {
+  const std::string path = lead_path(with.corpus, lead);
+  const std::string name = std::filesystem::path(path).stem().string();
+  ReportRow row = row_of_case(lead.original, path, "lead-" + name, with);
+  row.bucket = name;
+  row.state = waits(lead) ? "waiting" : "unconfirmed";
+  row.gating = waits(lead) && !known.contains(row.family);
+  row.note = waits(lead) ? "found when time was up: the next contort fuzz on this corpus shrinks it"
+                         : "seen once: a second run did not show it";
+  return row;
+}
+
+void add_row(ReportRow row, const CasePage& page, const std::string& out, ReportModel& model, Media& media) {
+  model.rows.push_back(std::move(row));
+  const ReportRow& added = model.rows.back();
+  if (!added.has_motion) return;  // to draw it would end the renderer, too
+  if (!added.strip.empty()) media.pictures.push_back({page.folder + "/" + page.minimal, out + "/" + added.strip});
+  media.cases.push_back(page);
+  media.cases.back().strip = added.strip;
+}
+
+void add_bucket_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
+                     const std::string& out, std::vector<Issue>& damaged) {
+  for (const Bucket& bucket : buckets) {
+    const std::string folder = with.corpus.folder_of(bucket);
+    const Result<Case> stored = read_case(folder + "/" + bucket.min);
+    if (stored)
+      add_row(row_of(bucket, *stored, with), {folder_name(bucket), folder, bucket.min, bucket.orig, bucket.worst, {}},
+              out, model, media);
+    else
+      damaged.push_back(stored.issue());
+  }
+}
+
+void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
+                   const std::string& out, std::vector<Issue>& damaged) {
+  const std::set<std::string> known = known_families(buckets, with.context.day(), with.known);
+  for (const Lead& lead : leads_of(with.corpus, damaged)) {
+    if (!waits(lead) && !is_unsteady(lead)) continue;
+    const std::filesystem::path path = lead_path(with.corpus, lead);
+    const ReportRow row = row_of(lead, known, with);
+    add_row(row, {row.key, path.parent_path().string(), path.filename().string(), "", "", {}}, out, model, media);
+  }
 }
 
 // Rows in the report's order (renders/variety.h), so that equal corpora give equal pages.
@@ -98,20 +158,12 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
                Context& context) {
   std::vector<Issue> damaged;
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
-  const std::string settings = read ? *read : "";  // they were read before; without --settings there is no file
-  for (const Bucket& bucket : corpus.buckets(damaged)) {
-    const std::string folder = corpus.folder_of(bucket);
-    const Result<Case> stored = read_case(folder + "/" + bucket.min);
-    if (!stored) {
-      damaged.push_back(stored.issue());
-      continue;
-    }
-    model.rows.push_back(row_of(bucket, folder, *stored, known, settings, context));
-    const ReportRow& row = model.rows.back();
-    if (!row.has_motion) continue;  // to draw it would end the renderer, too
-    if (!row.strip.empty()) media.pictures.push_back({folder + "/" + bucket.min, out + "/" + row.strip});
-    media.cases.push_back({row.key, folder, bucket.min, bucket.orig, bucket.worst, row.strip});
-  }
+  // They were read before; without --settings there is no file.
+  const RowContext with{corpus, known, read ? *read : "", context};
+  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  model.buckets = std::ssize(buckets);
+  add_bucket_rows(buckets, with, model, media, out, damaged);
+  add_lead_rows(buckets, with, model, media, out, damaged);
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   order_rows(model.rows);
 }
@@ -121,7 +173,6 @@ void count_totals(const std::map<std::string, std::int64_t>& seen, ReportModel& 
   std::set<std::string> families;
   for (const ReportRow& row : model.rows) families.insert(row.family);
   model.families = static_cast<std::int64_t>(families.size());
-  model.buckets = static_cast<std::int64_t>(model.rows.size());
   for (ReportRow& row : model.rows)
     if (const auto found = seen.find(row.family); found != seen.end()) row.cases_seen = found->second;
   for (const std::string& family : families)

@@ -4,6 +4,7 @@
 
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
+#include "corpus/replay.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
@@ -19,26 +20,46 @@ Result<Baseline> from_corpus(const std::string& folder) {
   std::vector<Issue> damaged;
   Baseline known;
   for (const Bucket& bucket : corpus->buckets(damaged))
-    if (bucket.state != BucketState::fixed) known.insert(bucket.id);
+    if (bucket.state != BucketState::fixed) known.add(bucket.id, bucket.family);
   if (!damaged.empty()) return damaged.front();
   return known;
 }
 
-Result<Baseline> from_list(const std::string& path, const Json& list) {
-  Baseline known;
-  for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
-    const Json& entry = list[i];
-    if (!entry.is_object() || !entry.contains("id") || !entry["id"].is_string())
-      return Issue{"baseline.no_id", "/" + std::to_string(i), path + ": expected an object with an \"id\""};
-    if (!entry.contains("state") || entry["state"] != state_name(BucketState::fixed))
-      known.insert(entry["id"].get<std::string>());
+std::string text_in(const Json& entry, const char* name) {
+  const auto found = entry.find(name);
+  return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// Of a replay: "joint_range-0123456789ab" and what became of it. Of a list: the id and the state.
+Result<Done> add_entry(const Json& entry, const std::string& pointer, Baseline& known) {
+  if (!entry.is_object()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
+  const std::string id = text_in(entry, "id"), folder = text_in(entry, "bucket"), verdict = text_in(entry, "verdict");
+  if (!folder.empty()) {
+    const bool fails = verdict == verdict_name(Verdict::same) || verdict == verdict_name(Verdict::same_family);
+    if (fails) known.add(folder.substr(folder.rfind('-') + 1), text_in(entry, "family"));
+    return Done{};
   }
+  if (id.empty()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
+  if (text_in(entry, "state") != state_name(BucketState::fixed)) known.add(id, text_in(entry, "family"));
+  return Done{};
+}
+
+Result<Baseline> from_list(const std::string& path, const Json& list) {
   if (!list.is_array())
     return Issue{"baseline.no_list", "", path + ": expected a list as `contort corpus list --json` prints it"};
+  Baseline known;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (const Result<Done> added = add_entry(list[i], "/" + std::to_string(i), known); !added)
+      return Issue{added.issue().code, added.issue().pointer, path + ": " + added.issue().text};
   return known;
 }
 
 }  // namespace
+
+void Baseline::add(const std::string& bucket, const std::string& family) {
+  buckets.insert(bucket);
+  if (!family.empty()) families.insert(family);
+}
 
 Result<Baseline> read_baseline(const std::string& path) {
   if (std::error_code error; std::filesystem::is_directory(path, error)) return from_corpus(path);
@@ -50,7 +71,15 @@ Result<Baseline> read_baseline(const std::string& path) {
 }
 
 bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& known) {
-  return is_gating(bucket, today) && !known.contains(bucket.id);
+  return is_gating(bucket, today) && !known.contains(bucket);
+}
+
+std::set<std::string> known_families(const std::vector<Bucket>& buckets, const std::string& today,
+                                     const Baseline& known) {
+  std::set<std::string> families = known.families;
+  for (const Bucket& bucket : buckets)
+    if (bucket.state != BucketState::fixed && !is_gating(bucket, today, known)) families.insert(bucket.family);
+  return families;
 }
 
 }  // namespace contort

@@ -3,20 +3,34 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "corpus/bucket.h"
+#include "corpus/leads.h"
 #include "generator/core/result.h"
 
 namespace contort {
 
-// Ids of buckets.
-using Baseline = std::set<std::string>;
+struct Baseline {
+  std::set<std::string> buckets;   // ids
+  std::set<std::string> families;  // of these
+  void add(const std::string& bucket, const std::string& family);
+  bool contains(const Bucket& bucket) const { return buckets.contains(bucket.id); }
+  bool operator==(const Baseline&) const = default;
+};
 
-// From a corpus' folder, or a file as `contort corpus list --json` prints it. What is fixed there is not in it: it is
-// no failure that the other branch has. Codes baseline.*, corpus.*, file.*, json.*.
+// From a corpus' folder, or from what one of two commands printed:
+// `contort corpus list --json`: what is fixed there is no failure that the other branch has;
+// `contort replay FOUND --json`, by the other branch's contort: what fails there, too, as the case says.
+// Codes baseline.*, corpus.*, file.*, json.*.
 Result<Baseline> read_baseline(const std::string& path);
 
 // is_gating, of what the baseline does not have.
 bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& known);
+
+// Families of which something is known, in the baseline or as buckets that do not gate. Failures that wait to be shrunk
+// (leads.h) gate where theirs is none of these: which bucket they belong to, nobody knows yet.
+std::set<std::string> known_families(const std::vector<Bucket>& buckets, const std::string& today,
+                                     const Baseline& known);
 
 }  // namespace contort

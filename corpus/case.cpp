@@ -1,5 +1,6 @@
 #include "corpus/case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -74,6 +75,13 @@ void fields(V& v, const Case*) {
 
 std::string family_of(const Case& stored) {
   return stored.expect.check + "|" + stored.spec.character.name + "|" + stored.expect.subject;
+}
+
+FamilyParts family_parts(const std::string& family) {
+  const std::size_t first = std::min(family.find('|'), family.size());
+  const std::size_t second = std::min(family.find('|', first + 1), family.size());
+  const auto after = [&](std::size_t bar) { return std::min(bar + 1, family.size()); };
+  return {family.substr(0, first), family.substr(after(first), second - after(first)), family.substr(after(second))};
 }
 
 bool is_ending(const Expectation& expect) {

@@ -58,6 +58,12 @@ struct Case {
 // "self_collision|mech|arm_left/forearm ~ torso/trunk": the identity of a failure, without numbers.
 std::string family_of(const Case& stored);
 
+// The other way round; of what is no family, what is there.
+struct FamilyParts {
+  std::string check, character, subject;
+};
+FamilyParts family_parts(const std::string& family);
+
 // The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.
 bool is_ending(const Expectation& expect);
 

@@ -39,6 +39,9 @@ std::vector<std::string> case_files(const Corpus& corpus) {
 
 }  // namespace
 
+bool waits(const Lead& lead) { return !lead.minimal && lead.original.provenance.shrink_stopped == kWaits; }
+bool is_unsteady(const Lead& lead) { return !lead.minimal && lead.original.provenance.shrink_stopped == kUnsteady; }
+
 Result<Lead> read_lead(const std::string& path) {
   Result<Case> original = read_case(path);
   if (!original) return original.issue();

@@ -25,6 +25,12 @@ struct Lead {
   bool operator==(const Lead&) const = default;
 };
 
+// Why a lead of a run that has ended is not in a bucket (shrink_stopped of its original): its time was up, and the next
+// run on the corpus shrinks it; or it did not show the same again.
+inline constexpr char kWaits[] = "time", kUnsteady[] = "flaky";
+bool waits(const Lead& lead);
+bool is_unsteady(const Lead& lead);
+
 // Writes what it has; the path of the original.
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 

@@ -24,6 +24,8 @@ void fields(V& v, const CaseTask*) {
   v.field("rank", &CaseTask::rank, {.low = 0, .high = 1'000'000}, "Among the families of the case.");
   v.field("motion_hash", &CaseTask::motion_hash, case_rules::kHash, "Of the first time.");
   v.field("ending", &CaseTask::ending, case_rules::kProse, "How the process ended that ran or shrank it first.");
+  v.field("shrinks", &CaseTask::shrinks, {}, "There is time to shrink it.");
+  v.field("lead", &CaseTask::lead, case_rules::kProse, "A lead that waits to be shrunk.");
 }
 
 template <class V>

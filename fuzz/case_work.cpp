@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -60,7 +61,10 @@ CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus
 
 std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   const CaseTask task = parse_task(text);
-  return json_fields::write_canonical(task.family.empty() ? evaluate(task, slot) : settle(task, slot));
+  const CaseReport report = !task.lead.empty()   ? shrink_waiting(task, slot)
+                            : task.family.empty() ? evaluate(task, slot)
+                                                  : settle(task, slot);
+  return json_fields::write_canonical(report);
 }
 
 CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
@@ -99,14 +103,27 @@ namespace {
 
 // "crash|human|SIGSEGV" back to how the process ended; nothing for a family of a check.
 std::optional<Ending> ending_of(const std::string& family) {
-  const std::string check = family.substr(0, family.find('|'));
-  if (check == "crash") return Ending{Ending::Kind::crash, family.substr(family.rfind('|') + 1), {}};
-  if (check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
-  if (check == "memory") return Ending{Ending::Kind::memory, {}, {}};
+  const FamilyParts parts = family_parts(family);
+  if (parts.check == "crash") return Ending{Ending::Kind::crash, parts.subject, {}};
+  if (parts.check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
+  if (parts.check == "memory") return Ending{Ending::Kind::memory, {}, {}};
   return std::nullopt;
 }
 
 }  // namespace
+
+Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, const WorkerLimits& limits) {
+  if (const std::optional<Ending> ending = ending_of(task.family))
+    return ending_case(spec, *ending, isolation_of(limits));
+  Case seen{spec, {}, {}};
+  const FamilyParts parts = family_parts(task.family);
+  seen.expect.check = parts.check, seen.expect.subject = parts.subject;
+  seen.expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
+  seen.expect.motion_hash = task.motion_hash;
+  const Result<Stage> stage = build_stage(spec, library);
+  seen.expect.character_hash = to_hex(stage ? stage->character->hash() : 0);
+  return seen;
+}
 
 // The failure as the second time shows it, or nothing.
 std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec) {
@@ -129,23 +146,39 @@ CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   const Spec spec = spec_of(config_, library_, task.lineage);
   slot.note(print_spec(spec));
   const std::optional<Case> again = shown_again(task, spec);
-  if (!again) return report;
-  Lead lead{run_name(config_), *again, {}};
-  lead.original.provenance = provenance_in(config_, task.lineage.back());
-  lead.original.provenance.rank = task.rank;
-  report.confirmed = is_ending(again->expect) || again->expect.motion_hash == task.motion_hash;
+  Lead lead{run_name(config_), again ? *again : seen_once(task, spec, library_, config_.limits), {}};
+  Provenance& from = lead.original.provenance;
+  from = provenance_in(config_, task.lineage.back());
+  from.rank = task.rank;
+  report.confirmed = again && (is_ending(again->expect) || again->expect.motion_hash == task.motion_hash);
+  from.shrink_stopped = !report.confirmed ? kUnsteady : task.shrinks ? "" : kWaits;
   Result<std::string> kept = keep_lead(corpus_, lead);
-  if (kept && report.confirmed) kept = shrink_lead(task, lead, report, slot);
+  if (kept && report.confirmed && task.shrinks) kept = shrink_lead(task, lead, report, slot);
   if (!kept) report.issue = kept.issue().text;
+  return report;
+}
+
+// Of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is nothing to do.
+CaseReport CaseWork::shrink_waiting(const CaseTask& task, WorkerSlot& slot) {
+  CaseReport report;
+  Result<Lead> read = read_lead(task.lead);
+  if (!read) return report;
+  Lead lead = std::move(read).value();
+  slot.note(print_spec(lead.original.spec));
+  lead.original.provenance.shrink_stopped.clear();
+  if (const Result<std::string> kept = shrink_lead(task, lead, report, slot); !kept) report.issue = kept.issue().text;
   return report;
 }
 
 // What shrank in this process at first is shrunk with a guard once a candidate has ended that.
 Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report,
                                           WorkerSlot& slot) const {
-  const Shrunk shrunk = shrink_one(lead.original, !task.ending.empty(), slot);
-  lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
-  report.also = shrunk.minimal.also;
+  const Shrunk shrunk = shrink_one(lead.original, lead.run, !task.ending.empty(), slot);
+  report.confirmed = shrunk.stopped != "flaky" && shrunk.stopped != "gone";
+  if (report.confirmed)
+    lead.minimal = shrunk.minimal, lead.worst = shrunk.worst, report.also = shrunk.minimal.also;
+  else
+    lead.original.provenance.shrink_stopped = kUnsteady;
   Result<std::string> kept = keep_lead(corpus_, lead);
   for (const Case& met : shrunk.met)
     if (kept && is_ending(met.expect)) kept = keep_met(lead, met, report, slot);
@@ -159,19 +192,27 @@ Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, Case
   Lead lead{shrunk.run, met, {}};
   lead.original.provenance = shrunk.original.provenance;
   lead.original.provenance.met_shrinking = family_of(shrunk.original);
-  const Shrunk smaller = shrink_one(lead.original, false, slot);
+  const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot);
   const bool again = smaller.stopped != "flaky" && smaller.stopped != "gone";
   if (again) lead.minimal = smaller.minimal;
   (again ? report.met : report.met_once).push_back(family_of(met));
   return keep_lead(corpus_, lead);
 }
 
-Shrunk CaseWork::shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const {
+// A failure is shrunk within the profile that found it, as far as that is known.
+std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, const std::string& run) const {
+  if (run == run_name(config_)) return within(config_.draw.profile, original.spec, library_);
+  for (const Profile& profile : built_in_profiles())
+    if (profile.name == original.provenance.profile) return within(profile, original.spec, library_);
+  return {};
+}
+
+Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot) const {
   ShrinkConfig config = config_.shrink;
   config.checks = config_.checks;
   config.isolation = isolation_of(config_.limits);
   config.guarded = guarded;
-  config.allowed = within(config_.draw.profile, original.spec, library_);
+  config.allowed = allowed_for(original, run);
   config.before_run = [&](const Spec& spec) {
     slot.note(print_spec(spec));
     if (config_.shrink.before_run) config_.shrink.before_run(spec);

@@ -18,13 +18,16 @@
 
 namespace contort {
 
-// Evaluate a case; or, with a family, settle that failure of it: run it again, keep it as a lead, shrink it.
+// Evaluate a case; or, with a family, settle that failure of it: run it again, keep it as a lead, shrink it. Or, with a
+// lead, shrink what waits there since the time of some run was up.
 struct CaseTask {
   Lineage lineage;
   std::string family;
   int rank = 0;             // of the family among those of the case, by first frame
   std::string motion_hash;  // of the first time
   std::string ending;       // family of how it ended its process before, or a candidate of its shrinking did
+  bool shrinks = true;      // false: there is no time; the lead waits
+  std::string lead;         // path of its original
   bool operator==(const CaseTask&) const = default;
 };
 
@@ -47,6 +50,9 @@ std::string print_task(const CaseTask& task);
 CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
 
+// What is known of a failure that did not show again. How deep it was, nobody wrote down: no number.
+Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, const WorkerLimits& limits);
+
 // Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each
 // case was 1 % of a run.
 class TargetGroups {
@@ -67,9 +73,11 @@ class CaseWork {
   CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
   std::vector<NearMiss> near_misses(const Character& character, int group);
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
+  CaseReport shrink_waiting(const CaseTask& task, WorkerSlot& slot);
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
-  Shrunk shrink_one(const Case& original, bool guarded, WorkerSlot& slot) const;
+  Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot) const;
   Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
+  std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
   Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;
 
   const RunConfig& config_;

@@ -52,6 +52,7 @@ class Run {
     const Result<RunLock> lock = RunLock::take(corpus_, state_.record);
     if (!lock) return result_.issue = lock.issue(), std::move(result_);
     if (config_.resume) resume();
+    if (config_.shard.count == 1) find_waiting();
     if (ok()) search();
     finish();
     return std::move(result_);
@@ -73,20 +74,39 @@ class Run {
     for (const CaseTask& task : state_.wanted) settling_.push_back(task);
   }
 
+  // What runs before left in this corpus, since their time was up before it was shrunk.
+  void find_waiting() {
+    std::vector<Issue> damaged;
+    for (const Lead& lead : leads_of(corpus_, damaged)) {
+      if (!waits(lead)) continue;
+      CaseTask task;
+      task.lineage = {lead.original.provenance.index};
+      task.family = family_of(lead.original);
+      task.lead = lead_path(corpus_, lead);
+      waiting_.push_back(task);
+    }
+  }
+
   void search() {
     WorkerPool pool(config_.jobs, config_.limits, CaseWork(config_, library_, corpus_));
     running_.resize(static_cast<std::size_t>(config_.jobs));
-    while (!is_last(state_.next) && !halted()) {
+    while (!is_last(state_.next) && !halted() && !is_cut_) {
       begin_round();
-      while (open_ > 0 && !(halted() && !is_any_case_running())) step(pool, !halted());
+      while (open_ > 0 && !(must_fold() && !is_any_case_running())) step(pool, !must_fold());
       fold_round();
-      round_.clear(), open_ = 0, given_ = 0;
+      round_.clear(), again_.clear(), open_ = 0, given_ = 0;
       keep_state_sometimes();
     }
-    // What is not settled when time is up waits in the state for --resume.
-    while (ok() && !result_.interrupted && (pool.busy() > 0 || (!settling_.empty() && !out_of_time()))) {
+    settle_the_rest(pool);
+  }
+
+  // Cases are over. Once time is up, what is left is only kept: another run on this corpus shrinks it.
+  void settle_the_rest(WorkerPool& pool) {
+    while (ok() && !result_.interrupted && (pool.busy() > 0 || !settling_.empty() || has_time_for_waiting())) {
       if (stop_()) result_.interrupted = true;
-      step(pool, !out_of_time());
+      if (out_of_time())
+        for (CaseTask& task : settling_) task.shrinks = false;
+      step(pool, true);
     }
   }
 
@@ -95,6 +115,7 @@ class Run {
   struct Place {
     CaseTask task;
     std::optional<CaseReport> report;
+    std::optional<Case> ended{};  // it ended its process the first time
   };
 
   void begin_round() {
@@ -103,9 +124,17 @@ class Run {
       if (!is_of(config_.shard, island)) continue;
       const Island& pools = state_.islands[static_cast<std::size_t>(island)];
       const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index);
-      round_.push_back({{lineage, {}, 0, {}, {}}, {}});
+      round_.emplace_back();
+      round_.back().task.lineage = lineage;
     }
     open_ = static_cast<int>(round_.size());
+    if (config_.deadline_s > 0.0) fold_at_s_ = 0.5 * (steady_s() + config_.deadline_s);
+  }
+
+  // Half of the time that is left when the last round begins is for what it finds.
+  bool must_fold() {
+    const auto has_failed = [](const Place& place) { return place.report && !place.report->broken.empty(); };
+    return halted() || (config_.deadline_s > 0.0 && steady_s() >= fold_at_s_ && std::ranges::any_of(round_, has_failed));
   }
 
   bool is_any_case_running() const {
@@ -118,26 +147,46 @@ class Run {
     std::optional<CaseTask> settled;
   };
 
-  // Failures go first: what was found shall be on its way to the user.
   void step(WorkerPool& pool, bool hand_out) {
     while (hand_out) {
       const std::optional<int> idle = pool.idle_worker();
       if (!idle) break;
-      const auto next = next_to_settle();
-      if (next == settling_.end() && given_ == static_cast<int>(round_.size())) break;
-      Running& running = running_[static_cast<std::size_t>(*idle)];
-      running = {};
-      if (next != settling_.end()) {
-        running.settled = *next;
-        settling_.erase(next);
-        pool.give(*idle, print_task(*running.settled), kSettlingPatience);
-      } else {
-        running.place = given_++;
-        pool.give(*idle, print_task(round_[static_cast<std::size_t>(running.place)].task));
-      }
+      const std::optional<Running> next = take_next();
+      if (!next) break;
+      running_[static_cast<std::size_t>(*idle)] = *next;
+      if (next->settled)
+        pool.give(*idle, print_task(*next->settled), kSettlingPatience);
+      else
+        pool.give(*idle, print_task(round_[static_cast<std::size_t>(next->place)].task));
     }
     if (const std::optional<WorkerEvent> event = pool.wait(100)) take(*event);
     report();
+  }
+
+  // Failures go first: what was found shall be on its way to the user.
+  std::optional<Running> take_next() {
+    if (const auto next = next_to_settle(); next != settling_.end()) {
+      const Running running{-1, *next};
+      settling_.erase(next);
+      return running;
+    }
+    if (has_time_for_waiting()) {
+      const Running running{-1, waiting_.front()};
+      waiting_.pop_front();
+      return running;
+    }
+    if (!again_.empty()) {
+      const int place = again_.back();
+      again_.pop_back();
+      return Running{place, {}};
+    }
+    if (given_ < static_cast<int>(round_.size())) return Running{given_++, {}};
+    return std::nullopt;
+  }
+
+  // Half of the run's time at most is for what earlier ones left.
+  bool has_time_for_waiting() const {
+    return !waiting_.empty() && !(config_.time_s > 0.0 && steady_s() >= start_s_ + 0.5 * config_.time_s);
   }
 
   // Of one case one failure at a time: what a minimal spec shows too is not settled any more.
@@ -150,17 +199,29 @@ class Run {
 
   void take(const WorkerEvent& event) {
     const Running running = std::exchange(running_[static_cast<std::size_t>(event.worker)], {});
+    if (running.settled && !running.settled->lead.empty()) return shrunk_waiting(*running.settled, event);
     if (running.settled) return settled(*running.settled, event);
     Place& place = round_[static_cast<std::size_t>(running.place)];
-    if (event.end == WorkerEnd::replied) {
+    if (event.end == WorkerEnd::replied)
       place.report = parse_report(event.text);
-    } else {
-      place.report = CaseReport{};
-      place.report->built = true;
-      place.task.ending = family_of(case_of_ending(event, config_.limits));
-      place.report->broken = {place.task.ending};
+    else
+      take_ending(place, running.place, case_of_ending(event, config_.limits));
+    open_ -= place.report.has_value();
+  }
+
+  // What ended its process is tried again, as it may have been ended from outside: by people, or for want of memory. What
+  // was met in an earlier round needs no second witness.
+  void take_ending(Place& place, int number, const Case& ended) {
+    const std::string family = family_of(ended);
+    if (!place.ended && !state_.record.families.contains(family)) {
+      place.ended = ended;
+      return again_.push_back(number);
     }
-    --open_;
+    place.ended.reset();
+    place.report = CaseReport{};
+    place.report->built = true;
+    place.task.ending = family;
+    place.report->broken = {family};
   }
 
   // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever
@@ -175,6 +236,7 @@ class Run {
     for (const Place& place : round_) {
       if (!place.report) return;
       fold(place.task, *place.report);
+      if (place.ended) keep_ending_of_once(*place.ended, place.task);
     }
     state_.next += kRound;
     if (config_.cases >= 0) state_.next = std::min(state_.next, config_.cases);
@@ -201,11 +263,20 @@ class Run {
       if (std::cmp_greater_equal(rank, config_.shrinks_per_case)) continue;
       if (std::ssize(count.first_indices) >= config_.shrinks_per_family) continue;
       count.first_indices.push_back(index);
-      want({task.lineage, family, static_cast<int>(rank), report.motion_hash, task.ending});
+      want({task.lineage, family, static_cast<int>(rank), report.motion_hash, task.ending, true, {}});
     }
   }
 
   // ---- failures
+
+  // A failure that was seen once and did not come again. Whoever looks for it begins with its spec.
+  void keep_unsteady(const Case& seen, const CaseTask& task) {
+    Lead lead{state_.record.name, seen, {}};
+    lead.original.provenance = provenance_in(config_, task.lineage.back());
+    lead.original.provenance.rank = task.rank;
+    lead.original.provenance.shrink_stopped = kUnsteady;
+    if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) fail(kept.issue());
+  }
 
   void want(const CaseTask& task) {
     state_.wanted.push_back(task);
@@ -215,15 +286,38 @@ class Run {
   void settled(const CaseTask& task, const WorkerEvent& event) {
     const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
     if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
+    if (event.end != WorkerEnd::replied)
+      keep_unsteady(seen_once(task, spec_of(config_, library_, task.lineage), library_, config_.limits), task);
     settle_no_more(task, {task.family});
     if (report.confirmed && config_.shard.count == 1) settle_no_more(task, report.also);
     if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
+    if (report.confirmed && !task.shrinks) return result_.waiting.push_back(path_of_lead(task));
     take_lead(path_of_lead(task), report.confirmed);
-    for (const std::string& family : report.met) take_lead(path_of_met(task, family), true);
-    for (const std::string& family : report.met_once) take_lead(path_of_met(task, family), false);
+    take_met(state_.record.name, task, report);
     if (task.ending.empty() || task.ending == task.family) return;
     if (std::ranges::find(report.met, task.ending) == report.met.end())
-      take_lead(path_of_met(task, task.ending), false);
+      take_lead(path_of_met(state_.record.name, task, task.ending), false);
+  }
+
+  void take_met(const std::string& run, const CaseTask& task, const CaseReport& report) {
+    for (const std::string& family : report.met) take_lead(path_of_met(run, task, family), true);
+    for (const std::string& family : report.met_once) take_lead(path_of_met(run, task, family), false);
+  }
+
+  // It may have been another process that did it, or this one under another name before. What ended its worker waits for
+  // a run with a guard: it is tried once more, like any other.
+  void shrunk_waiting(CaseTask task, const WorkerEvent& event) {
+    if (event.end != WorkerEnd::replied && task.ending.empty()) {
+      task.ending = family_of(case_of_ending(event, config_.limits));
+      return waiting_.push_front(task);
+    }
+    const CaseReport report = event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
+    if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
+    if (std::error_code error; !std::filesystem::exists(task.lead, error)) return;
+    const std::string run = std::filesystem::path(task.lead).parent_path().filename();
+    take_lead(task.lead, report.confirmed);
+    take_met(run, task, report);
+    tidy_leads(corpus_, run);
   }
 
   // Which families of the case need no bucket of their own, a shard leaves to `merge`: it shrinks more than a whole
@@ -247,11 +341,22 @@ class Run {
     settling_.push_front(std::move(task));
   }
 
+  // It ended its process and, tried again, did not. The note of the first time may not have been written yet.
+  void keep_ending_of_once(Case ended, const CaseTask& task) {
+    ended.spec = spec_of(config_, library_, task.lineage);
+    keep_unsteady(ended, task);
+    add_once(state_.unconfirmed, lead_path(corpus_, state_.record.name, family_of(ended), task.lineage.back()));
+  }
+
   void take_lead(const std::string& path, bool confirmed) {
-    if (!confirmed)
-      add_once(state_.unconfirmed, path);
-    else if (config_.shard.count == 1)
-      file(path);
+    if (confirmed && config_.shard.count == 1) file(path);
+    if (confirmed) return;
+    add_once(state_.unconfirmed, path);
+    Result<Lead> read = read_lead(path);
+    if (!read || is_unsteady(*read)) return;
+    Lead lead = std::move(read).value();
+    lead.original.provenance.shrink_stopped = kUnsteady;
+    if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) fail(kept.issue());
   }
 
   void file(const std::string& path) {
@@ -268,8 +373,8 @@ class Run {
     return lead_path(corpus_, state_.record.name, task.family, task.lineage.back());
   }
 
-  std::string path_of_met(const CaseTask& task, const std::string& family) const {
-    return lead_path(corpus_, state_.record.name, family, task.lineage.back(), task.family);
+  std::string path_of_met(const std::string& run, const CaseTask& task, const std::string& family) const {
+    return lead_path(corpus_, run, family, task.lineage.back(), task.family);
   }
 
   static void add_once(std::vector<std::string>& list, const std::string& name) {
@@ -299,14 +404,15 @@ class Run {
     // say.
     if (ok() && !(result_.interrupted && config_.shard.count > 1))
       if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());
-    if (is_last(state_.next) && state_.wanted.empty())
-      drop_state(corpus_, state_.record);
-    else
+    if (result_.interrupted || !ok())
       keep_state_now();
+    else
+      drop_state(corpus_, state_.record);
     report();
     result_.record = state_.record;
     result_.elapsed_s = steady_s() - start_s_;
-    result_.waiting = static_cast<int>(state_.wanted.size());
+    for (const CaseTask& task : waiting_) result_.waiting.push_back(task.lead);
+    result_.unsettled = static_cast<int>(state_.wanted.size());
     result_.waivers = state_.waivers;
     for (const std::string& name : state_.new_buckets) result_.new_buckets.push_back(bucket_folder(name));
     for (const std::string& name : state_.known_buckets) result_.known_buckets.push_back(bucket_folder(name));
@@ -323,7 +429,7 @@ class Run {
     const RunRecord& record = state_.record;
     const auto of_round = static_cast<std::int64_t>(round_.size()) - open_;
     progress_({record.cases + of_round, record.frames, record.failing, static_cast<int>(record.families.size()),
-               static_cast<int>(state_.new_buckets.size()), static_cast<int>(state_.wanted.size()),
+               static_cast<int>(state_.new_buckets.size()), static_cast<int>(state_.wanted.size() + waiting_.size()),
                steady_s() - start_s_});
   }
 
@@ -344,7 +450,10 @@ class Run {
   int open_ = 0;         // cases of the round without a report
   int given_ = 0;        // that were handed out
   bool is_cut_ = false;  // the last round was not done whole; what is kept is from before it
+  std::vector<int> again_;  // places whose process ended, to be tried once more
+  double fold_at_s_ = 0.0;
   std::deque<CaseTask> settling_;
+  std::deque<CaseTask> waiting_;  // leads of runs whose time was up
   std::vector<Running> running_;  // by worker
   RunResult result_;
 };

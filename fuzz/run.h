@@ -70,7 +70,8 @@ struct RunResult {
   std::vector<std::string> new_buckets;    // folders
   std::vector<std::string> known_buckets;  // folders that were there before this run
   std::vector<std::string> unconfirmed;    // leads whose second run differed: nondeterminism, ours to explain
-  int waiting = 0;                         // failures that are not settled: `resume` goes on with them
+  std::vector<std::string> waiting;        // leads that time did not reach: the next run here shrinks them
+  int unsettled = 0;                       // failures of an interrupted run, with which `resume` goes on
   bool interrupted = false;                // stopped by `stop`
   Issue issue;                             // the corpus could not be written; code "" where all went well
 };

@@ -161,8 +161,9 @@ std::string words_html() {
       {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},
       {"phase", "What was going on in the worst frame, such as an interrupt that had just cut in."},
       {"state", "new: nobody has looked at it. open: somebody looks after it. regressed: it was fixed and is back. "
-                "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time."},
-      {"gating", "It makes an automatic build fail: new and regressed failures do."}};
+                "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time. waiting: found when "
+                "the time was up, and not made small yet. unconfirmed: seen once, not the second time."},
+      {"gating", "It makes an automatic build fail: new, regressed and waiting failures do."}};
   std::string out = "<details class='words-used'><summary>What the words mean</summary>\n<dl>\n";
   for (const auto& [word, meaning] : kWords)
     out += "<div><dt>" + std::string(word) + "</dt><dd>" + html_text(meaning) + "</dd></div>\n";

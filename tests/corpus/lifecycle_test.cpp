@@ -229,8 +229,33 @@ TEST(LifecycleTable, AQuarantineLastsThirtyDaysAtMost) {
 TEST(LifecycleTable, WhatTheBaselineHasDoesNotGate) {
   const Bucket bucket = in_state(BucketState::fresh);
   EXPECT_TRUE(is_gating(bucket, kToday, {}));
-  EXPECT_TRUE(is_gating(bucket, kToday, {"ffffffffffff"}));
-  EXPECT_FALSE(is_gating(bucket, kToday, {bucket.id}));
+  EXPECT_TRUE(is_gating(bucket, kToday, {{"ffffffffffff"}, {bucket.family}}));
+  EXPECT_FALSE(is_gating(bucket, kToday, {{bucket.id}, {}}));
+}
+
+// Of what waits to be shrunk only the family is known.
+TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
+  std::vector<Bucket> buckets;
+  for (const BucketState state : {BucketState::fresh, BucketState::open, BucketState::fixed, BucketState::regressed}) {
+    buckets.push_back(in_state(state));
+    buckets.back().family = state_name(state);
+    buckets.back().id = state_name(state);
+  }
+  EXPECT_EQ(known_families(buckets, kToday, {}), std::set<std::string>{"open"});
+  const std::set<std::string> with_baseline = {"new", "open", "other"};
+  EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {"other"}}), with_baseline);
+}
+
+// What the other branch's contort printed of a replay: what fails there as well is known.
+TEST(LifecycleTable, ABaselineMayBeAReplayByTheOtherBranch) {
+  const TempFolder folder;
+  spill(folder / "replay.json", R"([{"bucket": "pop-a", "family": "pop|x|y", "verdict": "same"},
+    {"bucket": "joint_range-b", "family": "joint_range|x|y", "verdict": "same family"},
+    {"bucket": "pop-c", "family": "pop|x|z", "verdict": "passes"},
+    {"bucket": "pop-d", "family": "pop|x|w", "verdict": "different"}])");
+  const Result<Baseline> known = read_baseline(folder / "replay.json");
+  ASSERT_TRUE(known) << to_line(known.issue());
+  EXPECT_EQ(*known, (Baseline{{"a", "b"}, {"joint_range|x|y", "pop|x|y"}}));
 }
 
 TEST(LifecycleTable, ABaselineIsRefusedWhereItIsNone) {
@@ -247,10 +272,10 @@ TEST(LifecycleTable, ABaselineIsRefusedWhereItIsNone) {
   }
   EXPECT_EQ(read_baseline(folder.path()).issue().code, "corpus.not_found");
   EXPECT_EQ(read_baseline(folder / "missing").issue().code, "file.unreadable");
-  spill(folder / "list.json", R"([{"id": "a", "state": "open"}, {"id": "b", "state": "fixed"}, {"id": "c"}])");
+  spill(folder / "list.json", R"([{"id": "a", "state": "open", "family": "pop|x|y"}, {"id": "b", "state": "fixed"}, {"id": "c"}])");
   const Result<Baseline> known = read_baseline(folder / "list.json");
   ASSERT_TRUE(known);
-  EXPECT_EQ(*known, (Baseline{"a", "c"})) << "what is fixed there is no failure that it has";
+  EXPECT_EQ(*known, (Baseline{{"a", "c"}, {"pop|x|y"}})) << "what is fixed there is no failure that it has";
 }
 
 }  // namespace

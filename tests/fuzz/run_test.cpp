@@ -5,15 +5,18 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <set>
 
+#include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/departures.h"
 #include "fuzz/parallel.h"
 #include "fuzz/run_state.h"
 #include "generator/core/files.h"
+#include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
 
 namespace contort {
@@ -32,6 +35,14 @@ void expect_bucket_is_sound(const Corpus& corpus, const Bucket& bucket) {
   EXPECT_EQ(min.provenance.shrunk_from, spec_id(orig.spec)) << bucket.id;
   EXPECT_EQ(bucket_id(bucket.family, features_of(min.spec)), bucket.id);
   EXPECT_EQ(bucket.runs.size(), 1U);
+}
+
+// A family that came with another one has no bucket for it.
+bool is_told(const std::string& family, const Corpus& corpus) {
+  return std::ranges::any_of(buckets_of(corpus), [&](const Bucket& bucket) {
+    const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
+    return std::ranges::find(min.also, family) != min.also.end();
+  });
 }
 
 class Runs : public testing::Test {
@@ -220,31 +231,53 @@ std::vector<pid_t> children() {
   return all;
 }
 
-// From outside, so that it does not happen again: a lead that cannot be confirmed, and a run that goes on.
-TEST_F(Runs, GoOnWhenAWorkerIsKilled) {
-  const Corpus corpus = create(folder_ / "corpus");
+// Every so many questions whether to stop, somebody kills a worker.
+RunResult run_disturbed(const RunConfig& config, const Corpus& corpus, int every) {
   int asked = 0;
-  const RunResult result = run_fuzz(
-      config_of(1000, 2), library(), corpus, [](const RunProgress&) {},
+  return run_fuzz(
+      config, library(), corpus, [](const RunProgress&) {},
       [&] {
-        if (++asked % 200 == 0 && !children().empty()) ::kill(children().front(), SIGSEGV);
+        if (++asked % every == 0 && !children().empty()) ::kill(children().front(), SIGKILL);
         return false;
       });
-  EXPECT_GT(asked, 200);
-  EXPECT_EQ(result.issue.code, "");
-  EXPECT_EQ(result.record.cases, 1000);
-  EXPECT_FALSE(result.unconfirmed.empty());
-  expect_all_replay_as_the_same(corpus);
 }
 
+// From outside, for want of memory perhaps: it does not happen again, so it is no failure of the case.
+TEST_F(Runs, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
+  const Corpus quiet = create(folder_ / "quiet"), disturbed = create(folder_ / "disturbed");
+  run(config_of(1000, 2), quiet);
+  const RunResult result = run_disturbed(config_of(1000, 2), disturbed, 200);
+  EXPECT_EQ(result.issue.code, "");
+  ASSERT_FALSE(result.unconfirmed.empty()) << "nobody was killed";
+  EXPECT_EQ(tree_of(disturbed.folder() + "/buckets"), tree_of(quiet.folder() + "/buckets"));
+  EXPECT_EQ(tree_of(disturbed.folder() + "/runs"), tree_of(quiet.folder() + "/runs"));
+  for (const std::string& path : result.unconfirmed) {
+    const Result<Lead> lead = read_lead(path);
+    ASSERT_TRUE(lead) << to_line(lead.issue());
+    EXPECT_EQ(lead->original.expect.check, "crash");
+    EXPECT_EQ(lead->original.expect.subject, "SIGKILL");
+    EXPECT_TRUE(is_unsteady(*lead));
+    EXPECT_TRUE(build_stage(lead->original.spec, library()));
+  }
+}
+
+// Ten minutes of motion take longer than a tenth of a second, each time. Whether they are done in the whole second that a
+// process of their own is given, is up to the machine: then it is confirmed, else not, and kept in either case.
 TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
-  RunConfig config = config_of(16, 2);
-  config.draw.characters = {"human"};
-  config.limits.seconds = 0.0005;
-  const RunResult result = run(config, create(folder_ / "corpus"));
-  EXPECT_EQ(result.record.cases, 16);
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig config = config_of(1, 1);
+  config.seeds = {bent_elbow(100, 36000)};
+  config.limits.seconds = 0.1;
+  config.shrink.max_evaluations = 3;
+  const RunResult result = run(config, corpus);
+  EXPECT_EQ(result.record.cases, 1);
   EXPECT_TRUE(result.record.families.contains("timeout|human|evaluation"));
-  EXPECT_FALSE(result.unconfirmed.empty());  // in a second it was done
+  ASSERT_EQ(result.unconfirmed.size() + result.new_buckets.size(), 1U);
+  const std::vector<Bucket> buckets = buckets_of(corpus);
+  const Case stored = *read_case(buckets.empty() ? result.unconfirmed.front()
+                                                 : corpus.folder_of(buckets[0]) + "/" + buckets[0].min);
+  EXPECT_EQ(stored.expect.check, "timeout");
+  EXPECT_EQ(stored.expect.limit_s, 1);
 }
 
 TEST_F(Runs, OfAShardThatWasStoppedAreMissingUntilItIsResumed) {
@@ -272,6 +305,59 @@ TEST_F(Runs, ThatAreStoppedAtOnceHaveNoCases) {
       config_of(100, 2), library(), corpus, [](const RunProgress&) {}, [] { return true; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.record.cases, 0);
+}
+
+std::set<std::string> families_in(const Corpus& corpus) {
+  std::set<std::string> families;
+  for (const Bucket& bucket : buckets_of(corpus)) families.insert(bucket.family);
+  return families;
+}
+
+// What time did not reach is neither lost nor another run's by its seed: whoever comes next makes buckets of it.
+TEST_F(Runs, LeaveWhatTimeDidNotReachToTheNext) {
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig hasty = config_of(-1, 2);
+  hasty.time_s = 0.5;
+  hasty.shrink.before_run = [](const Spec&) { ::usleep(50'000); };
+  const RunResult first = run(hasty, corpus);
+  EXPECT_EQ(first.issue.code, "");
+  ASSERT_FALSE(first.waiting.empty());
+  std::set<std::string> waiting, told = families_in(corpus);
+  for (const std::string& path : first.waiting) {
+    const Result<Lead> lead = read_lead(path);
+    ASSERT_TRUE(lead) << to_line(lead.issue());
+    EXPECT_TRUE(waits(*lead));
+    Evaluator evaluator;
+    EXPECT_EQ(replay(lead->original, library(), evaluator).verdict, Verdict::same);
+    waiting.insert(family_of(lead->original));
+  }
+  for (const auto& [family, count] : first.record.families)
+    EXPECT_TRUE(count.first_indices.empty() || waiting.contains(family) || told.contains(family) || is_told(family, corpus))
+        << family;
+  EXPECT_FALSE(fs::exists(state_path(corpus, first.record))) << "it ended as it was asked to";
+  RunConfig next = config_of(4, 2);
+  next.seed = 5;
+  const RunResult second = run(next, corpus);
+  EXPECT_TRUE(second.waiting.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(corpus.folder() + "/leads"));
+  told = families_in(corpus);
+  for (const std::string& family : waiting) EXPECT_TRUE(told.contains(family)) << family;
+  expect_all_replay_as_the_same(corpus);
+}
+
+// It is the first run that put them there, whoever shrank them.
+TEST_F(Runs, FileWhatWaitedUnderTheNameOfItsRun) {
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig hasty = config_of(-1, 1);
+  hasty.time_s = 0.01;
+  const RunResult first = run(hasty, corpus);
+  ASSERT_FALSE(first.waiting.empty());
+  RunConfig next = config_of(0, 1);
+  next.seed = 5;
+  const std::size_t filed = run(next, corpus).new_buckets.size();
+  EXPECT_EQ(filed + first.new_buckets.size(), buckets_of(corpus).size());
+  EXPECT_GE(filed, 1U);
+  for (const Bucket& bucket : buckets_of(corpus)) EXPECT_EQ(bucket.runs, std::vector<std::string>{first.record.name});
 }
 
 TEST_F(Runs, EndWhenTheirTimeIsUp) {
