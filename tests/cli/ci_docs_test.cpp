@@ -1,7 +1,11 @@
-// docs/ci: files that people copy must parse, and each command in them must exist with all of its options.
+// docs/ci and docs/scale: files that people copy must parse, and each command in them must exist with all of its options.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -12,7 +16,16 @@ namespace contort {
 
 namespace {
 
-const std::string kFolder = std::string(CONTORT_SOURCE_DIR) + "/docs/ci";
+const std::string kDocs = std::string(CONTORT_SOURCE_DIR) + "/docs";
+const std::string kFolder = kDocs + "/ci";
+
+// Of both folders, by their paths below docs.
+Tree files() {
+  Tree all;
+  for (const std::string folder : {"ci", "scale"})
+    for (const auto& [name, text] : tree_of(kDocs + "/" + folder)) all[folder + "/" + name] = text;
+  return all;
+}
 
 std::string output_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>&1").c_str(), "r"), pclose);
@@ -59,7 +72,7 @@ std::vector<std::string> command_of(const std::vector<std::string>& call) {
 
 TEST(CiFiles, CommandsExistWithTheirOptions) {
   int calls = 0, options = 0;
-  for (const auto& [name, text] : tree_of(kFolder))
+  for (const auto& [name, text] : files())
     for (const std::vector<std::string>& call : calls_in(without_comments(text))) {
       std::vector<std::string> arguments = command_of(call);
       arguments.push_back("--help");
@@ -72,7 +85,7 @@ TEST(CiFiles, CommandsExistWithTheirOptions) {
         EXPECT_NE(help.out.find(word), std::string::npos) << name << ": contort " << call.front() << " " << word;
       }
     }
-  EXPECT_GE(calls, 18);
+  EXPECT_GE(calls, 24);
   EXPECT_GE(options, 40);
 }
 
@@ -88,15 +101,55 @@ TEST(CiFiles, CallsAreFoundInYamlAndInScripts) {
 
 TEST(CiFiles, YamlParses) {
   if (output_of("python3 -c 'import yaml' && echo there") != "there\n") GTEST_SKIP() << "no python3 with yaml";
-  int files = 0;
-  for (const auto& [name, text] : tree_of(kFolder)) {
+  int count = 0;
+  for (const auto& [name, text] : files()) {
     if (!name.ends_with(".yml")) continue;
-    ++files;
+    ++count;
     const std::string keys = output_of("python3 -c 'import sys, yaml; print(*yaml.safe_load(open(sys.argv[1])))' '" +
-                                       kFolder + "/" + name + "'");
-    EXPECT_NE(keys.find(name == "github.yml" ? "jobs" : "contort:night"), std::string::npos) << keys;
+                                       kDocs + "/" + name + "'");
+    EXPECT_NE(keys.find(name == "ci/gitlab.yml" ? "contort:night" : "jobs"), std::string::npos) << keys;
   }
-  EXPECT_EQ(files, 2);
+  EXPECT_EQ(count, 3);
+}
+
+// A contort that only says with which code each command ends.
+class NightScript : public testing::Test {
+ protected:
+  NightScript() {
+    spill(folder_ / "contort",
+          "#!/bin/sh\necho $1 >> '" + (folder_ / "calls") +
+              "'\ncase $1 in fuzz) exit $FUZZ ;; replay) exit $REPLAY ;; report) exit $REPORT ;; esac\n");
+    std::filesystem::permissions(folder_ / "contort", std::filesystem::perms::owner_all);
+  }
+
+  // "4: fuzz replay corpus report"
+  std::string night(int fuzz, int replay, int report) {
+    std::filesystem::remove(folder_ / "calls");
+    const std::string codes = "FUZZ=" + std::to_string(fuzz) + " REPLAY=" + std::to_string(replay) +
+                              " REPORT=" + std::to_string(report);
+    const int status = std::system(("PATH='" + folder_.path() + "':$PATH " + codes + " bash '" + kFolder +
+                                    "/night.sh' '" + (folder_ / "night") + "' 2>/dev/null").c_str());
+    std::string said = std::to_string(WEXITSTATUS(status)) + ":";
+    for (const std::string& call : lines_of(slurp(folder_ / "calls"))) said += " " + call;
+    return said;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(NightScript, ReportsWhateverItsPartsSay) {
+  EXPECT_EQ(night(0, 0, 0), "0: fuzz replay corpus report");
+  EXPECT_EQ(night(1, 1, 0), "0: fuzz replay corpus report") << "the report says what gates";
+  EXPECT_EQ(night(1, 1, 1), "1: fuzz replay corpus report");
+  EXPECT_EQ(night(4, 0, 0), "4: fuzz replay corpus report") << "something was not the same twice";
+  EXPECT_EQ(night(1, 2, 0), "2: fuzz replay corpus report") << "something does not build any more";
+  EXPECT_EQ(night(4, 0, 1), "1: fuzz replay corpus report");
+}
+
+TEST_F(NightScript, EndsWhereItCannotGoOn) {
+  EXPECT_EQ(night(3, 0, 0), "3: fuzz");
+  EXPECT_EQ(night(75, 0, 0), "75: fuzz");
+  EXPECT_EQ(night(1, 3, 0), "3: fuzz replay");
 }
 
 TEST(CiFiles, TheCrontabHasTimesAndOneLineForTheNight) {
