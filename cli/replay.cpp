@@ -130,7 +130,7 @@ class Session {
     std::vector<Issue> damaged;
     const std::vector<Bucket> buckets = corpus->buckets(damaged);
     for (const Issue& issue : damaged) context_.fail(issue);
-    for (const Bucket& bucket : replay_order(buckets, end_ ? context_.day() : "")) {
+    for (const Bucket& bucket : end_ ? replay_order_of_day(buckets, context_.day()) : replay_order(buckets)) {
       if (end_ && Clock::now() >= *end_ && may_skip(bucket))
         ++totals_.skipped;
       else

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "corpus/bucket_files.h"
 #include "generator/core/hash.h"
@@ -59,6 +60,10 @@ constexpr std::array kOrder = {BucketState::regressed, BucketState::fresh, Bucke
                                BucketState::open,      BucketState::flaky, BucketState::invalid,
                                BucketState::fixed};
 
+std::size_t rank_of(BucketState state) {
+  return static_cast<std::size_t>(std::ranges::find(kOrder, state) - kOrder.begin());
+}
+
 }  // namespace
 
 BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const RunCase& run) {
@@ -72,14 +77,20 @@ BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const Run
   return result;
 }
 
-std::vector<Bucket> replay_order(std::vector<Bucket> buckets, const std::string& shuffle) {
-  const auto place = [&](const Bucket& bucket) {
-    const auto rank = std::ranges::find(kOrder, bucket.state) - kOrder.begin();
-    return std::make_tuple(rank, shuffle.empty() ? std::string() : content_id(shuffle + bucket.id),
-                           folder_name(bucket));
-  };
-  std::ranges::sort(buckets, [&](const Bucket& a, const Bucket& b) { return place(a) < place(b); });
+std::vector<Bucket> replay_order(std::vector<Bucket> buckets) {
+  std::ranges::sort(buckets, {}, [](const Bucket& b) { return std::pair(rank_of(b.state), folder_name(b)); });
   return buckets;
+}
+
+std::vector<Bucket> replay_order_of_day(std::vector<Bucket> buckets, const std::string& day) {
+  std::ranges::sort(buckets, {}, [&](const Bucket& bucket) { return content_id(day + folder_name(bucket)); });
+  std::array<std::vector<Bucket>, kOrder.size()> of_state;
+  for (Bucket& bucket : buckets) of_state[rank_of(bucket.state)].push_back(std::move(bucket));
+  std::vector<Bucket> ordered;
+  for (std::size_t turn = 0; ordered.size() < buckets.size(); ++turn)
+    for (std::vector<Bucket>& queue : of_state)
+      if (turn < queue.size()) ordered.push_back(std::move(queue[turn]));
+  return ordered;
 }
 
 bool may_skip(const Bucket& bucket) { return bucket.state != BucketState::quarantined; }

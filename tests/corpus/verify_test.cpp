@@ -135,7 +135,7 @@ std::vector<Bucket> one_of_each_state() {
 }
 
 TEST(ReplayOrder, RegressedFirstThenNewThenOpenAndFixedLast) {
-  const std::vector<Bucket> ordered = replay_order(one_of_each_state(), "");
+  const std::vector<Bucket> ordered = replay_order(one_of_each_state());
   std::vector<BucketState> states;
   for (const Bucket& bucket : ordered)
     if (states.empty() || states.back() != bucket.state) states.push_back(bucket.state);
@@ -147,10 +147,26 @@ TEST(ReplayOrder, RegressedFirstThenNewThenOpenAndFixedLast) {
 TEST(ReplayOrder, AnotherDayIsAnotherOrderAndLosesNone) {
   std::vector<Bucket> many(40);
   for (std::size_t i = 0; i < many.size(); ++i) many[i].id = std::to_string(100 + i);
-  const std::vector<Bucket> monday = replay_order(many, "2027-02-08"), tuesday = replay_order(many, "2027-02-09");
+  const std::vector<Bucket> monday = replay_order_of_day(many, "2027-02-08"),
+                            tuesday = replay_order_of_day(many, "2027-02-09");
   EXPECT_NE(monday, tuesday);
-  EXPECT_EQ(monday, replay_order(many, "2027-02-08"));
+  EXPECT_EQ(monday, replay_order_of_day(many, "2027-02-08"));
   EXPECT_TRUE(std::ranges::is_permutation(monday, many));
+}
+
+TEST(ReplayOrder, NoStateWaitsForAllOfAnother) {
+  std::vector<Bucket> buckets(90);
+  for (std::size_t i = 0; i < buckets.size(); ++i) {
+    buckets[i].id = std::to_string(100 + i);
+    buckets[i].state = i < 4 ? BucketState::fixed : i < 8 ? BucketState::open : BucketState::fresh;
+  }
+  const std::vector<Bucket> ordered = replay_order_of_day(buckets, "2027-02-08");
+  EXPECT_TRUE(std::ranges::is_permutation(ordered, buckets));
+  const auto among_the_first_six = [&](BucketState state) {
+    return std::ranges::count(ordered.begin(), ordered.begin() + 6, state, &Bucket::state);
+  };
+  for (const BucketState state : {BucketState::fresh, BucketState::open, BucketState::fixed})
+    EXPECT_EQ(among_the_first_six(state), 2) << state_name(state);
 }
 
 TEST(ReplayOrder, OnlyQuarantinedOnesAreNeverSkipped) {
