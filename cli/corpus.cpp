@@ -121,25 +121,27 @@ Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string
 void show(const Options& options, Context& context) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
-  const Result<Bucket> bucket = find_bucket(read_buckets(*corpus, context), options.buckets.front());
-  if (!bucket) return context.fail(bucket.issue());
-  if (options.json) return print_json(bucket_json(*corpus, *bucket, context.day()));
+  Result<Bucket> listed = find_bucket(read_buckets(*corpus, context), options.buckets.front());
+  if (!listed) return context.fail(listed.issue());
+  Bucket bucket = std::move(listed).value();
+  const Result<Case> minimal = corpus->minimal_of(bucket);
+  if (options.json) return print_json(bucket_json(*corpus, bucket, context.day()));
   const auto line = [](const char* name, const std::string& value) {
     if (!value.empty()) std::printf("%-10s %s\n", name, printable(value).c_str());
   };
-  line("bucket", folder_name(*bucket));
-  line("state", std::string(state_name(bucket->state)) + (is_gating(*bucket, context.day()) ? ", gates" : ""));
-  line("known", known_text(*bucket, context.day()));
-  line("note", bucket->note);
-  line("family", bucket->family);
-  line("features", bucket->features);
-  for (const std::string& build : bucket->passed_in) line("passed in", build);
-  for (const std::string& run : bucket->runs) line("run", run);
-  if (const Result<Case> minimal = read_case(corpus->folder_of(*bucket) + "/" + bucket->min))
+  line("bucket", folder_name(bucket));
+  line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", gates" : ""));
+  line("known", known_text(bucket, context.day()));
+  line("note", bucket.note);
+  line("family", bucket.family);
+  line("features", bucket.features);
+  for (const std::string& build : bucket.passed_in) line("passed in", build);
+  for (const std::string& run : bucket.runs) line("run", run);
+  if (minimal)
     for (const std::string& other : minimal->also) line("comes with", other);
-  for (const std::string& file : files_of(*bucket))
+  for (const std::string& file : files_of(bucket))
     line(file.substr(0, file.find('-')).c_str(),
-         replay_command(corpus->folder_of(*bucket) + "/" + file, context.library_folders));
+         replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));
 }
 
 // All are found and may change before the first one does.

@@ -129,11 +129,11 @@ void add_row(ReportRow row, const CasePage& page, const std::string& out, Report
   media.cases.back().strip = added.strip;
 }
 
-void add_bucket_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
+void add_bucket_rows(std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
                      const std::string& out, std::vector<Issue>& damaged) {
-  for (const Bucket& bucket : buckets) {
+  for (Bucket& bucket : buckets) {
+    const Result<Case> stored = with.corpus.minimal_of(bucket);
     const std::string folder = with.corpus.folder_of(bucket);
-    const Result<Case> stored = read_case(folder + "/" + bucket.min);
     if (stored)
       add_row(row_of(bucket, *stored, with), {folder_name(bucket), folder, bucket.min, bucket.orig, bucket.worst, {}},
               out, model, media);
@@ -160,7 +160,7 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
   // They were read before; without --settings there is no file.
   const RowContext with{corpus, known, read ? *read : "", context};
-  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  std::vector<Bucket> buckets = corpus.buckets(damaged);
   model.buckets = std::ssize(buckets);
   add_bucket_rows(buckets, with, model, media, out, damaged);
   add_lead_rows(buckets, with, model, media, out, damaged);

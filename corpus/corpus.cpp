@@ -60,6 +60,18 @@ void note_run(Bucket& bucket, const std::string& run) {
   if (at == bucket.runs.end() || *at != run) bucket.runs.insert(at, run);
 }
 
+Result<Done> put_into(const std::string& folder, const Found& found, Bucket bucket) {
+  if (const Result<Done> made = make_folder(folder); !made) return made;
+  BucketFiles files(folder);
+  if (const auto kept = files.put_pair(found.minimal, &found.original, bucket); !kept) return kept;
+  for (const Case* shown : {&found.original, &found.minimal})
+    if (const auto kept = files.put_worst(*shown, bucket); !kept) return kept;
+  if (found.worst)
+    if (const auto kept = files.put_worst(*found.worst, bucket); !kept) return kept;
+  note_run(bucket, found.run);
+  return files.commit(bucket);
+}
+
 }  // namespace
 
 Result<Corpus::Added> Corpus::add(const Found& found) const {
@@ -68,21 +80,19 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
   Bucket bucket = bucket_of(found.minimal);
   const std::string folder = folder_of(bucket);
   Added added{folder, true};
-  if (std::error_code error; fs::exists(folder + "/bucket.json", error)) {
+  if (std::error_code ignored; fs::exists(folder + "/bucket.json", ignored)) {
     const Result<Bucket> present = read_bucket(folder);
     if (!present) return present.issue();  // a person has to look: overwriting it would lose its state
     bucket = found_again(*present);
     added.is_new = false;
   }
-  if (const Result<Done> made = make_folder(folder); !made) return made.issue();
-  BucketFiles files(folder);
-  if (const auto kept = files.put_pair(found.minimal, &found.original, bucket); !kept) return kept.issue();
-  for (const Case* shown : {&found.original, &found.minimal})
-    if (const auto kept = files.put_worst(*shown, bucket); !kept) return kept.issue();
-  if (found.worst)
-    if (const auto kept = files.put_worst(*found.worst, bucket); !kept) return kept.issue();
-  note_run(bucket, found.run);
-  if (const auto written = files.commit(bucket); !written) return written.issue();
+  std::error_code error;
+  const bool was_there = fs::exists(folder, error);
+  if (const Result<Done> kept = put_into(folder, found, bucket); !kept) {
+    // A folder without bucket.json is damage to whoever reads: what the disk had no room for is not half there.
+    if (!was_there) fs::remove_all(folder, error);
+    return kept.issue();
+  }
   return added;
 }
 
@@ -113,7 +123,7 @@ Result<Done> Corpus::remove(const Bucket& bucket) const {
   return Done{};
 }
 
-std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
+std::vector<Bucket> Corpus::buckets_under_lock(std::vector<Issue>& damaged) const {
   std::vector<std::string> folders;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder_ + "/buckets", error))
@@ -129,6 +139,46 @@ std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
       damaged.push_back(bucket.issue());
   }
   return all;
+}
+
+// A reader waits for writers only where something seems to be damaged: a folder that is being made, a file that is being
+// replaced.
+std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
+  std::vector<Issue> at_first;
+  std::vector<Bucket> all = buckets_under_lock(at_first);
+  if (at_first.empty()) return all;
+  const Result<CorpusLock> lock = CorpusLock::share(folder_);
+  return buckets_under_lock(damaged);
+}
+
+namespace {
+
+std::vector<Corpus::Stored> read_all(const std::string& folder, const std::vector<std::string>& files) {
+  std::vector<Corpus::Stored> all;
+  for (const std::string& file : files) all.push_back({folder + "/" + file, read_case(folder + "/" + file)});
+  return all;
+}
+
+bool are_readable(const std::vector<Corpus::Stored>& all) {
+  return std::ranges::all_of(all, [](const Corpus::Stored& one) { return one.stored.ok(); });
+}
+
+}  // namespace
+
+std::vector<Corpus::Stored> Corpus::cases_of(Bucket& bucket) const {
+  std::vector<Stored> all = read_all(folder_of(bucket), files_of(bucket));
+  if (are_readable(all)) return all;
+  const Result<CorpusLock> lock = CorpusLock::share(folder_);
+  if (const Result<Bucket> present = read_bucket(folder_of(bucket))) bucket = *present;
+  return read_all(folder_of(bucket), files_of(bucket));
+}
+
+Result<Case> Corpus::minimal_of(Bucket& bucket) const {
+  Result<Case> minimal = read_case(folder_of(bucket) + "/" + bucket.min);
+  if (minimal) return minimal;
+  const Result<CorpusLock> lock = CorpusLock::share(folder_);
+  if (const Result<Bucket> present = read_bucket(folder_of(bucket))) bucket = *present;
+  return read_case(folder_of(bucket) + "/" + bucket.min);
 }
 
 }  // namespace contort

@@ -56,8 +56,18 @@ class Corpus {
   // Takes the bucket and its cases away.
   Result<Done> remove(const Bucket& bucket) const;
 
-  // All buckets, by folder name. Folders that cannot be read are reported in `damaged`, never skipped silently.
+  // All buckets, by folder name. Folders that cannot be read while nobody writes are reported in `damaged`, never skipped
+  // silently. Not for whoever holds the corpus' lock, which takes the next.
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;
+  std::vector<Bucket> buckets_under_lock(std::vector<Issue>& damaged) const;
+
+  // Cases of a bucket. Where another process has replaced one since the bucket was read, it is read anew, into `bucket`.
+  struct Stored {
+    std::string path;
+    Result<Case> stored;
+  };
+  std::vector<Stored> cases_of(Bucket& bucket) const;  // min, worst, orig
+  Result<Case> minimal_of(Bucket& bucket) const;
 
   std::string folder_of(const Bucket& bucket) const;
   const std::string& folder() const { return folder_; }

@@ -9,18 +9,26 @@
 
 namespace contort {
 
-Result<CorpusLock> CorpusLock::take(const std::string& folder) {
-  const std::string path = folder + "/.lock";
-  // For writing, although nothing is written: on NFS a lock needs it.
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return Issue{"file.unwritable", "", "cannot write " + path + ": " + std::strerror(errno)};
-  while (::flock(file, LOCK_EX) != 0) {
+Result<CorpusLock> CorpusLock::wait_for(int file, int how, const std::string& path, const char* code) {
+  if (file < 0) return Issue{code, "", "cannot open " + path + ": " + std::strerror(errno)};
+  while (::flock(file, how) != 0) {
     if (errno == EINTR) continue;
     const std::string why = std::strerror(errno);
     ::close(file);
-    return Issue{"file.unwritable", "", "cannot lock " + path + ": " + why};
+    return Issue{code, "", "cannot lock " + path + ": " + why};
   }
   return CorpusLock(file);
+}
+
+Result<CorpusLock> CorpusLock::take(const std::string& folder) {
+  const std::string path = folder + "/.lock";
+  // For writing, although nothing is written: on NFS a lock needs it.
+  return wait_for(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), LOCK_EX, path, "file.unwritable");
+}
+
+Result<CorpusLock> CorpusLock::share(const std::string& folder) {
+  const std::string path = folder + "/.lock";
+  return wait_for(::open(path.c_str(), O_RDONLY | O_CLOEXEC), LOCK_SH, path, "file.unreadable");
 }
 
 CorpusLock::~CorpusLock() {

@@ -19,7 +19,7 @@ Result<Changes> each_bucket(const Corpus& corpus, const Each& each) {
   const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
   if (!lock) return lock.issue();
   std::vector<Issue> damaged;
-  const std::vector<Bucket> buckets = corpus.buckets(damaged);
+  const std::vector<Bucket> buckets = corpus.buckets_under_lock(damaged);
   if (!damaged.empty()) return damaged.front();
   Changes changes;
   for (const Bucket& bucket : buckets)

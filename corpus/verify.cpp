@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "corpus/bucket_files.h"
 #include "generator/core/hash.h"
 
 namespace contort {
@@ -24,9 +23,10 @@ bool equal(const Replay& a, const Replay& b) {
 bool fails(const Replay& replay) { return replay.verdict == Verdict::same || replay.verdict == Verdict::same_family; }
 
 // Adds the case; whether all of its runs were equal.
-bool replay_case(const Bucket& bucket, const std::string& path, const RunCase& run, std::vector<CaseReplay>& out) {
-  CaseReplay one{path, "", {}};
-  const Result<Case> stored = read_case(path);
+bool replay_case(const Bucket& bucket, const Corpus::Stored& of_bucket, const RunCase& run,
+                 std::vector<CaseReplay>& out) {
+  CaseReplay one{of_bucket.path, "", {}};
+  const Result<Case>& stored = of_bucket.stored;
   bool steady = true;
   if (!stored) {
     one.result.issue = stored.issue();
@@ -69,8 +69,8 @@ std::size_t rank_of(BucketState state) {
 BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const RunCase& run) {
   BucketReplay result{bucket, Shown::refused, {}, Verdict::refused};
   bool steady = true;
-  for (const std::string& file : files_of(bucket))
-    steady = replay_case(bucket, corpus.folder_of(bucket) + "/" + file, run, result.cases) && steady;
+  for (const Corpus::Stored& stored : corpus.cases_of(result.bucket))
+    steady = replay_case(bucket, stored, run, result.cases) && steady;
   result.shown = result.cases.empty() ? Shown::refused : shown_by(result.cases);
   result.verdict = verdict_of(result.cases, result.shown);
   if (!steady) result.shown = Shown::unsteady;

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "corpus/leads.h"
 #include "tests/corpus/sample_corpus.h"
@@ -231,6 +235,50 @@ TEST(CorpusUnwritable, WithoutANewBucketFileTheOldOneStillNamesFilesThatAreThere
   ASSERT_FALSE(corpus.add(better));
   const Bucket bucket = only_bucket(corpus);
   for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) stored(corpus, bucket, file);
+}
+
+// A folder without bucket.json would be damage to everybody who reads the corpus.
+TEST(CorpusUnwritable, ABucketThatFindsNoRoomIsNotHalfThere) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  const rlimit none{0, RLIM_INFINITY}, all{RLIM_INFINITY, RLIM_INFINITY};
+  ::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &none), 0);
+  const auto added = corpus.add(found(160, 40, 1));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &all), 0);
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.issue().code, "file.unwritable");
+  std::vector<Issue> damaged;
+  EXPECT_TRUE(corpus.buckets(damaged).empty());
+  EXPECT_TRUE(damaged.empty());
+}
+
+// One adds ever cheaper cases, so that files are replaced all the time; what another reads meanwhile is whole.
+TEST(CorpusReaders, AreNotDisturbedByAWriter) {
+  const TempFolder folder;
+  const Corpus corpus = create(folder);
+  std::atomic<bool> done = false;
+  std::thread writer([&] {
+    for (int round = 0; round < 300; ++round) {
+      Found f = found(160, 900 - round, 1);
+      f.minimal.expect.subject = f.original.expect.subject = "subject " + std::to_string(round % 30);
+      EXPECT_TRUE(corpus.add(f));
+    }
+    done = true;
+  });
+  int reads = 0;
+  while (!done) {
+    std::vector<Issue> damaged;
+    for (Bucket& bucket : corpus.buckets(damaged)) {
+      for (const Corpus::Stored& one : corpus.cases_of(bucket)) EXPECT_TRUE(one.stored) << to_line(one.stored.issue());
+      const Result<Case> minimal = corpus.minimal_of(bucket);
+      EXPECT_TRUE(minimal) << to_line(minimal.issue());
+      ++reads;
+    }
+    for (const Issue& issue : damaged) ADD_FAILURE() << to_line(issue);
+  }
+  writer.join();
+  EXPECT_GT(reads, 100);
 }
 
 TEST(CorpusUnwritable, AFolderBelowAFileIsRefusedAtOnce) {
