@@ -7,8 +7,8 @@
 
 namespace contort {
 
-std::int64_t resident_bytes(pid_t process) {
-  std::FILE* file = std::fopen(("/proc/" + std::to_string(process) + "/statm").c_str(), "re");
+std::int64_t resident_bytes(int pid) {
+  std::FILE* file = std::fopen(("/proc/" + std::to_string(pid) + "/statm").c_str(), "re");
   if (file == nullptr) return 0;
   long long all = 0, resident = 0;
   const int read = std::fscanf(file, "%lld %lld", &all, &resident);

@@ -1,15 +1,13 @@
 // What the kernel says about processes.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <string>
 
 namespace contort {
 
-// Memory that it has; 0 where it has ended.
-std::int64_t resident_bytes(pid_t process);
+// Memory that the process of this number has; 0 where it has ended.
+std::int64_t resident_bytes(int pid);
 
 // "SIGSEGV"
 std::string signal_name(int number);

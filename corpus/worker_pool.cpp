@@ -10,13 +10,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <system_error>
 
+#include "corpus/clock.h"
 #include "corpus/process.h"
 #include "corpus/whole_bytes.h"
 #include "generator/core/assert.h"
@@ -26,10 +26,6 @@ namespace contort {
 namespace {
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 constexpr double kLookEvery_s = 0.05;  // at limits: a look costs a file of /proc
 
@@ -159,7 +155,7 @@ void WorkerPool::give(int index, const std::string& task, double patience) {
   worker.busy = true;
   worker.patience = patience;
   worker.beats = worker.slot->beats();
-  worker.since_s = now_s();
+  worker.since_s = steady_s();
   send_message(worker.socket, task);  // where that fails the worker is dead, and wait() will see it
 }
 
@@ -171,8 +167,8 @@ std::optional<WorkerEvent> WorkerPool::wait(int milliseconds, int other) {
   for (std::size_t i = 0; i < workers_.size(); ++i)
     if (workers_[i].busy && sockets[i].revents != 0)
       if (std::optional<WorkerEvent> event = receive(static_cast<int>(i))) return event;
-  if (now_s() - looked_s_ < kLookEvery_s) return std::nullopt;
-  looked_s_ = now_s();
+  if (steady_s() - looked_s_ < kLookEvery_s) return std::nullopt;
+  looked_s_ = steady_s();
   for (std::size_t i = 0; i < workers_.size(); ++i)
     if (workers_[i].busy)
       if (std::optional<WorkerEvent> event = over_limit(static_cast<int>(i))) return event;
@@ -196,9 +192,9 @@ std::optional<WorkerEvent> WorkerPool::over_limit(int index) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
   if (const std::uint64_t beats = worker.slot->beats(); beats != worker.beats) {
     worker.beats = beats;
-    worker.since_s = now_s();
+    worker.since_s = steady_s();
   }
-  if (now_s() - worker.since_s > worker.patience * limits_.seconds) return bury(index, WorkerEnd::timed_out);
+  if (steady_s() - worker.since_s > worker.patience * limits_.seconds) return bury(index, WorkerEnd::timed_out);
   if (resident_bytes(worker.pid) > limits_.bytes) return bury(index, WorkerEnd::out_of_memory);
   return std::nullopt;
 }

@@ -1,11 +1,11 @@
 #include "fuzz/case_work.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
+#include "corpus/clock.h"
 #include "corpus/replay.h"
 #include "fuzz/case_fields.h"
 #include "fuzz/departures.h"
@@ -17,8 +17,6 @@ namespace contort {
 namespace {
 
 constexpr double kWithinReach = 20.0;  // of a limit, in the check's scale: 2 rad, 40 cm
-
-double steady_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string target_of(const CheckDef& check, const Character& character, std::size_t subject) {
   return std::string(check.name) + "|" + character.name() + "|" +

@@ -1,9 +1,10 @@
 #include "fuzz/trial.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
+
+#include "corpus/clock.h"
 
 namespace contort {
 
@@ -94,13 +95,13 @@ EndingTrial::EndingTrial(const Expectation& family, std::function<void(const Spe
 }
 
 TrialResult EndingTrial::run(const Spec& spec, int) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start_s = steady_s();
   const Result<Ending> ending = isolate([&] { return work_(spec), std::string(); }, isolation_);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const double took_s = steady_s() - start_s;
   TrialResult shown;
   if (!ending) return shown;
   if (!timed_ && ending->kind != Ending::Kind::timeout)
-    isolation_.seconds = std::max(5, static_cast<int>(std::ceil(10.0 * took.count())));
+    isolation_.seconds = std::max(5, static_cast<int>(std::ceil(10.0 * took_s)));
   timed_ = true;
   shown.built = true;
   if (ending->kind == Ending::Kind::finished) return shown;

@@ -8,12 +8,10 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
-#include <set>
 
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/departures.h"
-#include "fuzz/parallel.h"
 #include "fuzz/run_state.h"
 #include "generator/core/files.h"
 #include "tests/corpus/sample_cases.h"
@@ -35,14 +33,6 @@ void expect_bucket_is_sound(const Corpus& corpus, const Bucket& bucket) {
   EXPECT_EQ(min.provenance.shrunk_from, spec_id(orig.spec)) << bucket.id;
   EXPECT_EQ(bucket_id(bucket.family, features_of(min.spec)), bucket.id);
   EXPECT_EQ(bucket.runs.size(), 1U);
-}
-
-// A family that came with another one has no bucket for it.
-bool is_told(const std::string& family, const Corpus& corpus) {
-  return std::ranges::any_of(buckets_of(corpus), [&](const Bucket& bucket) {
-    const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
-    return std::ranges::find(min.also, family) != min.also.end();
-  });
 }
 
 class Runs : public testing::Test {
@@ -261,8 +251,8 @@ TEST_F(Runs, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
   }
 }
 
-// Ten minutes of motion take longer than a tenth of a second, each time. Whether they are done in the whole second that a
-// process of their own is given, is up to the machine: then it is confirmed, else not, and kept in either case.
+// Ten minutes of motion take longer than a tenth of a second, each time. Whether they are done in the whole second that
+// a process of their own is given, is up to the machine: then it is confirmed, else not, and kept in either case.
 TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
   const Corpus corpus = create(folder_ / "corpus");
   RunConfig config = config_of(1, 1);
@@ -274,8 +264,8 @@ TEST_F(Runs, ACaseThatTakesTooLongIsAFindingThatIsTriedAgain) {
   EXPECT_TRUE(result.record.families.contains("timeout|human|evaluation"));
   ASSERT_EQ(result.unconfirmed.size() + result.new_buckets.size(), 1U);
   const std::vector<Bucket> buckets = buckets_of(corpus);
-  const Case stored = *read_case(buckets.empty() ? result.unconfirmed.front()
-                                                 : corpus.folder_of(buckets[0]) + "/" + buckets[0].min);
+  const Case stored =
+      *read_case(buckets.empty() ? result.unconfirmed.front() : corpus.folder_of(buckets[0]) + "/" + buckets[0].min);
   EXPECT_EQ(stored.expect.check, "timeout");
   EXPECT_EQ(stored.expect.limit_s, 1);
 }
@@ -307,69 +297,6 @@ TEST_F(Runs, ThatAreStoppedAtOnceHaveNoCases) {
   EXPECT_EQ(result.record.cases, 0);
 }
 
-std::set<std::string> families_in(const Corpus& corpus) {
-  std::set<std::string> families;
-  for (const Bucket& bucket : buckets_of(corpus)) families.insert(bucket.family);
-  return families;
-}
-
-// What time did not reach is neither lost nor another run's by its seed: whoever comes next makes buckets of it.
-TEST_F(Runs, LeaveWhatTimeDidNotReachToTheNext) {
-  const Corpus corpus = create(folder_ / "corpus");
-  RunConfig hasty = config_of(-1, 2);
-  hasty.time_s = 0.5;
-  hasty.shrink.before_run = [](const Spec&) { ::usleep(50'000); };
-  const RunResult first = run(hasty, corpus);
-  EXPECT_EQ(first.issue.code, "");
-  ASSERT_FALSE(first.waiting.empty());
-  std::set<std::string> waiting, told = families_in(corpus);
-  for (const std::string& path : first.waiting) {
-    const Result<Lead> lead = read_lead(path);
-    ASSERT_TRUE(lead) << to_line(lead.issue());
-    EXPECT_TRUE(waits(*lead));
-    Evaluator evaluator;
-    EXPECT_EQ(replay(lead->original, library(), evaluator).verdict, Verdict::same);
-    waiting.insert(family_of(lead->original));
-  }
-  for (const auto& [family, count] : first.record.families)
-    EXPECT_TRUE(count.first_indices.empty() || waiting.contains(family) || told.contains(family) || is_told(family, corpus))
-        << family;
-  EXPECT_FALSE(fs::exists(state_path(corpus, first.record))) << "it ended as it was asked to";
-  RunConfig next = config_of(4, 2);
-  next.seed = 5;
-  const RunResult second = run(next, corpus);
-  EXPECT_TRUE(second.waiting.empty());
-  EXPECT_TRUE(std::filesystem::is_empty(corpus.folder() + "/leads"));
-  told = families_in(corpus);
-  for (const std::string& family : waiting) EXPECT_TRUE(told.contains(family)) << family;
-  expect_all_replay_as_the_same(corpus);
-}
-
-// It is the first run that put them there, whoever shrank them.
-TEST_F(Runs, FileWhatWaitedUnderTheNameOfItsRun) {
-  const Corpus corpus = create(folder_ / "corpus");
-  RunConfig hasty = config_of(-1, 1);
-  hasty.time_s = 0.01;
-  const RunResult first = run(hasty, corpus);
-  ASSERT_FALSE(first.waiting.empty());
-  RunConfig next = config_of(0, 1);
-  next.seed = 5;
-  const std::size_t filed = run(next, corpus).new_buckets.size();
-  EXPECT_EQ(filed + first.new_buckets.size(), buckets_of(corpus).size());
-  EXPECT_GE(filed, 1U);
-  for (const Bucket& bucket : buckets_of(corpus)) EXPECT_EQ(bucket.runs, std::vector<std::string>{first.record.name});
-}
-
-TEST_F(Runs, EndWhenTheirTimeIsUp) {
-  RunConfig config = config_of(-1, 2);
-  config.time_s = 0.3;
-  const RunResult result = run(config, create(folder_ / "corpus"));
-  EXPECT_FALSE(result.interrupted);
-  EXPECT_GT(result.record.cases, 0);
-  EXPECT_GE(result.elapsed_s, 0.3);
-  EXPECT_LT(result.elapsed_s, 30.0);
-}
-
 // Root may write everywhere, so the corpus is broken by putting a file where its leads go.
 TEST_F(Runs, WhoseCorpusBreaksMidwayEndWithAnIssue) {
   const Corpus corpus = create(folder_ / "corpus");
@@ -395,27 +322,6 @@ TEST_F(Runs, ReportADamagedBucketInsteadOfOverwritingIt) {
   const RunResult result = run(config_of(20, 1), corpus);
   EXPECT_NE(result.issue.code, "");
   EXPECT_EQ(slurp(before.new_buckets[0] + "/bucket.json"), "{");
-}
-
-TEST(ParallelFor, DoesEveryIndexOnceForAnyNumberOfThreads) {
-  for (const int jobs : {1, 2, 7}) {
-    std::vector<std::atomic<int>> done(100);
-    std::atomic<int> wrong_worker{0};
-    parallel_for(
-        jobs, 100,
-        [&](int worker, int index) {
-          if (worker < 0 || worker >= jobs) ++wrong_worker;
-          ++done[static_cast<std::size_t>(index)];
-        },
-        [] {});
-    for (const std::atomic<int>& times : done) EXPECT_EQ(times, 1);
-    EXPECT_EQ(wrong_worker, 0);
-  }
-}
-
-TEST(ParallelFor, NothingToDoIsDoneAtOnce) {
-  parallel_for(
-      4, 0, [](int, int) { FAIL(); }, [] { FAIL(); });
 }
 
 }  // namespace

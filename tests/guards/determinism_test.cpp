@@ -3,6 +3,8 @@
 // found through its arguments under a name that is not listed, gets through. The golden hashes are the other half.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 #include "tests/guards/source_text.h"
@@ -62,11 +64,14 @@ struct Scope {
   bool maths = false, chance = false, clock = false, order = false;
 };
 
+// Where the clock may be looked at: for watchdogs and time budgets, and to wait for threads.
+constexpr std::array<std::string_view, 2> kClockFiles = {"corpus/clock.cpp", "fuzz/parallel.cpp"};
+
 Scope scope_of(std::string_view path) {
-  const bool fuzz = path.starts_with("fuzz/");  // has a time budget, so it may look at the clock
-  if (!fuzz && !path.starts_with("generator/") && !path.starts_with("checks/") && !path.starts_with("corpus/"))
-    return {};
-  return {.maths = !path.starts_with("generator/core/detmath."), .chance = true, .clock = !fuzz, .order = true};
+  constexpr std::array<std::string_view, 4> kFolders = {"generator/", "checks/", "corpus/", "fuzz/"};
+  if (std::ranges::none_of(kFolders, [&](std::string_view folder) { return path.starts_with(folder); })) return {};
+  const bool clock = std::ranges::find(kClockFiles, path) != kClockFiles.end();
+  return {.maths = !path.starts_with("generator/core/detmath."), .chance = true, .clock = !clock, .order = true};
 }
 
 // One identifier of the code and what stands around it.
@@ -215,6 +220,7 @@ TEST(Determinism, RefusesPlantedViolations) {
       {"fuzz/draw.cpp", "std::srand(1);"},
       {"checks/check.cpp", "auto t = std::chrono::steady_clock::now();"},
       {"corpus/store.cpp", "#include <chrono>\n"},
+      {"fuzz/run.cpp", "const auto start = std::chrono::steady_clock::now();"},
       {"corpus/store.cpp", "auto t = std::time(nullptr);"},
       {"corpus/store.cpp", "auto t = ::time(nullptr);"},
       {"corpus/store.cpp", "clock_gettime(CLOCK_REALTIME, &t);"},
@@ -237,7 +243,7 @@ TEST(Determinism, AllowsWhatIsRight) {
       {"generator/actions/walk.cpp",
        "v = glm::normalize(glm::cross(a, b)); q = glm::conjugate(q); m = glm::mat3_cast(q);"},
       {"generator/core/detmath.cpp", "double sin(double x) { return sincos(x).sin; }"},
-      {"fuzz/run.cpp", "const auto start = std::chrono::steady_clock::now();"},
+      {"corpus/clock.cpp", "const auto start = std::chrono::steady_clock::now();"},
       {"renders/camera.cpp", "y = std::tan(x);"},
       {"cli/fuzz.cpp", "#include <chrono>\nstd::unordered_map<int, int> m;"},
       {"tests/core/detmath_test.cpp", "y = std::sin(x);"},

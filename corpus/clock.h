@@ -1,0 +1,9 @@
+// The one clock below the command line: for watchdogs and time budgets. What a case shows never depends on it.
+#pragma once
+
+namespace contort {
+
+// Seconds since some moment before the process began; never goes back.
+double steady_s();
+
+}  // namespace contort
