@@ -79,12 +79,15 @@ export async function closeAll() {
 
 // ---- cases of a report
 
+// The first bucket of each card comes first: later ones of a card may be folded away.
 export function readCases(folder) {
-  const cases = new Map();
+  const found = new Map();
   for (const name of readdirSync(join(folder, 'cases')).filter((file) => file.endsWith('.js')).sort())
     vm.runInNewContext(readFileSync(join(folder, 'cases', name), 'utf8'),
-      { contortCase: (key, data) => cases.set(key, data) });
-  return cases;
+      { contortCase: (key, data) => found.set(key, data) });
+  const cards = readFileSync(join(folder, 'index.html'), 'utf8').split("class='card").slice(1);
+  const firsts = cards.map((card) => card.match(/data-case='([^']+)'/)?.[1]).filter((key) => found.has(key));
+  return new Map([...new Set([...firsts, ...found.keys()])].map((key) => [key, found.get(key)]));
 }
 
 // Key of the first case for which `fits` is true; undefined where there is none.
