@@ -13,91 +13,92 @@ constexpr std::array<std::string_view, 6> kPhases = {"impact", "interrupt", "cli
 constexpr double kImpact_s = 0.5;
 constexpr double kInterrupt_s = 0.15;
 
-class Inquiry {
+// The phases of all frames, from the calmest to the most violent, each over those before.
+class PhasePainter {
  public:
-  Inquiry(const Timeline& timeline, const Motion& motion, int frame)
-      : timeline_(timeline), motion_(motion), frame_(frame), moving_(moving_actions()) {}
+  PhasePainter(const Timeline& timeline, const Motion& motion)
+      : timeline_(timeline),
+        motion_(motion),
+        phases_(static_cast<std::size_t>(std::max(0, motion.frame_count)), Phase::at_rest) {}
 
-  Phase phase() const {
-    if (after_blow()) return Phase::impact;
-    if (after_interrupt()) return Phase::interrupt;
-    if (at_switch()) return Phase::clip_switch;
-    if (std::ranges::any_of(moving_, [&](auto* a) { return fades(*a); })) return Phase::blend;
-    return moving_.empty() ? Phase::at_rest : Phase::mid_clip;
-  }
-
-  std::vector<ActiveAction> actions(const Character& character) const {
-    std::vector<ActiveAction> out;
-    for (const PlannedAction* action : moving_) out.push_back(describe(*action, character));
-    // One use may move several parts.
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+  std::vector<Phase> painted() && {
+    for (const ActionSpan& span : motion_.spans) paint(Phase::mid_clip, span.first_frame, span.last_frame);
+    for (const PlannedAction& action : timeline_.actions)
+      for (const ActionSpan& span : motion_.spans)
+        if (is_of(span, action)) paint_fades(action, span);
+    for (const QueueSpan& span : motion_.queue) paint_switches(span);
+    paint_interrupts();
+    for (const ImpactMark& mark : motion_.response.impacts)
+      paint(Phase::impact, mark.frame, mark.frame + frames(kImpact_s));
+    return std::move(phases_);
   }
 
  private:
-  bool within(int since, double time_s) const {
-    return frame_ >= since && frame_ - since <= static_cast<int>(time_s * motion_.rate_hz);
+  int frames(double time_s) const { return static_cast<int>(time_s * motion_.rate_hz); }
+
+  void paint(Phase phase, int first, int last) {
+    for (int f = std::max(0, first); f <= std::min(last, motion_.frame_count - 1); ++f)
+      phases_[static_cast<std::size_t>(f)] = phase;
   }
 
-  std::vector<const PlannedAction*> moving_actions() const {
-    std::vector<const PlannedAction*> out;
-    for (const PlannedAction& action : timeline_.actions)
-      if (std::ranges::any_of(motion_.spans, [&](const ActionSpan& s) {
-            return s.first_frame <= frame_ && frame_ <= s.last_frame && s.sequence == action.sequence &&
-                   s.clip == action.clip && s.action == action.action && s.part == action.part;
-          }))
-        out.push_back(&action);
-    return out;
+  // An action comes in or fades out in these frames of its span.
+  void paint_fades(const PlannedAction& action, const ActionSpan& span) {
+    for (const QueueSpan& of : motion_.queue) {
+      if (of.sequence != action.sequence) continue;
+      for (int f = std::max(span.first_frame, of.first_frame); f <= std::min(span.last_frame, of.last_frame); ++f) {
+        const double content = of.first_content + f - of.first_frame;
+        if (content < action.start + action.blend_in || content > action.end - action.blend_out)
+          paint(Phase::blend, f, f);
+      }
+    }
   }
 
-  ActiveAction describe(const PlannedAction& action, const Character& character) const {
-    std::string pointer = "/sequences/" + std::to_string(action.sequence);
-    if (action.sequence >= timeline_.queued)
-      pointer = "/interrupts/" + std::to_string(action.sequence - timeline_.queued) + "/sequence";
-    pointer += "/clips/" + std::to_string(action.clip) + "/actions/" + std::to_string(action.action);
-    return {action.name, character.parts()[static_cast<std::size_t>(action.named)].slot, pointer};
-  }
-
-  bool after_blow() const {
-    return std::ranges::any_of(motion_.response.impacts,
-                               [&](const ImpactMark& m) { return within(m.frame, kImpact_s); });
+  void paint_switches(const QueueSpan& span) {
+    const auto paint_at = [&](int frame) {
+      paint(Phase::clip_switch, std::max(frame, span.first_frame) - 1, std::min(frame, span.last_frame) + 1);
+    };
+    if (span.first_frame > 0) paint_at(span.first_frame);
+    for (const PlannedClip& clip : timeline_.sequences[static_cast<std::size_t>(span.sequence)].clips)
+      for (const int edge : {clip.start, clip.end}) {
+        const int frame = edge - span.first_content + span.first_frame;
+        if (edge > 0 && frame >= span.first_frame - 2 && frame <= span.last_frame + 2) paint_at(frame);
+      }
   }
 
   // An interrupt's sequence begins, or one that was cut goes on or is dropped for the next.
-  bool after_interrupt() const {
+  void paint_interrupts() {
     for (std::size_t i = 0; i < motion_.queue.size(); ++i) {
       const QueueSpan& span = motion_.queue[i];
       const bool interrupts = span.sequence >= timeline_.queued || span.first_content > 0;
       const bool after_cut = i > 0 && motion_.queue[i - 1].sequence >= timeline_.queued;
-      if ((interrupts || after_cut) && within(span.first_frame, kInterrupt_s)) return true;
+      if (interrupts || after_cut) paint(Phase::interrupt, span.first_frame, span.first_frame + frames(kInterrupt_s));
     }
-    return false;
-  }
-
-  bool at_switch() const {
-    return std::ranges::any_of(motion_.queue, [&](const QueueSpan& span) {
-      if (frame_ < span.first_frame - 1 || frame_ > span.last_frame + 1) return false;
-      if (span.first_frame > 0 && std::abs(frame_ - span.first_frame) <= 1) return true;
-      const int content = span.first_content + frame_ - span.first_frame;
-      const auto near = [&](int edge) { return edge > 0 && std::abs(content - edge) <= 1; };
-      return std::ranges::any_of(timeline_.sequences[static_cast<std::size_t>(span.sequence)].clips,
-                                 [&](const PlannedClip& clip) { return near(clip.start) || near(clip.end); });
-    });
-  }
-
-  bool fades(const PlannedAction& action) const {
-    return std::ranges::any_of(motion_.queue, [&](const QueueSpan& span) {
-      if (span.sequence != action.sequence || frame_ < span.first_frame || frame_ > span.last_frame) return false;
-      const double content = span.first_content + frame_ - span.first_frame;
-      return content < action.start + action.blend_in || content > action.end - action.blend_out;
-    });
   }
 
   const Timeline& timeline_;
   const Motion& motion_;
-  int frame_;
-  std::vector<const PlannedAction*> moving_;
+  std::vector<Phase> phases_;
 };
+
+ActiveAction describe(const PlannedAction& action, const Timeline& timeline, const Character& character) {
+  std::string pointer = "/sequences/" + std::to_string(action.sequence);
+  if (action.sequence >= timeline.queued)
+    pointer = "/interrupts/" + std::to_string(action.sequence - timeline.queued) + "/sequence";
+  pointer += "/clips/" + std::to_string(action.clip) + "/actions/" + std::to_string(action.action);
+  return {action.name, character.parts()[static_cast<std::size_t>(action.named)].slot, pointer};
+}
+
+std::vector<ActiveAction> active_actions(const Stage& stage, const Motion& motion, int frame) {
+  std::vector<ActiveAction> out;
+  for (const PlannedAction& action : stage.timeline.actions)
+    if (std::ranges::any_of(motion.spans, [&](const ActionSpan& span) {
+          return span.first_frame <= frame && frame <= span.last_frame && is_of(span, action);
+        }))
+      out.push_back(describe(action, stage.timeline, *stage.character));
+  // One use may move several parts.
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
 
 }  // namespace
 
@@ -105,13 +106,21 @@ std::span<const std::string_view> phase_names() { return kPhases; }
 
 std::string_view phase_name(Phase phase) { return kPhases[static_cast<std::size_t>(phase)]; }
 
-Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame) {
-  const Inquiry inquiry(stage.timeline, motion, frame);
-  return {inquiry.phase(), inquiry.actions(*stage.character)};
+bool is_of(const ActionSpan& span, const PlannedAction& action) {
+  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
+         span.part == action.part;
+}
+
+std::vector<Phase> phases_of(const Timeline& timeline, const Motion& motion) {
+  return PhasePainter(timeline, motion).painted();
 }
 
 Phase phase_of(const Timeline& timeline, const Motion& motion, int frame) {
-  return Inquiry(timeline, motion, frame).phase();
+  return phases_of(timeline, motion)[static_cast<std::size_t>(frame)];
+}
+
+Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame) {
+  return {phase_of(stage.timeline, motion, frame), active_actions(stage, motion, frame)};
 }
 
 }  // namespace contort

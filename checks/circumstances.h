@@ -36,8 +36,12 @@ struct Circumstances {
   bool operator==(const Circumstances&) const = default;
 };
 
-// Of a frame of the motion that was generated from this stage.
+// Of a frame, in [0, frame_count), of the motion that was generated from this stage.
 Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame);
 Phase phase_of(const Timeline& timeline, const Motion& motion, int frame);
+std::vector<Phase> phases_of(const Timeline& timeline, const Motion& motion);  // of every frame
+
+// Whether it is this action that moved the part of the span.
+bool is_of(const ActionSpan& span, const PlannedAction& action);
 
 }  // namespace contort

@@ -53,9 +53,10 @@ Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
 }
 
 void Evaluator::set_waived_apart(const Stage& stage, Evaluation& evaluation) const {
+  const std::vector<Phase> of_frames = phases_of(stage.timeline, motion_);
   std::vector<Phase> phases;
   for (const Finding& finding : evaluation.findings)
-    phases.push_back(phase_of(stage.timeline, motion_, finding.worst_frame));
+    phases.push_back(of_frames[static_cast<std::size_t>(finding.worst_frame)]);
   Waived waived = waive(settings_.waivers, evaluation.findings, phases, settings_.today);
   std::vector<Finding> open;
   for (std::size_t f = 0; f < evaluation.findings.size(); ++f)

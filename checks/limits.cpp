@@ -6,17 +6,6 @@
 
 namespace contort {
 
-namespace {
-
-std::vector<std::uint8_t> phases_of(const Timeline& timeline, const Motion& motion) {
-  std::vector<std::uint8_t> phases;
-  for (int frame = 0; frame < motion.frame_count; ++frame)
-    phases.push_back(static_cast<std::uint8_t>(phase_of(timeline, motion, frame)));
-  return phases;
-}
-
-}  // namespace
-
 void apply_limits(const CheckDef& check, const CheckInput& in, MarginFold& fold) {
   std::vector<LimitRule> rules = in.settings.limits;
   std::erase_if(rules, [&](const LimitRule& rule) {
@@ -35,7 +24,8 @@ void apply_limits(const CheckDef& check, const CheckInput& in, MarginFold& fold)
           tolerances[static_cast<std::size_t>(s) * phase_count + p] = tolerance_of(rule);
   }
   std::vector<std::uint8_t> phases;
-  if (has_phases) phases = phases_of(*in.timeline, in.motion);
+  if (has_phases)
+    for (const Phase phase : phases_of(*in.timeline, in.motion)) phases.push_back(static_cast<std::uint8_t>(phase));
   fold.tolerate(std::move(tolerances), std::move(phases), static_cast<int>(phase_count));
 }
 
