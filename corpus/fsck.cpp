@@ -10,6 +10,7 @@
 
 #include "corpus/fsck_files.h"
 #include "corpus/lock.h"
+#include "corpus/runs.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
@@ -92,11 +93,11 @@ void check_temporaries(const std::string& root, FaultList& faults) {
     });
 }
 
-Result<Done> read_json(const std::string& path) {
-  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
-  if (!text) return text.issue();
-  const Result<json_fields::Json> tree = json_fields::parse_document(*text);
-  if (!tree) return tree.issue();
+Result<Done> read_record(const std::string& path) {
+  if (const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes); !text)
+    return text.issue();
+  const Result<RunRecord> record = read_run(path);
+  if (!record) return record.issue();
   return Done{};
 }
 
@@ -139,7 +140,7 @@ Result<std::vector<CorpusFault>> check_files(const Corpus& corpus, bool repair) 
     else if (!writer_of(name))
       faults.add(path, "unknown_file", "is no folder of a bucket", [&] { return faults.move_aside(path); });
   }
-  check_plain(corpus.folder() + "/runs", read_json, faults);
+  check_plain(corpus.folder() + "/runs", read_record, faults);
   check_plain(corpus.folder() + "/leads", read_lead, faults);
   return faults.take();
 }

@@ -18,16 +18,6 @@ std::string record_name(const RunRecord& run) {
 
 namespace {
 
-Result<RunRecord> read_run(const std::string& path) {
-  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
-  if (!text) return text.issue();
-  Result<RunRecord> run = json_fields::read_document<RunRecord>(*text, "run");
-  if (run) return run;
-  Issue issue = run.issue();
-  issue.text = path + ": " + issue.text;
-  return issue;
-}
-
 std::string path_of(const Corpus& corpus, const RunRecord& run) {
   return corpus.folder() + "/runs/" + record_name(run) + ".json";
 }
@@ -46,6 +36,16 @@ void add_families(const RunRecord& shard, RunRecord& sum) {
 }
 
 }  // namespace
+
+Result<RunRecord> read_run(const std::string& path) {
+  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
+  if (!text) return text.issue();
+  Result<RunRecord> run = json_fields::read_document<RunRecord>(*text, "run");
+  if (run) return run;
+  Issue issue = run.issue();
+  issue.text = path + ": " + issue.text + "; contort corpus fsck --repair sets it aside";
+  return issue;
+}
 
 RunRecord added_up(const std::vector<RunRecord>& shards) {
   RunRecord sum;

@@ -48,6 +48,9 @@ struct RunRecord {
 // "seed_7_0123abcd", of a shard "seed_7_0123abcd.shard_3_of_16".
 std::string record_name(const RunRecord& run);
 
+// Code json.* where it is none of this version's.
+Result<RunRecord> read_run(const std::string& path);
+
 void drop_run(const Corpus& corpus, const RunRecord& run);
 
 // Keeps the record unless one of the same name with more cases is there.

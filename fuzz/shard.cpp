@@ -1,5 +1,6 @@
 #include "fuzz/shard.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "fuzz/islands.h"
@@ -19,35 +20,45 @@ Result<Shard> checked(int index, int count, const std::string& said) {
   if (count < 1 || count > kIslands)
     return Issue{"shard.range", "", said + ": a run has 1 to " + std::to_string(kIslands) + " shards"};
   if (index < 0 || index >= count)
-    return Issue{"shard.range", "", said + ": shards of " + std::to_string(count) + " are numbered from 0 to " +
-                                        std::to_string(count - 1)};
+    return Issue{
+        "shard.range", "",
+        said + ": shards of " + std::to_string(count) + " are numbered from 0 to " + std::to_string(count - 1)};
   return Shard{index, count};
 }
 
-// A scheduler's variables. `first` names the number of its first shard, or is that number itself.
+// A scheduler's variables. `first` and `step` name the number of its first shard and how far it is to the next, or are
+// these numbers themselves.
 struct Scheduler {
   const char* index;
   const char* count;
   const char* first;
+  const char* step;
 };
-constexpr Scheduler kSchedulers[] = {{"GTEST_SHARD_INDEX", "GTEST_TOTAL_SHARDS", "0"},
-                                     {"TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "0"},
-                                     {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN"},
-                                     {"JOB_COMPLETION_INDEX", "CONTORT_SHARDS", "0"},
-                                     {"CI_NODE_INDEX", "CI_NODE_TOTAL", "1"}};
+constexpr Scheduler kSchedulers[] = {
+    {"GTEST_SHARD_INDEX", "GTEST_TOTAL_SHARDS", "0", "1"},
+    {"TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "0", "1"},
+    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_STEP"},
+    {"JOB_COMPLETION_INDEX", "CONTORT_SHARDS", "0", "1"},
+    {"CI_NODE_INDEX", "CI_NODE_TOTAL", "1", "1"}};
 
 Result<Shard> shard_of(const Scheduler& scheduler, const Variables& value_of) {
   const auto number = [&](const char* name) -> std::optional<int> {
     const char* text = value_of(name);
     return text == nullptr ? std::nullopt : whole_number(text);
   };
+  const auto number_or_name = [&](const char* text) {
+    const std::optional<int> fixed = whole_number(text);
+    return fixed ? fixed : number(text);
+  };
   const std::optional<int> index = number(scheduler.index), count = number(scheduler.count);
-  const std::optional<int> fixed = whole_number(scheduler.first);
-  const std::optional<int> first = fixed ? fixed : number(scheduler.first);
+  const std::optional<int> first = number_or_name(scheduler.first);
+  const int step = std::max(1, number_or_name(scheduler.step).value_or(1));
   const std::string said = std::string(scheduler.index) + ", " + scheduler.count;
   if (!index || !count || !first)
     return Issue{"shard.environment", "", said + " must both be set, to whole numbers; or say --shard K/N"};
-  return checked(*index - *first, *count, said);
+  if ((*index - *first) % step != 0)
+    return Issue{"shard.range", "", said + ": the numbers of the array are not evenly spaced"};
+  return checked((*index - *first) / step, *count, said);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "corpus/bucket_files.h"
 #include "corpus/leads.h"
+#include "corpus/runs.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
@@ -161,6 +162,17 @@ TEST_F(Fsck, ABucketWithoutAnyCaseIsPutAsideWhole) {
   EXPECT_GT(mended.size(), 1U);
   EXPECT_TRUE(is_aside("buckets/" + folder_name(bucket_) + "/bucket.json"));
   EXPECT_TRUE(checked(corpus_).empty());
+}
+
+// Its counts may mean something else; reports and merges cannot take it.
+TEST_F(Fsck, ARecordOfAnotherFormatIsPutAside) {
+  spill(corpus_.folder() + "/runs/seed_1_0123abcd.json", R"({"format":"contort.run/3","name":"seed_1_0123abcd"})");
+  std::vector<Issue> damaged;
+  EXPECT_TRUE(runs_of(corpus_, damaged).empty());
+  ASSERT_EQ(damaged.size(), 1U);
+  EXPECT_NE(damaged[0].text.find("fsck --repair"), std::string::npos) << damaged[0].text;
+  expect_mended("unreadable", "runs/seed_1_0123abcd.json");
+  EXPECT_TRUE(is_aside("runs/seed_1_0123abcd.json"));
 }
 
 TEST_F(Fsck, LeadsAndRunsThatCannotBeReadArePutAside) {

@@ -22,7 +22,8 @@ TEST(Shards, AreWrittenAsKOfN) {
   EXPECT_EQ(*parse_shard("0/1"), (Shard{0, 1}));
   for (const char* text : {"", "3", "3/", "/3", "a/b", "1/2/3", "1.5/2", " 1/2", "+1/2"})
     EXPECT_EQ(parse_shard(text).issue().code, "shard.syntax") << text;
-  for (const char* text : {"2/2", "-1/2", "0/0", "0/65"}) EXPECT_EQ(parse_shard(text).issue().code, "shard.range") << text;
+  for (const char* text : {"2/2", "-1/2", "0/0", "0/65"})
+    EXPECT_EQ(parse_shard(text).issue().code, "shard.range") << text;
 }
 
 TEST(Shards, EveryIslandIsOfExactlyOne) {
@@ -40,6 +41,11 @@ TEST(Shards, EachSchedulerIsUnderstood) {
   EXPECT_EQ(*said_by({{"TEST_SHARD_INDEX", "2"}, {"TEST_TOTAL_SHARDS", "5"}}), (Shard{2, 5}));
   EXPECT_EQ(*said_by({{"SLURM_ARRAY_TASK_ID", "12"}, {"SLURM_ARRAY_TASK_MIN", "10"}, {"SLURM_ARRAY_TASK_COUNT", "4"}}),
             (Shard{2, 4}));
+  EXPECT_EQ(*said_by({{"SLURM_ARRAY_TASK_ID", "4"},
+                      {"SLURM_ARRAY_TASK_MIN", "0"},
+                      {"SLURM_ARRAY_TASK_STEP", "2"},
+                      {"SLURM_ARRAY_TASK_COUNT", "4"}}),
+            (Shard{2, 4}));  // --array=0-6:2
   EXPECT_EQ(*said_by({{"JOB_COMPLETION_INDEX", "0"}, {"CONTORT_SHARDS", "8"}}), (Shard{0, 8}));
   EXPECT_EQ(*said_by({{"CI_NODE_INDEX", "1"}, {"CI_NODE_TOTAL", "4"}}), (Shard{0, 4}));
 }
@@ -53,6 +59,13 @@ TEST(Shards, HalfOfWhatASchedulerSaysIsRefused) {
                 .issue()
                 .code,
             "shard.range");  // an array with gaps
+  EXPECT_EQ(said_by({{"SLURM_ARRAY_TASK_ID", "3"},
+                     {"SLURM_ARRAY_TASK_MIN", "0"},
+                     {"SLURM_ARRAY_TASK_STEP", "2"},
+                     {"SLURM_ARRAY_TASK_COUNT", "4"}})
+                .issue()
+                .code,
+            "shard.range");
 }
 
 }  // namespace
