@@ -11,6 +11,7 @@
 #include "cli/progress_line.h"
 #include "cli/render.h"
 #include "cli/report_folder.h"
+#include "cli/surroundings.h"
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
@@ -28,8 +29,8 @@ constexpr int kMostSeconds = 60;  // for the motions of one bucket
 // The files of a bucket that are cases of their own.
 Result<std::string> data_of(const CasePage& page, const Library& library, const CheckSettings& settings) {
   std::vector<std::pair<std::string, Case>> cases;
-  for (const auto& [role, file] : {std::pair("minimal", page.minimal), std::pair("original", page.original),
-                                   std::pair("worst", page.worst)}) {
+  for (const auto& [role, file] :
+       {std::pair("minimal", page.minimal), std::pair("original", page.original), std::pair("worst", page.worst)}) {
     if (file.empty()) continue;
     Result<Case> stored = read_case(page.folder + "/" + file);
     if (!stored && cases.empty()) return stored.issue();
@@ -43,24 +44,6 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
 }
 
 // ---- what a file was made of
-
-// Of this program and what all cases depend on: the text of --settings and every file of the library, which a motion or
-// a table may come from. The program's own bytes, because a version says nothing while the program is worked on.
-std::string surroundings_id(const Context& context) {
-  const auto text_of = [](const std::string& path) {
-    const Result<std::string> text = read_file(path);
-    return text ? *text : "";
-  };
-  std::string ids = content_id(text_of("/proc/self/exe")) + content_id(text_of(context.settings_file));
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const std::string& folder : context.library_folders)
-    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
-      if (entry.is_regular_file(error)) files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  for (const std::string& file : files) ids += file + "\n" + content_id(text_of(file));
-  return content_id(ids);
-}
 
 std::string stamp_of(const CasePage& page, const std::string& surroundings) {
   std::string made_of = surroundings + "\n" + page.key + "\n" + page.strip;

@@ -5,7 +5,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <set>
+#include <span>
 #include <thread>
 
 #include "cli/case_log.h"
@@ -17,11 +19,15 @@
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/seeds.h"
+#include "cli/surroundings.h"
 #include "corpus/leads.h"
 #include "corpus/lifecycle.h"
+#include "corpus/search_progress.h"
 #include "fuzz/run.h"
+#include "fuzz/run_state.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
+#include "renders/search_html.h"
 
 namespace contort::cli {
 
@@ -130,6 +136,9 @@ Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
 }
 
 Result<Shard> choose_shard(const Options& options) {
+  // Bazel takes a test that does not touch this file for one that does all the work in each of its shards.
+  if (const char* touched = std::getenv("TEST_SHARD_STATUS_FILE"); touched != nullptr)
+    if (const Result<Done> done = write_file(touched, ""); !done) return done.issue();
   if (!options.shard.empty()) return parse_shard(options.shard);
   const Result<std::optional<Shard>> said = shard_of_environment([](const char* name) { return std::getenv(name); });
   if (!said) return said.issue();
@@ -204,6 +213,7 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
         "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), options.shrinks_per_case);
+  std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
   if (result.interrupted)
     std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
   if (!result.waiting.empty())
@@ -217,14 +227,15 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
 // The last line, whatever else was printed.
 void print_result(const RunResult& result) {
   const RunRecord& t = result.record;
-  std::printf("RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
-              static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(),
-              result.waiting.size(), t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases),
-              static_cast<long long>(t.frames));
+  std::printf(
+      "RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
+      static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(), result.waiting.size(),
+      t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases), static_cast<long long>(t.frames));
 }
 
 // Whether anything that was found fails a build: what people know of, or the baseline has, does not.
-Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Options& options, const std::string& today) {
+Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Options& options,
+                       const std::string& today) {
   const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
   if (!baseline) return baseline.issue();
   for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
@@ -249,6 +260,23 @@ int exit_code_of(const RunResult& result, bool gates) {
   return gates ? kFindings : kClean;
 }
 
+// Whoever wants to go on with a run, and has built anew or changed an option since, begins another one.
+void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
+  RunRecord record;
+  record.name = run_name(config), record.shard = config.shard.index, record.shards = config.shard.count;
+  std::error_code error;
+  if (!config.resume || std::filesystem::exists(state_path(corpus, record), error)) return;
+  std::set<std::string> others;
+  for (const auto& entry : std::filesystem::directory_iterator(corpus.folder() + "/runs", error))
+    if (entry.path().extension() == ".state") others.insert(entry.path().stem());
+  for (const std::string& other : others)
+    std::fprintf(
+        stderr,
+        "contort: %s was stopped, and this is %s: another build, library, profile, seed or settings; it begins "
+        "anew\n",
+        printable(other).c_str(), record_name(record).c_str());
+}
+
 void run(const Options& options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
@@ -259,11 +287,11 @@ void run(const Options& options, Context& context) {
   Result<RunConfig> configured = configure(options, *settings, *library);
   if (!configured) return context.fail(configured.issue());
   RunConfig config = std::move(configured).value();
-  if (!context.settings_file.empty())
-    if (const Result<std::string> text = read_file(context.settings_file)) config.settings = *text;
+  config.surroundings = surroundings_id(context);
   const Result<Corpus> corpus = Corpus::create(options.corpus);
   if (!corpus) return context.fail(corpus.issue(), kInternal);
   warn_of_other_rules(*corpus);
+  warn_of_other_states(config, *corpus);
   Result<CaseLog> opened = CaseLog::open(options.log, options.resume);
   if (!opened) return context.fail(opened.issue());
   CaseLog log = std::move(opened).value();

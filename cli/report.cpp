@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -21,6 +22,7 @@
 #include "corpus/corpus.h"
 #include "corpus/leads.h"
 #include "corpus/runs.h"
+#include "fuzz/labels.h"
 #include "fuzz/parallel.h"
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
@@ -196,22 +198,14 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
   return seen;
 }
 
-// For each slot the pairs, an action with itself too, of what its parts can do, in any character of the library.
-std::int64_t pairs_possible(const Library& library, const ReportModel& model) {
-  std::map<std::string, std::set<std::string>> actions;  // by slot, also of those that move the part from elsewhere
+// What the characters that were tried could have been made to do, and never were: with 0.
+void add_never_tested(const Library& library, ReportModel& model) {
+  std::map<std::string, std::int64_t> tested(model.tested.begin(), model.tested.end());
   for_variants(library, [&](const Character& character) {
-    for (std::size_t p = 0; p < character.parts().size(); ++p)
-      for (const Action& action : actions_of(character, character.parts()[p]))
-        for (const int moved : parts_moved(*action.def, character, static_cast<int>(p)))
-          actions[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+    if (!tested.contains("character " + character.name())) return;
+    for (const std::string& label : possible_labels(character)) tested.try_emplace(label, 0);
   });
-  std::set<std::string> pairs;
-  for (const auto& [slot, names] : actions)
-    for (auto a = names.begin(); a != names.end(); ++a)
-      for (auto b = a; b != names.end(); ++b) pairs.insert("pair " + *a + " + " + *b + " on " + slot);
-  for (const auto& [name, count] : model.tested)
-    if (name.rfind("pair ", 0) == 0) pairs.insert(name);
-  return static_cast<std::int64_t>(pairs.size());
+  model.tested.assign(tested.begin(), tested.end());
 }
 
 // The strip, its moving picture, and from where it is seen. Drawn in this order.
@@ -317,7 +311,7 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
   Media media;
   fill_rows(*corpus, *known, model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
-  model.pairs_possible = pairs_possible(library, model);
+  add_never_tested(library, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)
     return context.fail(written.issue(), kInternal);
   if (!request.folder.empty()) write_page(request, model, std::move(media), library, context);

@@ -59,7 +59,7 @@ CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus
 
 std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   const CaseTask task = parse_task(text);
-  const CaseReport report = !task.lead.empty()   ? shrink_waiting(task, slot)
+  const CaseReport report = !task.lead.empty()    ? shrink_waiting(task, slot)
                             : task.family.empty() ? evaluate(task, slot)
                                                   : settle(task, slot);
   return json_fields::write_canonical(report);
@@ -72,8 +72,8 @@ CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   const Result<Stage> stage = build_stage(spec, library_);
   if (!stage) return report;
   report.built = true;
-  report.tested = labels_of(spec, *stage);
   const Evaluation evaluation = evaluator_.run(*stage);
+  report.tested = labels_of(spec, *stage, evaluator_.motion());
   report.frames = evaluation.frame_count;
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;

@@ -44,8 +44,17 @@ struct Stock {
   std::vector<Action> actions(const Part& part) const {
     std::vector<Action> all = actions_of(character, part);
     std::erase_if(all, [&](const Action& action) { return features.profile().never(part.slot, action.name); });
-    return features.among(all, "action", features.profile().actions,
-                          [](const Action& action) { return std::string_view(action.name); });
+    all = features.among(all, "action", features.profile().actions,
+                         [](const Action& action) { return std::string_view(action.name); });
+    return weighted(all, part);
+  }
+
+  // Each as often as the profile wants it.
+  std::vector<Action> weighted(const std::vector<Action>& all, const Part& part) const {
+    std::vector<Action> often;
+    for (const Action& action : all)
+      often.insert(often.end(), static_cast<std::size_t>(features.profile().weight(part.slot, action.name)), action);
+    return often;
   }
 };
 

@@ -97,7 +97,8 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   if (def.type == ParamType::object_point || def.type == ParamType::own_point) {
     const std::vector<std::string> names =
         def.type == ParamType::own_point ? own_points(character, part) : object_points(character, part);
-    return names[std::min(names.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
+    return names[std::min(names.size() - 1,
+                          static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
   }
   switch (def.domain) {
     case Domain::joint_range:

@@ -31,8 +31,8 @@ class Departures {
 
   int count(const SequenceDesc& sequence) {
     for (const ClipDesc& clip : sequence.clips) {
-      if (clip.duration_frames != 0) count_if(!profile_.speeds || clip.duration_frames < kShortestStretch ||
-                                                clip.duration_frames > kLongestStretch);
+      if (clip.duration_frames != 0)
+        count_if(!profile_.speeds || clip.duration_frames < kShortestStretch || clip.duration_frames > kLongestStretch);
       count_if(!profile_.speeds && clip.speed != 1.0);
       for (const ActionUse& use : clip.actions) count(use);
     }

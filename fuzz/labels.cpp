@@ -1,16 +1,48 @@
 #include "fuzz/labels.h"
 
-#include <set>
+#include <algorithm>
+#include <map>
+
+#include "checks/circumstances.h"
+#include "generator/actions/action.h"
 
 namespace contort {
 
 namespace {
 
-void add_uses(const Stage& stage, std::vector<std::string>& labels) {
-  for (const PlannedAction& action : stage.timeline.actions)
-    if (action.part == action.named)
-      labels.push_back("action " + action.name + " (" + std::string(layer_name(action.def->layer)) + ") on " +
-                       stage.character->parts()[static_cast<std::size_t>(action.part)].slot);
+std::string use_label(const std::string& name, const ActionDef& def, const Part& part) {
+  return "action " + name + " (" + std::string(layer_name(def.layer)) + ") on " + part.slot;
+}
+
+std::string pair_label(const std::string& one, const std::string& other, const std::string& slot) {
+  return "pair " + std::min(one, other) + " + " + std::max(one, other) + " on " + slot;
+}
+
+// In which phases an action moved its part: a bit for each.
+unsigned phases_in(const PlannedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
+  unsigned phases = 0;
+  for (const ActionSpan& span : motion.spans)
+    for (int f = span.first_frame; is_of(span, action) && f <= span.last_frame; ++f)
+      phases |= 1U << static_cast<unsigned>(of_frames[static_cast<std::size_t>(f)]);
+  return phases;
+}
+
+void add_uses(const Stage& stage, const Motion& motion, std::vector<std::string>& labels) {
+  const std::vector<Phase> of_frames = phases_of(stage.timeline, motion);
+  for (const PlannedAction& action : stage.timeline.actions) {
+    if (action.part != action.named) continue;
+    const Part& part = stage.character->parts()[static_cast<std::size_t>(action.part)];
+    const std::string label = use_label(action.name, *action.def, part);
+    labels.push_back(label);
+    const unsigned phases = phases_in(action, motion, of_frames);
+    for (std::size_t p = 0; p < phase_names().size(); ++p)
+      if ((phases >> p & 1U) != 0) labels.push_back(label + " in " + std::string(phase_names()[p]));
+  }
+}
+
+// More than the frame in which the one ends and the other begins.
+bool overlap(const PlannedAction& x, const PlannedAction& y) {
+  return x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
 // Of actions that move one part at the same time.
@@ -23,8 +55,7 @@ std::set<std::string> pairs_of(const Stage& stage) {
       for (const int b : timeline.of_part[i]) {
         const PlannedAction& x = timeline.actions[static_cast<std::size_t>(a)];
         const PlannedAction& y = timeline.actions[static_cast<std::size_t>(b)];
-        if (a == b || x.name > y.name || x.first_frame > y.last_frame || y.first_frame > x.last_frame) continue;
-        pairs.insert("pair " + x.name + " + " + y.name + " on " + part.slot);
+        if (a < b && overlap(x, y)) pairs.insert(pair_label(x.name, y.name, part.slot));
       }
   }
   return pairs;
@@ -43,11 +74,29 @@ void add_scene(const Spec& spec, std::vector<std::string>& labels) {
 
 }  // namespace
 
-std::vector<std::string> labels_of(const Spec& spec, const Stage& stage) {
+std::vector<std::string> labels_of(const Spec& spec, const Stage& stage, const Motion& motion) {
   std::vector<std::string> labels;
   add_scene(spec, labels);
-  add_uses(stage, labels);
+  add_uses(stage, motion, labels);
   for (const std::string& pair : pairs_of(stage)) labels.push_back(pair);
+  return labels;
+}
+
+// A slot's pairs are of what its parts can do, an action with itself too, and of what moves them from elsewhere.
+std::set<std::string> possible_labels(const Character& character) {
+  std::set<std::string> labels;
+  std::map<std::string, std::set<std::string>> movers;  // actions, by the slot that they move
+  for (std::size_t p = 0; p < character.parts().size(); ++p) {
+    const Part& part = character.parts()[p];
+    for (const Action& action : actions_of(character, part)) {
+      labels.insert(use_label(std::string(action.name), *action.def, part));
+      for (const int moved : parts_moved(*action.def, character, static_cast<int>(p)))
+        movers[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+    }
+  }
+  for (const auto& [slot, names] : movers)
+    for (auto a = names.begin(); a != names.end(); ++a)
+      for (auto b = a; b != names.end(); ++b) labels.insert(pair_label(*a, *b, slot));
   return labels;
 }
 

@@ -1,16 +1,22 @@
-// What a case was made of, as words to be counted: "character mech", "action reach (ik) on arm_left", "pair pose + reach on
-// arm_left", "ground steps", "interrupt on contact".
+// What a case was made of, as words to be counted: "character mech", "action reach (ik) on arm_left", "action reach
+// (ik) on arm_left in blend", "pair pose + reach on arm_left", "ground steps", "interrupt on contact".
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
+#include "generator/character/library.h"
+#include "generator/motion/motion.h"
 #include "generator/spec.h"
 #include "generator/stage.h"
 
 namespace contort {
 
-// An action once for each use, the others once.
-std::vector<std::string> labels_of(const Spec& spec, const Stage& stage);
+// An action, and each phase in which it moved its part, once for each use; the others once. The motion is the stage's.
+std::vector<std::string> labels_of(const Spec& spec, const Stage& stage, const Motion& motion);
+
+// "action reach (ik) on arm_left", "pair pose + reach on arm_left": all that cases of this character could be made of.
+std::set<std::string> possible_labels(const Character& character);
 
 }  // namespace contort

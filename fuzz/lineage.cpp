@@ -1,7 +1,7 @@
 #include "fuzz/lineage.h"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
@@ -61,9 +61,11 @@ Arm unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
   if (dice.below(100) < 100.0 * odds.uniform) return Arm::uniform;
-  constexpr Arm kMixed[] = {Arm::corners, Arm::corners, Arm::corners, Arm::corners, Arm::corners,
-                            Arm::corners, Arm::crowded, Arm::crowded, Arm::swarm,   Arm::corners_and_swarm};
-  return kMixed[dice.below(static_cast<int>(std::size(kMixed)))];
+  constexpr std::pair<Arm, int> kPercent[] = {{Arm::corners, 70}, {Arm::crowded, 20}, {Arm::swarm, 5}};
+  int left = dice.below(100);
+  for (const auto& [arm, percent] : kPercent)
+    if ((left -= percent) < 0) return arm;
+  return Arm::corners_and_swarm;
 }
 
 RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage) {

@@ -28,6 +28,8 @@ void fields(V& v, const DrawRule*) {
   v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3},
           "One number, or three of a vector; one counts for all three.");
   v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
+  v.field("weight", &DrawRule::weight, {.low = 1, .high = 100},
+          "They are drawn so many times as often as other actions of their slot.");
 }
 
 template <class V>
@@ -79,6 +81,13 @@ bool Profile::never(std::string_view slot, std::string_view action) const {
   return std::ranges::any_of(rules, [&](const DrawRule& r) { return r.never && r.speaks_of(slot, action); });
 }
 
+int Profile::weight(std::string_view slot, std::string_view action) const {
+  int last = 1;
+  for (const DrawRule& rule : rules)
+    if (rule.weight > 0 && rule.speaks_of(slot, action)) last = rule.weight;
+  return last;
+}
+
 const DrawRule* Profile::rule_for(std::string_view slot, std::string_view action, std::string_view param) const {
   const DrawRule* last = nullptr;
   for (const DrawRule& rule : rules)
@@ -89,9 +98,9 @@ const DrawRule* Profile::rule_for(std::string_view slot, std::string_view action
 namespace {
 
 Result<Done> check_rule(const DrawRule& rule, const std::string& pointer) {
-  if (rule.never == !rule.param.empty())
-    return Issue{"profile.bad_rule", pointer, "a rule says either never, or the range of a param"};
-  if (rule.never) return Done{};
+  if (int{rule.never} + int{rule.weight > 0} + int{!rule.param.empty()} != 1)
+    return Issue{"profile.bad_rule", pointer, "a rule says never, or a weight, or the range of a param: one of these"};
+  if (rule.param.empty()) return Done{};
   const auto is_count = [](std::size_t count) { return count == 1 || count == 3; };
   if (!is_count(rule.low.size()) || rule.low.size() != rule.high.size())
     return Issue{"profile.bad_rule", pointer + "/low", "low and high are one number each, or three each"};

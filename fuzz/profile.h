@@ -22,6 +22,7 @@ struct DrawRule {
   std::vector<double> low;           // of the parameter, in its unit: one number, or three of a vector; what lies beyond
                                      // the range that an action declares is left out
   std::vector<double> high;
+  int weight = 0;  // how often, where actions without one are drawn once; 0: the rule does not say
   bool operator==(const DrawRule&) const = default;
 
   bool speaks_of(std::string_view slot, std::string_view action) const;
@@ -49,12 +50,14 @@ struct Profile {
   double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
   std::vector<DrawRule> rules{};
   double guided = 0.5;            // of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
-  double uniform = 0.05;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
+  double uniform = 0.02;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
   std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
   std::string time;               // the same: "45s", "10m", "2h"; "" where there is none
   bool operator==(const Profile&) const = default;
 
   bool never(std::string_view slot, std::string_view action) const;
+  // How often an action of a slot is drawn, where others are once: that of the last rule which says so, or 1.
+  int weight(std::string_view slot, std::string_view action) const;
   // The last rule for this parameter, or null.
   const DrawRule* rule_for(std::string_view slot, std::string_view action, std::string_view param) const;
 };

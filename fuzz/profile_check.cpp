@@ -31,8 +31,7 @@ void add_movements(const CharacterChoice& choice, const Library& library, std::v
   if (!character) return;
   for (const Part& part : character->parts())
     for (const Action& action : actions_of(*character, part))
-      movements.push_back(
-          {choice.name, part.slot, std::string(action.name), params_of(action, *character, part)});
+      movements.push_back({choice.name, part.slot, std::string(action.name), params_of(action, *character, part)});
 }
 
 Known known_of(const Library& library) {
@@ -114,7 +113,7 @@ Result<Done> check_rule(const DrawRule& rule, const Known& known, const std::str
 
 // Something of every character has to move; those that the library does not have are refused where they are built.
 Result<Done> check_moves(const Profile& profile, const std::vector<std::string>& characters, const Known& known) {
-  const DrawRule allowed{profile.slots, profile.actions, false, {}, {}, {}};
+  const DrawRule allowed{profile.slots, profile.actions, false, {}, {}, {}, 0};
   for (const std::string& character : characters) {
     if (!known.characters.contains(character)) continue;
     const bool moves = std::ranges::any_of(known.movements, [&](const Movement& m) {
@@ -131,9 +130,9 @@ Result<Done> check_moves(const Profile& profile, const std::vector<std::string>&
 
 Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, const Library& library) {
   const Known known = known_of(library);
-  for (const auto& [names, of_library, field] : {std::tuple(&profile.characters, &known.characters, "characters"),
-                                                 std::tuple(&profile.slots, &known.slots, "slots"),
-                                                 std::tuple(&profile.actions, &known.actions, "actions")})
+  for (const auto& [names, of_library, field] :
+       {std::tuple(&profile.characters, &known.characters, "characters"),
+        std::tuple(&profile.slots, &known.slots, "slots"), std::tuple(&profile.actions, &known.actions, "actions")})
     if (const Result<Done> all = check_known(*names, *of_library, std::string("/") + field, field); !all) return all;
   const std::set<std::string> grounds = {"plane", "slope", "steps", "heights"};
   if (const Result<Done> all = check_known(profile.grounds, grounds, "/grounds", "grounds"); !all) return all;

@@ -315,7 +315,7 @@ Spec spec_of(const RunConfig& config, const Library& library, const Lineage& lin
 }
 
 std::string run_name(const RunConfig& config) {
-  std::string text = print_profile(config.draw.profile) + config.settings;
+  std::string text = print_profile(config.draw.profile) + config.surroundings;
   for (const std::string& name : config.draw.characters) text += name + "\n";
   for (const Spec& spec : config.seeds) text += spec_id(spec) + "\n";
   return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);

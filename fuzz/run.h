@@ -37,7 +37,7 @@ struct RunConfig {
   ShrinkConfig shrink;
   double shrink_time_s = 0.0;  // stop each shrink after so long; 0: no limit
   CheckSettings checks;
-  std::string settings;  // the text of the settings file: part of which run this is
+  std::string surroundings;  // what all cases depend on, as an id: another one is another run
   std::string tool;      // version, for provenance
   double deadline_s = 0.0;  // on the steady clock; set by the run
 };
@@ -76,7 +76,7 @@ struct RunResult {
   Issue issue;                             // the corpus could not be written; code "" where all went well
 };
 
-// "seed_7_0123abcd". Another seed, other seeds, characters or limits, or another profile are another run.
+// "seed_7_0123abcd". Another seed, profile or generator, other characters, seeds or limits are another run.
 std::string run_name(const RunConfig& config);
 
 // Of a case that the run drew.

@@ -60,7 +60,8 @@ Result<RunLock> RunLock::take(const Corpus& corpus, const RunRecord& record) {
     RunLock lock(file, path);
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
       lock.path_.clear();  // it is another's
-      return Issue{"run.busy", "", "another process is doing the run " + record_name(record) + " in " + corpus.folder()};
+      return Issue{"run.busy", "",
+                   "another process is doing the run " + record_name(record) + " in " + corpus.folder()};
     }
     if (is_still_there(file, path)) return lock;
     lock.path_.clear();

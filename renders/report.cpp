@@ -5,6 +5,7 @@
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 #include "renders/report_rest.h"
+#include "renders/tested_html.h"
 
 namespace contort {
 namespace {
@@ -59,7 +60,7 @@ std::string report_json(const ReportModel& model) {
                {"frames", model.frames},       {"findings", model.findings}, {"families", model.families},
                {"buckets", model.buckets},     {"elapsed", model.elapsed},   {"rows", Json::array()},
                {"search", search_json(model.search)},
-               {"pairs_possible", model.pairs_possible},
+               {"pairs_possible", pair_counts(model).possible},
                {"tested", Json::array()}};
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});

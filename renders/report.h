@@ -57,8 +57,7 @@ struct ReportModel {
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
   SearchProgress search;            // of all runs together
-  std::int64_t pairs_possible = 0;  // of actions on one part, with the characters of the library
-  std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often
+  std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often; 0: never
 };
 
 // For a page that has everything inside: its files by their paths from it ("viewer/viewer.js", "strips/x.png"), and of

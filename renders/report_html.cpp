@@ -11,6 +11,7 @@
 #include "renders/report_cards.h"
 #include "renders/report_rest.h"
 #include "renders/search_html.h"
+#include "renders/tested_html.h"
 #include "renders/wording.h"
 
 namespace contort {
@@ -106,38 +107,6 @@ std::string failures_html(const std::vector<FamilyCard>& cards, const PageFiles&
     out += "<p class='rest' id='rest'>" + html_text(counted(elsewhere, "more failure", "more failures")) +
            " in <a href='more.html'>the plain list</a>.</p>\n";
   return out + "<p class='none' id='no-match' hidden>Nothing matches the filter.</p>\n</section>\n";
-}
-
-std::string bar_html(std::int64_t count, std::int64_t largest) {
-  const double share = largest > 0 ? static_cast<double>(count) / static_cast<double>(largest) : 0.0;
-  char width[32];
-  std::snprintf(width, sizeof width, "%.2f", 100.0 * share);
-  return "<svg class='bar' viewBox='0 0 100 1' preserveAspectRatio='none' aria-hidden='true'><rect height='1'" +
-         attribute("width", width) + "/></svg>";
-}
-
-std::string pairs_html(const ReportModel& model) {
-  if (model.pairs_possible == 0) return "";
-  std::int64_t seen = 0;
-  for (const auto& [name, count] : model.tested) seen += name.rfind("pair ", 0) == 0 && count > 0;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.0f %%",
-                100.0 * static_cast<double>(seen) / static_cast<double>(model.pairs_possible));
-  return "<p>Pairs of actions at the same time on one part: " + html_text(count_text(seen)) + " of " +
-         html_text(count_text(model.pairs_possible)) + " occurred (" + share + ").</p>\n";
-}
-
-std::string tested_html(const ReportModel& model) {
-  if (model.tested.empty()) return "";
-  std::int64_t largest = 0;
-  for (const auto& [name, count] : model.tested) largest = std::max(largest, count);
-  std::string out = "<section id='tested'>\n<h2>What was tested</h2>\n" + pairs_html(model) +
-                    "<table>\n<thead><tr><th scope='col'>part of a case</th>"
-                    "<th scope='col'>times</th><th></th></tr></thead>\n<tbody>\n";
-  for (const auto& [name, count] : model.tested)
-    out += (count == 0 ? "<tr class='never'><th scope='row'>" : "<tr><th scope='row'>") + html_text(name) +
-           "</th><td>" + html_text(count_text(count)) + "</td><td>" + bar_html(count, largest) + "</td></tr>\n";
-  return out + "</tbody>\n</table>\n</section>\n";
 }
 
 std::string footer_html(const ReportModel& model, bool alone) {

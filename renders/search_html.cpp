@@ -32,21 +32,6 @@ std::string what_is_left(const SearchProgress& search) {
          " further cases should show a family that is not listed here.";
 }
 
-// What a reader wants to know: would going on show more?
-std::string outlook(const SearchProgress& search) {
-  const auto families = static_cast<std::int64_t>(search.discovered.size());
-  const std::string met = families == 0
-                              ? "No case failed."
-                              : "The last of " + counted(families, "family", "families") + " was met after " +
-                                    count_text(search.discovered.back()) + " of " +
-                                    counted(search.cases, "case", "cases") + ".";
-  const bool guided = std::ranges::any_of(search.arms, [](const ArmProgress& arm) {
-    return arm.name == "guided" && arm.cases > 0;
-  });
-  return met + " " + what_is_left(search) +
-         (guided ? " Guided cases follow others, which makes this an estimate." : "");
-}
-
 void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {
   char text[64];
   std::snprintf(text, sizeof text, "%s%.1f %.1f", move, kWide * cases / static_cast<double>(search.cases),
@@ -85,6 +70,19 @@ std::string arms_html(const SearchProgress& search) {
 }
 
 }  // namespace
+
+std::string outlook(const SearchProgress& search) {
+  if (search.cases == 0) return "";
+  const auto families = static_cast<std::int64_t>(search.discovered.size());
+  const std::string met = families == 0 ? "No case failed."
+                                        : "The last of " + counted(families, "family", "families") + " was met after " +
+                                              count_text(search.discovered.back()) + " of " +
+                                              counted(search.cases, "case", "cases") + ".";
+  const bool guided =
+      std::ranges::any_of(search.arms, [](const ArmProgress& arm) { return arm.name == "guided" && arm.cases > 0; });
+  return met + " " + what_is_left(search) +
+         (guided ? " Guided cases follow others, which makes this an estimate." : "");
+}
 
 std::string search_html(const SearchProgress& search) {
   if (search.cases == 0) return "";

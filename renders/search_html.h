@@ -7,7 +7,10 @@
 
 namespace contort {
 
-// A sentence, the curve of families over cases, and a row for each way of drawing. "" where nothing ran.
+// "The last of 5 families was met after 900 of 2 000 cases. …": whether going on would show more. "" where nothing ran.
+std::string outlook(const SearchProgress& search);
+
+// The same sentences, the curve of families over cases, and a row for each way of drawing. "" where nothing ran.
 std::string search_html(const SearchProgress& search);
 
 }  // namespace contort

@@ -15,9 +15,9 @@ class Night : public ::testing::Test {
  protected:
   // Arguments of a run of the small character, a hundred times as fast as the stock ones.
   std::vector<std::string> fuzz(const std::string& corpus, int cases, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"fuzz",     "--character", "small", "--library", library_, "--cases",
-                                          std::to_string(cases), "--seed", "4", "--corpus", corpus,
-                                          "--shrink-evaluations", "6"};
+    std::vector<std::string> arguments = {"fuzz",    "--character",          "small",  "--library", library_,
+                                          "--cases", std::to_string(cases),  "--seed", "4",         "--corpus",
+                                          corpus,    "--shrink-evaluations", "6"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -72,6 +72,31 @@ TEST_F(Night, TheEnvironmentSaysWhichShard) {
   ::unsetenv("CI_NODE_INDEX");
   ::unsetenv("CI_NODE_TOTAL");
   EXPECT_NE(ran.out.find("\"shard\": 1"), std::string::npos) << ran.out << ran.err;
+}
+
+// Counts of two generators are not to be added up, nor a run begun by the one to be ended by the other.
+TEST_F(Night, WithAnotherLibraryItIsAnotherRun) {
+  const std::string corpus = folder_ / "corpus", elsewhere = folder_ / "elsewhere";
+  const auto records = [&] { return tree_of(corpus + "/runs").size(); };
+  contort_program(fuzz(corpus, 8));
+  std::filesystem::copy(library_, elsewhere, std::filesystem::copy_options::recursive);
+  library_ = elsewhere;
+  contort_program(fuzz(corpus, 8));
+  EXPECT_EQ(records(), 1U) << "where it lies does not matter";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library_))
+    if (entry.is_regular_file()) spill(entry.path(), slurp(entry.path()) + "\n");
+  spill(corpus + "/runs/seed_4_deadbeef.state", "{}");
+  const Ran other = contort_program(fuzz(corpus, 8, {"--resume"}));
+  EXPECT_EQ(records(), 3U) << "two records and the state";
+  EXPECT_NE(other.err.find("seed_4_deadbeef was stopped"), std::string::npos) << other.err;
+}
+
+TEST_F(Night, TellsBazelThatItKnowsOfShards) {
+  const std::string touched = folder_ / "touched";
+  ::setenv("TEST_SHARD_STATUS_FILE", touched.c_str(), 1);
+  contort_program(fuzz(folder_ / "corpus", 1));
+  ::unsetenv("TEST_SHARD_STATUS_FILE");
+  EXPECT_TRUE(std::filesystem::exists(touched));
 }
 
 TEST_F(Night, BadOptionsAreOneLineAndExitCode2) {

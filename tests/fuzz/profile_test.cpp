@@ -53,6 +53,22 @@ TEST(Profile, ARuleKeepsAnActionFromASlot) {
   EXPECT_GT(others, 50);
 }
 
+// The last rule that speaks of an action counts.
+TEST(Profile, AWeightHasAnActionDrawnMoreOften) {
+  const std::string of_head = R"("slots":["head"],"actions":["look_at"],)";
+  const auto share = [](const Profile& profile) {
+    int looks = 0, all = 0;
+    for_uses(profile, 2000, [&](const ActionUse& use) {
+      all += use.slot == "head", looks += use.slot == "head" && use.action == "look_at";
+    });
+    EXPECT_GT(all, 300);
+    return static_cast<double>(looks) / all;
+  };
+  const double even = share(profile("")), often = share(profile("\"rules\":[{" + of_head + "\"weight\":10}]"));
+  EXPECT_NEAR(often / (1.0 - often), 10.0 * even / (1.0 - even), 3.0);
+  EXPECT_EQ(share(profile("\"rules\":[{" + of_head + "\"weight\":10},{\"weight\":1}]")), even);
+}
+
 TEST(Profile, ARuleNarrowsAParameter) {
   const Profile narrow = profile(
       R"("rules":[{"actions":["look_at"],"param":"target_m","low":[-1,1,2],"high":[1,2,3]},
@@ -140,6 +156,7 @@ TEST(Profile, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(refused(R"("rules":[{}])"), "profile.bad_rule at /rules/0");
   EXPECT_EQ(refused(R"("rules":[{"never":true,"param":"speed_m_s","low":[0],"high":[1]}])"),
             "profile.bad_rule at /rules/0");
+  EXPECT_EQ(refused(R"("rules":[{"never":true,"weight":2}])"), "profile.bad_rule at /rules/0");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s"}])"), "profile.bad_rule at /rules/0/low");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,2],"high":[3,4]}])"), "profile.bad_rule at /rules/0/low");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[2],"high":[1]}])"), "profile.no_range at /rules/0/high/0");

@@ -271,15 +271,6 @@ TEST(Report, TellsThePhase) {
   EXPECT_FALSE(contains(report_html(model_of({row})), "<div><dt>phase</dt><dd>interrupt"));
 }
 
-TEST(Report, ListsWhatWasTested) {
-  ReportModel model = model_of({});
-  model.tested = {{"action walk", 100}, {"action recoil", 0}};
-  const std::string html = report_html(model);
-  EXPECT_TRUE(contains(html, "action walk</th><td>100</td>"));
-  EXPECT_TRUE(contains(html, "<tr class='never'><th scope='row'>action recoil"));
-  EXPECT_TRUE(contains(html, "width='100.00'"));
-}
-
 ReportModel hostile_model() {
   ReportRow row;
   for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,

@@ -1,0 +1,47 @@
+// The part of the page that says what was tested, and what never was.
+#include "renders/tested_html.h"
+
+#include <gtest/gtest.h>
+
+namespace contort {
+namespace {
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+TEST(Tested, OfNothingThereIsNothing) { EXPECT_EQ(tested_html({}), ""); }
+
+TEST(Tested, ListsWhatWasTested) {
+  ReportModel model;
+  model.tested = {{"ground plane", 100}, {"ground steps", 0}};
+  const std::string html = tested_html(model);
+  EXPECT_TRUE(contains(html, "ground plane</th><td>100</td>"));
+  EXPECT_TRUE(contains(html, "<tr class='never'><th scope='row'>ground steps"));
+  EXPECT_TRUE(contains(html, "width='100.00'"));
+}
+
+TEST(Tested, ShowsActionsBySlotPriorityAndPhase) {
+  ReportModel model;
+  model.tested = {{"action reach (ik) on arm_left", 7},
+                  {"action reach (ik) on arm_left in blend", 5},
+                  {"action reach (ik) on arm_right", 0}};
+  const std::string html = tested_html(model);
+  // impact, interrupt, clip_switch: never
+  const std::string never = "<td class='never'>0</td>";
+  EXPECT_TRUE(contains(html, "<tr><th scope='row'>reach</th><td>ik</td><td>arm_left</td><td>7</td>" + never + never +
+                                 never + "<td>5</td>" + never + "</tr>"));
+  EXPECT_TRUE(contains(html, "<tr class='never'><th scope='row'>reach</th><td>ik</td><td>arm_right</td>" + never));
+  EXPECT_FALSE(contains(html, "part of a case")) << "nothing else was counted";
+}
+
+TEST(Tested, SaysWhichPairsNeverOccurred) {
+  ReportModel model;
+  model.tested = {{"pair aim + pose on arm_left", 3}, {"pair aim + reach on arm_left", 0}};
+  EXPECT_TRUE(contains(tested_html(model), "1 of 2 occurred (50 %)"));
+  EXPECT_TRUE(contains(tested_html(model), "<li>aim + reach on arm_left</li>"));
+  EXPECT_FALSE(contains(tested_html(model), "<li>aim + pose on arm_left</li>"));
+  model.tested.pop_back();
+  EXPECT_FALSE(contains(tested_html(model), "Those that never did"));
+}
+
+}  // namespace
+}  // namespace contort
