@@ -74,6 +74,8 @@ std::vector<std::string_view> phases_of_actions() {
 std::string uses_html(const std::vector<UseRow>& rows) {
   if (rows.empty()) return "";
   std::string out =
+      "<p>How often an action was used on a slot, and in how many of these uses it met each phase. Red: never.</p>\n"
+      "<div class='wide' tabindex='0' role='region' aria-label='Actions by slot, priority and phase'>\n"
       "<table class='uses'>\n<thead><tr><th scope='col'>action</th><th scope='col'>priority</th>"
       "<th scope='col'>slot</th><th scope='col'>uses</th>";
   for (const std::string_view phase : phases_of_actions()) out += "<th scope='col'>" + html_text(phase) + "</th>";
@@ -88,7 +90,7 @@ std::string uses_html(const std::vector<UseRow>& rows) {
     }
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n";
+  return out + "</tbody>\n</table>\n</div>\n";
 }
 
 std::string pairs_html(const ReportModel& model) {
