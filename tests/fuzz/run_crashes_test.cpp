@@ -1,10 +1,12 @@
 // What ends its process only while something else is shrunk is found all the same.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "corpus/process.h"
 #include "corpus/runs.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
@@ -39,6 +41,23 @@ RunConfig config_with_crash(std::int64_t cases, int jobs) {
   return config;
 }
 constexpr const char* kCrash = "crash|small|SIGUSR1";
+
+// Ten minutes of motion do not fit into what a process has that did nothing yet, and one megabyte.
+TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
+  const Corpus corpus = create(folder_ / "corpus");
+  RunConfig config = config_of(1, 1);
+  config.seeds = {bent_elbow(100, 36000)};
+  config.limits.bytes = resident_bytes(::getpid()) + (1 << 20);
+  config.shrink.max_evaluations = 3;
+  const RunResult result = run(config, corpus);
+  EXPECT_EQ(result.issue.code, "");
+  EXPECT_TRUE(result.record.families.contains("memory|human|evaluation"));
+  ASSERT_EQ(result.new_buckets.size(), 1U);
+  const Bucket bucket = buckets_of(corpus).front();
+  const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
+  EXPECT_EQ(min.expect.check, "memory");
+  EXPECT_EQ(min.expect.limit_MB, static_cast<int>(config.limits.bytes >> 20));
+}
 
 TEST_F(RunCrashes, FindWhatCrashesOnlyWhileItIsShrunk) {
   const Corpus one = create(folder_ / "one"), three = create(folder_ / "three");
