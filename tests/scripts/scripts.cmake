@@ -6,10 +6,11 @@ add_test(NAME Scripts.ReadmeExtraction COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/re
 add_test(NAME Scripts.ReadmeCommands
   COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
 set_tests_properties(Scripts.Packages Scripts.Run Scripts.Test Scripts.ReadmeExtraction PROPERTIES TIMEOUT 180)
-set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600)
+# COST: what takes minutes begins first, else one core waits for it at the end.
+set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600 COST 300)
 add_test(NAME Page.Browser
   COMMAND bash ${CMAKE_SOURCE_DIR}/tests/page/page_test.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
-set_tests_properties(Page.Browser PROPERTIES TIMEOUT 1800 SKIP_RETURN_CODE 77)
+set_tests_properties(Page.Browser PROPERTIES TIMEOUT 1800 SKIP_RETURN_CODE 77 COST 1000)
 add_test(NAME Scripts.Mutants COMMAND ${CMAKE_SOURCE_DIR}/bench/mutants/run.py --check)
 set_tests_properties(Scripts.Mutants PROPERTIES TIMEOUT 180)
 add_test(NAME Scripts.Slurm
