@@ -213,7 +213,7 @@ void print_totals(const RunResult& result, const Options& options, const CheckSe
         "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), options.shrinks_per_case);
-  std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
+  if (t.cases > 0) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
   if (result.interrupted)
     std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
   if (!result.waiting.empty())
@@ -262,18 +262,23 @@ int exit_code_of(const RunResult& result, bool gates) {
 
 // Whoever wants to go on with a run, and has built anew or changed an option since, begins another one.
 void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
+  namespace fs = std::filesystem;
   RunRecord record;
   record.name = run_name(config), record.shard = config.shard.index, record.shards = config.shard.count;
   std::error_code error;
-  if (!config.resume || std::filesystem::exists(state_path(corpus, record), error)) return;
+  if (!config.resume || fs::exists(state_path(corpus, record), error)) return;
+  const std::string of_seed = "seed_" + std::to_string(config.seed) + "_";
   std::set<std::string> others;
-  for (const auto& entry : std::filesystem::directory_iterator(corpus.folder() + "/runs", error))
-    if (entry.path().extension() == ".state") others.insert(entry.path().stem());
+  for (const auto& entry : fs::directory_iterator(corpus.folder() + "/runs", error)) {
+    const std::string name = entry.path().stem();  // with its shard, after a dot
+    const bool is_running = fs::exists(fs::path(entry.path()).replace_extension(".lock"), error);
+    const bool is_other = name.starts_with(of_seed) && name.substr(0, name.find('.')) != record.name;
+    if (entry.path().extension() == ".state" && is_other && !is_running) others.insert(name);
+  }
   for (const std::string& other : others)
     std::fprintf(
         stderr,
-        "contort: %s was stopped, and this is %s: another build, library, profile, seed or settings; it begins "
-        "anew\n",
+        "contort: %s was stopped, and this is %s: another build, library, profile or settings; it begins anew\n",
         printable(other).c_str(), record_name(record).c_str());
 }
 

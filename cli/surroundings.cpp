@@ -1,8 +1,9 @@
 #include "cli/surroundings.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <vector>
+#include <set>
 
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
@@ -18,17 +19,23 @@ std::string id_of_file(const std::string& path) {
   return content_id(text ? *text : "");
 }
 
+// What load_folder and load_recordings read. Reports and corpora may lie in the same folder.
+bool is_of_library(const fs::directory_entry& entry) {
+  constexpr std::array<std::string_view, 5> kKinds = {".json", ".glb", ".gltf", ".bin", ".bvh"};
+  std::error_code error;
+  return entry.is_regular_file(error) && std::ranges::find(kKinds, entry.path().extension().string()) != kKinds.end();
+}
+
 }  // namespace
 
 std::string surroundings_id(const Context& context) {
   std::string ids = id_of_file("/proc/self/exe") + id_of_file(context.settings_file);
   for (const std::string& folder : context.library_folders) {
-    std::vector<std::string> files;
+    std::set<std::string> names;
     std::error_code error;
-    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
-      if (entry.is_regular_file(error)) files.push_back(entry.path().lexically_relative(folder).string());
-    std::ranges::sort(files);
-    for (const std::string& file : files) ids += "\n" + file + "\n" + id_of_file(folder + "/" + file);
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (is_of_library(entry)) names.insert(entry.path().filename().string());
+    for (const std::string& name : names) ids += "\n" + name + "\n" + id_of_file(folder + "/" + name);
   }
   return content_id(ids);
 }

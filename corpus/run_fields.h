@@ -9,7 +9,7 @@ namespace contort {
 namespace run_rules {
 inline const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
 inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
-inline constexpr std::size_t kMostEntries = 1'000'000;
+inline constexpr std::size_t kMostEntries = 100'000;  // of an object, too (json_fields.cpp)
 inline constexpr int kMostShrinks = 1000;  // of one family
 }  // namespace run_rules
 

@@ -43,7 +43,7 @@ Result<RunRecord> read_run(const std::string& path) {
   Result<RunRecord> run = json_fields::read_document<RunRecord>(*text, "run");
   if (run) return run;
   Issue issue = run.issue();
-  issue.text = path + ": " + issue.text + "; contort corpus fsck --repair sets it aside";
+  issue.text = path + ": " + issue.text;
   return issue;
 }
 
@@ -89,7 +89,8 @@ std::vector<RunRecord> runs_of(const Corpus& corpus, std::vector<Issue>& damaged
     if (run)
       all.push_back(std::move(run).value());
     else
-      damaged.push_back(run.issue());
+      damaged.push_back(
+          {run.issue().code, run.issue().pointer, run.issue().text + "; contort corpus fsck --repair sets it aside"});
   }
   return all;
 }

@@ -28,8 +28,8 @@ void fields(V& v, const DrawRule*) {
   v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3},
           "One number, or three of a vector; one counts for all three.");
   v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
-  v.field("weight", &DrawRule::weight, {.low = 1, .high = 100},
-          "They are drawn so many times as often as other actions of their slot.");
+  v.field("weight", &DrawRule::weight, {.low = 0, .high = 100},
+          "They are drawn so many times as often as other actions of their slot; 0: the rule says nothing of it.");
 }
 
 template <class V>

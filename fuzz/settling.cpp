@@ -66,7 +66,8 @@ std::optional<CaseTask> Settling::next(bool with_waiting) {
 
 void Settling::take(const CaseTask& task, const WorkerEvent& event) {
   in_hand_.erase(std::ranges::find(in_hand_, task));
-  task.lead.empty() ? settled(task, event) : shrunk_waiting(task, event);
+  if (task.lead.empty()) return settled(task, event);
+  shrunk_waiting(task, event);
 }
 
 void Settling::settled(const CaseTask& task, const WorkerEvent& event) {
@@ -93,7 +94,7 @@ void Settling::shrunk_waiting(CaseTask task, const WorkerEvent& event) {
   if (std::error_code error; !std::filesystem::exists(task.lead, error)) return;
   if (event.end != WorkerEnd::replied && task.ending.empty()) {
     const Result<Lead> lead = read_lead(task.lead);
-    if (!lead) return fail(lead.issue());
+    if (!lead) return;
     task.ending = family_of(case_of_ending(event, lead->original.spec, config_.limits));
     return waiting_.push_front(task);
   }

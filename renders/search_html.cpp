@@ -29,7 +29,7 @@ std::string what_is_left(const SearchProgress& search) {
     return "Each was met by two cases or more, so probably fewer than " + odds +
            " further cases would show another one.";
   return counted(search.lone_cases, "case", "cases") + " showed what no other did, so about " + odds +
-         " further cases should show a family that is not listed here.";
+         " further cases should show a family that none has shown yet.";
 }
 
 void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {

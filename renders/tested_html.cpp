@@ -15,6 +15,8 @@ namespace contort {
 
 namespace {
 
+constexpr std::int64_t kMostListed = 500;  // pairs: the page stays below a megabyte (report.h)
+
 bool is_pair(std::string_view label) { return label.starts_with("pair "); }
 
 // "action reach (ik) on arm_left in blend", taken apart (fuzz/labels.h).
@@ -74,7 +76,8 @@ std::vector<std::string_view> phases_of_actions() {
 std::string uses_html(const std::vector<UseRow>& rows) {
   if (rows.empty()) return "";
   std::string out =
-      "<p>How often an action was used on a slot, and in how many of these uses it met each phase. Red: never.</p>\n"
+      "<p>How often an action was drawn for a slot, and in how many of these uses it moved in each phase. Red: "
+      "never.</p>\n"
       "<div class='wide' tabindex='0' role='region' aria-label='Actions by slot, priority and phase'>\n"
       "<table class='uses'>\n<thead><tr><th scope='col'>action</th><th scope='col'>priority</th>"
       "<th scope='col'>slot</th><th scope='col'>uses</th>";
@@ -98,13 +101,15 @@ std::string pairs_html(const ReportModel& model) {
   if (pairs.possible == 0) return "";
   char share[32];
   std::snprintf(share, sizeof share, "%.0f %%",
-                100.0 * static_cast<double>(pairs.occurred) / static_cast<double>(pairs.possible));
-  std::string out = "<p>Pairs of actions at the same time on one part: " + html_text(count_text(pairs.occurred)) +
-                    " of " + html_text(count_text(pairs.possible)) + " occurred (" + share + ").</p>\n";
-  if (pairs.occurred == pairs.possible) return out;
-  out += "<details><summary>Those that never did</summary>\n<ul>\n";
+                100.0 * static_cast<double>(pairs.drawn) / static_cast<double>(pairs.possible));
+  std::string out = "<p>Pairs of actions whose times overlap on one part: " + html_text(count_text(pairs.drawn)) +
+                    " of " + html_text(count_text(pairs.possible)) + " were drawn (" + share + ").</p>\n";
+  if (pairs.drawn == pairs.possible) return out;
+  out += "<details><summary>Those that never were</summary>\n<ul>\n";
+  std::int64_t listed = 0;
   for (const auto& [label, count] : model.tested)
-    if (is_pair(label) && count == 0) out += "<li>" + html_text(label.substr(5)) + "</li>\n";
+    if (is_pair(label) && count == 0 && ++listed <= kMostListed) out += "<li>" + html_text(label.substr(5)) + "</li>\n";
+  if (listed > kMostListed) out += "<li>and " + html_text(count_text(listed - kMostListed)) + " more</li>\n";
   return out + "</ul>\n</details>\n";
 }
 
@@ -140,7 +145,7 @@ PairCounts pair_counts(const ReportModel& model) {
   PairCounts counts;
   for (const auto& [label, count] : model.tested) {
     counts.possible += is_pair(label);
-    counts.occurred += is_pair(label) && count > 0;
+    counts.drawn += is_pair(label) && count > 0;
   }
   return counts;
 }

@@ -50,7 +50,7 @@ TEST(Labels, WhatIsCountedIsAmongWhatIsPossible) {
   const std::set<std::string> of_human = possible_labels(*testing::shared_human());
   EXPECT_TRUE(of_human.contains("action pose (overwrite) on arm_left"));
   EXPECT_TRUE(of_human.contains("pair look_at + look_at on head"));
-  EXPECT_FALSE(of_human.contains("action walk (overwrite) on head"));
+  EXPECT_FALSE(of_human.contains("action walk (ik) on head"));
   Profile plain;
   plain.swaps = plain.objects = 0.0;
   int seen = 0;

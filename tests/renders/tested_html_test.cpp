@@ -33,14 +33,20 @@ TEST(Tested, ShowsActionsBySlotPriorityAndPhase) {
   EXPECT_FALSE(contains(html, "part of a case")) << "nothing else was counted";
 }
 
-TEST(Tested, SaysWhichPairsNeverOccurred) {
+TEST(Tested, SaysWhichPairsNeverWereDrawn) {
   ReportModel model;
   model.tested = {{"pair aim + pose on arm_left", 3}, {"pair aim + reach on arm_left", 0}};
-  EXPECT_TRUE(contains(tested_html(model), "1 of 2 occurred (50 %)"));
+  EXPECT_TRUE(contains(tested_html(model), "1 of 2 were drawn (50 %)"));
   EXPECT_TRUE(contains(tested_html(model), "<li>aim + reach on arm_left</li>"));
   EXPECT_FALSE(contains(tested_html(model), "<li>aim + pose on arm_left</li>"));
   model.tested.pop_back();
-  EXPECT_FALSE(contains(tested_html(model), "Those that never did"));
+  EXPECT_FALSE(contains(tested_html(model), "Those that never were"));
+}
+
+TEST(Tested, OfManyPairsSomeAreListed) {
+  ReportModel model;
+  for (int i = 0; i < 1200; ++i) model.tested.emplace_back("pair a + b" + std::to_string(i) + " on arm_left", 0);
+  EXPECT_TRUE(contains(tested_html(model), "<li>and 700 more</li>"));
 }
 
 }  // namespace
