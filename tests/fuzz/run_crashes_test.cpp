@@ -42,13 +42,15 @@ RunConfig config_with_crash(std::int64_t cases, int jobs) {
 }
 constexpr const char* kCrash = "crash|small|SIGUSR1";
 
-// Ten minutes of motion do not fit into what a process has that did nothing yet, and 32 MB.
+// Ten minutes of dynamics need some 70 MB beside what a worker has from the start.
 TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
   const Corpus corpus = create(folder_ / "corpus");
-  library();  // is this process's before it is measured
   RunConfig config = config_of(1, 1);
   config.seeds = {bent_elbow(100, 36000)};
-  config.limits.bytes = resident_bytes(::getpid()) + (32 << 20);
+  config.seeds[0].dynamics.mode = Mode::tracking;
+  library();  // is this process's before it is measured
+  config.limits.bytes = resident_bytes(::getpid()) + (16 << 20);
+  config.limits.seconds = 60.0;
   config.limits.seconds = 60.0;
   config.shrink.max_evaluations = 3;
   const RunResult result = run(config, corpus);
