@@ -49,7 +49,7 @@ struct Options {
   LimitOptions limits;
   int shrinks_per_family = 2;
   int shrinks_per_case = 4;
-  int shrink_evaluations = 1000;
+  int shrink_evaluations = 2000;
   std::string shrink_time;
   std::string corpus = "contort-out/corpus";
   std::string report;

@@ -16,7 +16,7 @@
 namespace contort {
 
 struct ShrinkConfig {
-  int max_evaluations = 1000;  // of all stages together
+  int max_evaluations = 2000;  // of all stages together
   // A candidate must stay at least this deep, as a share of the original depth: without a floor, shrinking ends at
   // violations by a hair, which look like noise.
   double depth_floor = 0.5;
