@@ -45,7 +45,7 @@ bool overlap(const PlannedAction& x, const PlannedAction& y) {
   return x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
-// Of actions that move one part at the same time.
+// Of actions that are planned for one part at the same time.
 std::set<std::string> pairs_of(const Stage& stage) {
   std::set<std::string> pairs;
   const Timeline& timeline = stage.timeline;
