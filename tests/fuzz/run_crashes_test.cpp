@@ -1,10 +1,13 @@
 // What ends its process only while something else is shrunk is found all the same.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "corpus/process.h"
 #include "corpus/runs.h"
@@ -42,15 +45,30 @@ RunConfig config_with_crash(std::int64_t cases, int jobs) {
 }
 constexpr const char* kCrash = "crash|small|SIGUSR1";
 
-// Ten minutes of dynamics need some 70 MB beside what a worker has from the start.
+// At its peak, and of a process that begins as workers do: with what it has of this one.
+std::int64_t most_bytes_of(const std::function<void()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    work();
+    ::_exit(0);
+  }
+  rusage used{};
+  EXPECT_EQ(::wait4(child, nullptr, 0, &used), child);
+  return std::int64_t{used.ru_maxrss} << 10;
+}
+
+// Ten minutes of dynamics need some 70 MB beside what a worker has from the start, more with a sanitizer. Half of them
+// is the limit.
 TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
   const Corpus corpus = create(folder_ / "corpus");
   RunConfig config = config_of(1, 1);
   config.seeds = {bent_elbow(100, 36000)};
   config.seeds[0].dynamics.mode = Mode::tracking;
-  library();  // is this process's before it is measured
-  config.limits.bytes = resident_bytes(::getpid()) + (16 << 20);
-  config.limits.seconds = 60.0;
+  const Result<Stage> stage = build_stage(config.seeds[0], library());
+  ASSERT_TRUE(stage);
+  const std::int64_t idle = most_bytes_of([] {}), busy = most_bytes_of([&] { Evaluator().run(*stage); });
+  ASSERT_GT(busy, idle + (32 << 20));
+  config.limits.bytes = idle + (busy - idle) / 2;
   config.limits.seconds = 60.0;
   config.shrink.max_evaluations = 3;
   const RunResult result = run(config, corpus);
