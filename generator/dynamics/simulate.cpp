@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/dynamics/closed_chain.h"
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
+#include "generator/dynamics/racing.h"
 #include "generator/dynamics/strength.h"
 
 namespace contort {
@@ -38,7 +40,7 @@ class Simulation {
         planned_(planned_stances(character, setup.figure, environment, motion)),
         tick_s_(1.0 / (motion.rate_hz * setup.ticks_per_frame)),
         weight_N_(kGravity_m_s2 * setup.figure.body.mass_kg()) {
-    target_.share_knots(closed_chain());
+    target_.share_knots(closed_chain(setup.figure));
   }
 
   void run() {
@@ -59,16 +61,6 @@ class Simulation {
   }
 
  private:
-  // While several feet stand, their legs and the root are one chain: they must head for the same knots.
-  std::vector<int> closed_chain() const {
-    std::vector<int> links = {0};
-    for (std::size_t i = 1; i < body_.links().size(); ++i)
-      for (const Sole& sole : figure_.soles)
-        if (std::ranges::find(sole.leg_dofs, body_.links()[i].dof) != sole.leg_dofs.end())
-          links.push_back(static_cast<int>(i));
-    return links;
-  }
-
   void prepare() {
     const auto n = at(body_.dof_count());
     for (std::vector<double>* row : {&s_.tracked, &s_.acceleration, &s_.forces, &s_.bias, &s_.efforts, &s_.hold,
@@ -216,11 +208,16 @@ class Simulation {
     if (s_.after_tick) s_.after_tick();
   }
 
-  // Tracking alone: what that takes is measured, and changes nothing.
+  // Tracking alone: what that takes is measured, and changes nothing. Feet that stay only while a joint races (a leg
+  // that is to fold through itself) are let go.
   void follow() {
     find_rows();
     s_.acceleration = s_.tracked;
     project_on_support(s_.ease, s_.support, s_.acceleration);
+    if (!s_.feet.none() && races(body_, figure_.fastest, s_.state.velocity, s_.acceleration, tick_s_)) {
+      s_.feet.clear();
+      s_.acceleration = s_.tracked;
+    }
     inverse_dynamics(body_, s_.state.velocity, s_.acceleration, kGravity_m_s2, s_.dynamics, s_.forces);
     find_ground();
     if (!s_.feet.none()) s_.record.balance(balance_of(s_.area, s_.dynamics, s_.forces, weight_N_));
@@ -356,6 +353,7 @@ class Simulation {
     const SpatialForce momentum = loose_ ? momentum_of(body_, s_.dynamics, s_.mass, s_.state.velocity) : SpatialForce{};
     for (std::size_t k = 0; k < s_.acceleration.size(); ++k) s_.state.velocity[k] += tick_s_ * s_.acceleration[k];
     stop_at_ends(character_, body_, s_.feet.stands_by_dof(), tick_s_, s_.state);
+    stop_racing(body_, figure_.fastest, s_.state.velocity);
     if (loose_) move_loosely(momentum);
     integrate(body_, s_.state.velocity, tick_s_, s_.state.root, s_.state.coords);
   }

@@ -1,0 +1,12 @@
+// Links that move together while several feet stand, the root and all of legs: they must head for the same knots.
+#pragma once
+
+#include <vector>
+
+#include "generator/dynamics/figure.h"
+
+namespace contort {
+
+std::vector<int> closed_chain(const DynamicFigure& figure);
+
+}  // namespace contort

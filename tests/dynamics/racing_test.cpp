@@ -1,0 +1,118 @@
+// Joints that would go faster than they can: what is told to do the impossible stays near what is possible.
+#include "generator/dynamics/racing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "generator/generate.h"
+#include "generator/stage.h"
+#include "tests/dynamics/states.h"
+
+namespace contort {
+namespace {
+
+constexpr const char* kCharacters[] = {"human", "mech", "quadruped"};
+
+Stage stage_of(std::string_view json) {
+  const Result<Spec> spec = parse_spec(json);
+  if (!spec) throw std::logic_error(to_line(spec.issue()));
+  Result<Stage> stage = build_stage(*spec, stock_library());
+  if (!stage) throw std::logic_error(to_line(stage.issue()));
+  return std::move(stage).value();
+}
+
+Stage standing(const std::string& name) {
+  return stage_of(R"({"format": "contort.spec/1", "character": {"name": ")" + name +
+                  R"("}, "dynamics": {"mode": "tracking"}})");
+}
+
+// Of a joint's freedoms: rad/s or m/s.
+double speed_of(const Link& link, std::span<const double> velocity) {
+  double squared = 0.0;
+  for (int k = 0; k < link.dof_count; ++k) {
+    const double rate = velocity[static_cast<std::size_t>(link.dof + k)];
+    squared += rate * rate;
+  }
+  return std::sqrt(squared);
+}
+
+// The law of both functions, for velocities from a tenth of what is bounded to ten times that.
+TEST(Racing, BoundsSpeedsKeepsDirectionsAndLeavesAllElseAsItIs) {
+  std::mt19937_64 random(1);
+  for (const char* name : kCharacters) {
+    const Stage stage = standing(name);
+    const DynamicFigure& figure = stage.dynamics->figure;
+    for (int i = 0; i < 200; ++i) {
+      std::vector<double> before = testing::any_state(figure.body, random).velocity;
+      const double scale = std::pow(10.0, testing::between(random, -1.0, 2.0));
+      for (double& rate : before) rate *= scale;
+      std::vector<double> after = before;
+      stop_racing(figure.body, figure.fastest, after);
+      bool raced = false;
+      for (const Link& link : figure.body.links()) {
+        const double most = kRacing * figure.fastest[static_cast<std::size_t>(link.dof)];
+        const double speed = speed_of(link, before);
+        const bool bounded = link.kind != JointKind::root && speed > most;
+        raced = raced || bounded;
+        EXPECT_NEAR(speed_of(link, after), bounded ? most : speed, 1e-12 * speed);
+        for (int k = link.dof; k < link.dof + link.dof_count; ++k) {
+          const auto at = static_cast<std::size_t>(k);
+          if (bounded)
+            EXPECT_NEAR(after[at], before[at] * most / speed, 1e-12 * speed);
+          else
+            EXPECT_EQ(after[at], before[at]);
+        }
+      }
+      const std::vector<double> none(before.size(), 0.0);
+      EXPECT_EQ(races(figure.body, figure.fastest, before, none, 0.01), raced);
+      std::vector<double> stop = before;
+      for (double& rate : stop) rate /= -0.01;
+      EXPECT_FALSE(races(figure.body, figure.fastest, before, stop, 0.01)) << "it stands after that tick";
+    }
+  }
+}
+
+// Greatest ratio of a hinge's or travel's speed between two frames to its limit.
+double greatest_speed_ratio(const Stage& stage, const Motion& motion) {
+  double greatest = 0.0;
+  for (int frame = 1; frame < motion.frame_count; ++frame)
+    for (const Joint& joint : stage.character->joints()) {
+      if (joint.kind != JointKind::hinge && joint.kind != JointKind::prismatic) continue;
+      const auto at = static_cast<std::size_t>(joint.coord);
+      const double moved = std::fabs(motion.row(frame)[at] - motion.row(frame - 1)[at]);
+      greatest = std::max(greatest, moved * motion.rate_hz / joint.max_speed);
+    }
+  return greatest;
+}
+
+// A dog that leans forward by 73 degrees would have to fold its fore legs through themselves. Held by its paws it went
+// round ever faster, to 1e16 times its strength and then to nan.
+TEST(Racing, ALegThatIsToFoldThroughItselfLetsItsFeetGo) {
+  const Stage stage = stage_of(R"({"format": "contort.spec/1", "character": {"name": "quadruped"},
+    "dynamics": {"mode": "tracking"},
+    "sequences": [{"clips": [{"actions": [{"action": "squat", "slot": "hips",
+      "params": {"back_m": -0.04, "lean_deg": 73.0}}]}]}]})");
+  const Motion motion = generate(stage);
+  EXPECT_LE(greatest_speed_ratio(stage, motion), kRacing + 1e-9);
+  for (const Rigid& root : motion.root) EXPECT_LT(glm::length(root.p_m - motion.root[0].p_m), 0.5);
+  EXPECT_LT(glm::length(motion.root.back().p_m - motion.root[0].p_m), 0.2) << "it is back where it began";
+}
+
+// A blow of 51 N s swings an arm that holds 5 kg. Its shoulder went round at 150 rad/s, which no muscle could bear,
+// and carried the figure 3 m up.
+TEST(Racing, AnArmThatABlowSwingsDoesNotCarryTheFigureAway) {
+  const Stage stage = stage_of(R"({"format": "contort.spec/1",
+    "character": {"name": "human", "attachments": [{"object": "backpack", "slot": "torso", "socket": "back"}]},
+    "dynamics": {"mode": "dynamic", "impacts": [{"impulse_N_s": [-34.5, 0.0, -37.0], "slot": "hand_right"}],
+      "loads": [{"slot": "waist", "socket": "torso"}, {"slot": "hand_right", "socket": "grip"}]},
+    "environment": {"ground": {"heading_deg": -117.0, "type": "slope"}}, "hold_frames": 16})");
+  const Motion motion = generate(stage);
+  EXPECT_LE(greatest_speed_ratio(stage, motion), kRacing + 1e-9);
+  for (const Rigid& root : motion.root) EXPECT_LT(root.p_m.y - motion.root[0].p_m.y, 0.1);
+}
+
+}  // namespace
+}  // namespace contort
