@@ -21,6 +21,7 @@ void make_minimal(ShrinkState& state) {
     cut_time(state);
     try_stock(state);
     remove_structure(state);
+    queue_interrupts(state);
     reset_fields(state);
     lower_numbers(state);
     if (state.spec() == before) try_pairs(state);

@@ -87,6 +87,24 @@ void remove_structure(ShrinkState& state) {
           });
 }
 
+namespace {
+
+bool queue_interrupt(ShrinkState& state, std::size_t which) {
+  Spec last = state.spec();
+  last.sequences.push_back(last.interrupts[which].sequence);
+  last.interrupts.erase(last.interrupts.begin() + static_cast<std::ptrdiff_t>(which));
+  Spec alone = last;
+  alone.sequences.erase(alone.sequences.begin(), alone.sequences.end() - 1);
+  return state.accept(pruned(std::move(alone))) || state.accept(pruned(std::move(last)));
+}
+
+}  // namespace
+
+void queue_interrupts(ShrinkState& state) {
+  for (std::size_t i = 0; i < state.spec().interrupts.size();)
+    if (!queue_interrupt(state, i)) ++i;
+}
+
 void reset_fields(ShrinkState& state) {
   std::vector<SpecPlace> left = places_of(state.spec(), state.shown().character.get());
   ddmin([&] { return static_cast<int>(left.size()); },

@@ -16,6 +16,9 @@ void try_stock(ShrinkState& state);
 // Delta debugging over sequences, clips, actions and so on, from coarse to fine.
 void remove_structure(ShrinkState& state);
 
+// What cuts in takes its turn in the queue, alone or last: most failures do not ask how their motion began.
+void queue_interrupts(ShrinkState& state);
+
 // Delta debugging over all fields that are not at their defaults.
 void reset_fields(ShrinkState& state);
 

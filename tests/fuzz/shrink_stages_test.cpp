@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "fuzz/edits.h"
 #include "fuzz/shrink.h"
 #include "tests/corpus/sample_cases.h"
 
@@ -82,6 +83,30 @@ TEST(ShrinkStages, ClipsAndSequencesBecomeOne) {
   ASSERT_EQ(result.minimal.spec.sequences.size(), 1U);
   EXPECT_EQ(result.minimal.spec.sequences[0].clips.size(), 1U);
   EXPECT_EQ(actions_of(result.minimal.spec), 4);
+}
+
+// It does not matter whether a motion cuts in or is the next in the queue; where something must be cut, it does.
+TEST(ShrinkStages, WhatCutsInTakesItsTurnInTheQueueUnlessItMustCut) {
+  Spec spec = spec_of({pose_use("arm_left", {})});
+  InterruptDesc cut;
+  cut.when.frame = 7;
+  cut.sequence.clips = {{"", 0, 0, 1.0, {pose_use("arm_right", {}), pose_use("head", {})}}};
+  spec.interrupts = {cut, cut};
+  const auto uses_head = [](const Spec& x) { return print_spec(x).find("\"head\"") != std::string::npos; };
+  const Spec queued = shrunk(spec, [&](const Spec& x) { return uses_head(x) ? 1.0 : 0.0; }).minimal.spec;
+  EXPECT_EQ(print_spec(queued), print_spec(spec_of({pose_use("head", {})})));
+
+  const auto two = [&](const Spec& x) {
+    int moving = 0;
+    for (std::size_t i = 0; i < sequence_count(x); ++i) moving += !sequence_at(x, i).clips.empty();
+    return uses_head(x) && moving > 1 ? 1.0 : 0.0;
+  };
+  const Spec last = shrunk(spec, two).minimal.spec;
+  EXPECT_TRUE(last.interrupts.empty());
+  EXPECT_EQ(last.sequences.size(), 2U);
+
+  const auto cuts = [&](const Spec& x) { return uses_head(x) && !x.interrupts.empty() ? 1.0 : 0.0; };
+  EXPECT_EQ(shrunk(spec, cuts).minimal.spec.interrupts.size(), 1U);
 }
 
 TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
