@@ -14,6 +14,7 @@
 #include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "generator/core/hash.h"
 #include "renders/divergence.h"
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
@@ -105,9 +106,16 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   return shown;
 }
 
+// Whether the generator has changed since the case was stored: the figures beside the picture are of another motion.
+bool plays_another_motion(const Shown& shown) {
+  return shown.input.stored && !is_ending(shown.input.stored->expect) &&
+         shown.input.stored->expect.motion_hash != to_hex(shown.evaluation.motion_hash);
+}
+
 StripInput strip_of(const Shown& shown, const Options& options, const std::string& file) {
   StripInput strip{*shown.stage.character, shown.evaluator.motion()};
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
+  if (plays_another_motion(shown)) strip.note = "NOT THE STORED MOTION";
   strip.replay_command =
       shown.input.stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
@@ -124,7 +132,8 @@ StripInput strip_of(const Shown& shown, const Options& options, const std::strin
 Result<StripDone> draw(Studio& studio, const std::string& file, const std::string& png) {
   const Result<std::unique_ptr<Shown>> shown = evaluate(studio, file);
   if (!shown) return shown.issue();
-  Result<StripDone> done = studio.renderer.render(strip_of(**shown, studio.options, file), png, clip_of(studio.options, png));
+  Result<StripDone> done =
+      studio.renderer.render(strip_of(**shown, studio.options, file), png, clip_of(studio.options, png));
   if (!done || !studio.options.views) return done;
   const Result<Done> written = write_strip_views(png, done->tiles);
   return written ? done : written.issue();

@@ -83,7 +83,9 @@ Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
 void Sheet::write_header() {
   const int width = image_.width - 2 * kPadding;
   write(kPadding, 25, width, title_of(input_), kTitleSize, kBright);
-  write(kPadding, 47, width, summary_of(input_), kTextSize, input_.finding ? kAlarm : kDim);
+  const std::string note = input_.note.empty() ? "" : "; " + input_.note;
+  const bool alarms = input_.finding || !note.empty();
+  write(kPadding, 47, width, summary_of(input_) + note, kTextSize, alarms ? kAlarm : kDim);
 }
 
 void Sheet::write_caption(int x, int y, int frame, bool complete) {

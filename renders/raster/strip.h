@@ -27,6 +27,7 @@ struct StripInput {
   const Motion& motion;              // Of this character.
   const Finding* finding = nullptr;  // Null: frames are evenly spaced and nothing is highlighted.
   std::string title{};               // "" for the finding's check and subject.
+  std::string note{};                // Stands out after the line of figures; "" for none.
   std::string replay_command{};      // Goes into the PNG as "Comment".
   int tile_width = 320;              // Pixels, with the caption; in [96, 2048].
   int tile_height = 240;
