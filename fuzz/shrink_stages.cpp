@@ -24,6 +24,11 @@ Spec pruned(Spec spec) {
   return spec;
 }
 
+// Or with them: a clip with nothing in it may be there for its time.
+bool accept_pruned(ShrinkState& state, Spec candidate) {
+  return state.accept(pruned(candidate)) || state.accept(std::move(candidate));
+}
+
 using UseAt = std::array<int, 3>;  // sequence, clip, action
 
 Spec with_only(const Spec& spec, const std::set<UseAt>& kept) {
@@ -61,7 +66,7 @@ void cut_time(ShrinkState& state) {
   for (const std::set<UseAt>& kept : {uses_where(shown, named), uses_where(shown, moving), uses_where(shown, begun)}) {
     Spec candidate = with_only(state.spec(), kept);
     candidate.hold_frames = 0;
-    if (state.accept(pruned(std::move(candidate)))) return;
+    if (accept_pruned(state, std::move(candidate))) return;
   }
 }
 
@@ -83,7 +88,7 @@ void remove_structure(ShrinkState& state) {
           [&](int first, int n) {
             Spec candidate = state.spec();
             kind.remove(candidate, first, n);
-            return state.accept(pruned(std::move(candidate)));
+            return accept_pruned(state, std::move(candidate));
           });
 }
 
@@ -95,7 +100,7 @@ bool queue_interrupt(ShrinkState& state, std::size_t which) {
   last.interrupts.erase(last.interrupts.begin() + static_cast<std::ptrdiff_t>(which));
   Spec alone = last;
   alone.sequences.erase(alone.sequences.begin(), alone.sequences.end() - 1);
-  return state.accept(pruned(std::move(alone))) || state.accept(pruned(std::move(last)));
+  return accept_pruned(state, std::move(alone)) || accept_pruned(state, std::move(last));
 }
 
 }  // namespace
@@ -195,7 +200,7 @@ bool remove_two_units(ShrinkState& state) {
         Spec candidate = state.spec();
         kind.remove(candidate, j, 1);
         kind.remove(candidate, i, 1);
-        if (state.accept(pruned(std::move(candidate)))) return true;
+        if (accept_pruned(state, std::move(candidate))) return true;
       }
   }
   return false;

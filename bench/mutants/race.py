@@ -172,7 +172,8 @@ class Race:
 
     def find_buckets(self, name, identity):
         path = self.bucket_path(name)
-        if self.fresh(path, identity, cases=self.args.bucket_cases):
+        how = {"cases": self.args.bucket_cases, "evaluations": self.args.bucket_evaluations}
+        if self.fresh(path, identity, **how):
             return
         with tempfile.TemporaryDirectory(dir=self.out) as made:
             shrinks = (2, self.args.bucket_evaluations)
@@ -181,7 +182,7 @@ class Race:
             buckets = {bucket: {"family": family, "least": least}
                        for bucket, family, least in self.buckets_in(Path(made) / "corpus")
                        if name == CLEAN or not self.is_on_clean(least, family)}
-        write_json(path, {"id": identity, "cases": self.args.bucket_cases, "buckets": buckets})
+        write_json(path, dict(how, id=identity, buckets=buckets))
         say(f"{name}: {len(buckets)} buckets")
 
     def own_buckets(self, name):
@@ -194,15 +195,18 @@ class Race:
     def filed_path(self, name):
         return self.results / "filed" / f"{name}.json"
 
+    def how_filed(self):
+        return {"kills": self.args.filed, "evaluations": self.args.bucket_evaluations}
+
     def file_kills(self, mutant):
         """In which buckets each of a fault's first kills is filed, every one in a corpus of its own."""
         path = self.filed_path(mutant.name)
-        if self.fresh(path, mutant.id, kills=self.args.filed):
+        if self.fresh(path, mutant.id, **self.how_filed()):
             return
         with contextlib.closing(self.kills(mutant.name, "mixture", 1, self.args.cases)) as kills:
             specs = [spec for _, spec in itertools.islice(kills, self.args.filed)]
         filed = [self.filed_in(mutant.name, spec) for spec in specs]
-        write_json(path, {"id": mutant.id, "kills": self.args.filed, "filed": filed})
+        write_json(path, dict(self.how_filed(), id=mutant.id, filed=filed))
         say(f"{mutant.name}: {len(filed)} cases in {len(set(itertools.chain(*filed)))} buckets")
 
     def filed_in(self, name, spec):
@@ -218,7 +222,7 @@ class Race:
                     for bucket, family, least in self.buckets_in(folder / "corpus") if not self.is_on_clean(spec, family)}
 
     def filed(self, mutant):
-        known = self.fresh(self.filed_path(mutant.name), mutant.id, kills=self.args.filed)
+        known = self.fresh(self.filed_path(mutant.name), mutant.id, **self.how_filed())
         return known["filed"] if known else []
 
     # ---- what was measured

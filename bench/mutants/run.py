@@ -184,7 +184,8 @@ def parse_args():
     parser.add_argument("--filed", type=int, default=0, metavar="N",
                         help="measure in which buckets the first N cases of each fault are filed")
     parser.add_argument("--bucket-cases", type=int, default=512)
-    parser.add_argument("--bucket-evaluations", type=int, default=150, help="motions generated per shrink of --buckets and --filed, at most")
+    parser.add_argument("--bucket-evaluations", type=int, default=2000,
+                        help="motions generated per shrink of --buckets and --filed, at most")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time, each with one worker")
     parser.add_argument("--build-jobs", type=int, default=2)
     parser.add_argument("--case-timeout", type=float, default=5.0, help="seconds for one case")

@@ -109,6 +109,18 @@ TEST(ShrinkStages, WhatCutsInTakesItsTurnInTheQueueUnlessItMustCut) {
   EXPECT_EQ(shrunk(spec, cuts).minimal.spec.interrupts.size(), 1U);
 }
 
+TEST(ShrinkStages, AClipThatIsThereForItsTimeNeedsNothingInIt) {
+  Spec spec = spec_of({pose_use("arm_left", {}), pose_use("head", {})});
+  spec.sequences[0].clips[0].start_frame = 9;
+  const auto waits = [](const Spec& x) {
+    const bool has_one = x.sequences.size() == 1 && x.sequences[0].clips.size() == 1;
+    return has_one && x.sequences[0].clips[0].start_frame > 1 ? 1.0 : 0.0;
+  };
+  const Spec least = shrunk(spec, waits).minimal.spec;
+  EXPECT_EQ(actions_of(least), 0);
+  EXPECT_EQ(least.sequences[0].clips[0].start_frame, 2);
+}
+
 TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
   Spec spec = bent_elbow(50);
   spec.environment.ground = SlopeGround{12, 30};
