@@ -7,6 +7,7 @@
 
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
+#include "generator/core/hash.h"
 #include "generator/core/json_fields.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
@@ -57,6 +58,19 @@ Result<SpecInput> read_spec_input(const std::string& path) {
   SpecInput input{stored->spec, {}};
   input.stored = std::move(stored).value();
   return input;
+}
+
+const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings) {
+  if (input.stored) return deepest(findings, input.stored->expect.check, input.stored->expect.subject);
+  const Finding* worst = nullptr;
+  for (const Finding& finding : findings)
+    if (worst == nullptr || finding.depth > worst->depth) worst = &finding;
+  return worst;
+}
+
+bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation) {
+  if (!input.stored || is_ending(input.stored->expect)) return false;
+  return input.stored->expect.motion_hash != to_hex(evaluation.motion_hash);
 }
 
 Result<double> parse_time_s(const std::string& text) {

@@ -26,6 +26,12 @@ struct SpecInput {
 };
 Result<SpecInput> read_spec_input(const std::string& path);
 
+// The finding that a picture is about: the one that a case expects; of a spec, the deepest.
+const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings);
+
+// Whether the generator has changed since the case was stored: what it says is of another motion.
+bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation);
+
 // "45s", "10m", "2h", "90" (seconds). Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 

@@ -14,7 +14,6 @@
 #include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "generator/core/hash.h"
 #include "renders/divergence.h"
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
@@ -51,15 +50,6 @@ struct Options {
     return std::strtod(azimuth_deg.c_str(), nullptr) * kRadPerDeg;
   }
 };
-
-// The finding that the strip is about: the one that a case expects; of a spec, the deepest.
-const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings) {
-  if (input.stored) return deepest(findings, input.stored->expect.check, input.stored->expect.subject);
-  const Finding* worst = nullptr;
-  for (const Finding& finding : findings)
-    if (worst == nullptr || finding.depth > worst->depth) worst = &finding;
-  return worst;
-}
 
 std::string clip_of(const Options& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
@@ -106,16 +96,10 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   return shown;
 }
 
-// Whether the generator has changed since the case was stored: the figures beside the picture are of another motion.
-bool plays_another_motion(const Shown& shown) {
-  return shown.input.stored && !is_ending(shown.input.stored->expect) &&
-         shown.input.stored->expect.motion_hash != to_hex(shown.evaluation.motion_hash);
-}
-
 StripInput strip_of(const Shown& shown, const Options& options, const std::string& file) {
   StripInput strip{*shown.stage.character, shown.evaluator.motion()};
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
-  if (plays_another_motion(shown)) strip.note = "NOT THE STORED MOTION";
+  if (plays_another_motion(shown.input, shown.evaluation)) strip.note = "NOT THE STORED MOTION";
   strip.replay_command =
       shown.input.stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
