@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 
-#include "corpus/process.h"
 #include "corpus/runs.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
