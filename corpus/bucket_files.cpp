@@ -1,10 +1,8 @@
 #include "corpus/bucket_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
@@ -20,12 +18,9 @@ bool before(const Case& a, const Case& b) {
   return a.spec != b.spec ? cheaper(a.spec, b.spec) : print_case(a) < print_case(b);
 }
 
-double depth_of(const Case& stored) {
-  return std::isnan(stored.expect.worst_margin) ? std::numeric_limits<double>::infinity() : stored.expect.depth;
-}
-
 bool deeper(const Case& a, const Case& b) {
-  return depth_of(a) != depth_of(b) ? depth_of(a) > depth_of(b) : before(a, b);
+  const double depth_of_a = depth_of(a.expect), depth_of_b = depth_of(b.expect);
+  return depth_of_a != depth_of_b ? depth_of_a > depth_of_b : before(a, b);
 }
 
 // A minimal case and the one that it was shrunk from, if that is there.

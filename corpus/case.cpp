@@ -18,7 +18,7 @@ using json_fields::Text;
 
 const Rule kText{.text = Text::label, .may_be_empty = true};
 const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
-const Rule kHash{.required = true, .may_be_empty = true};  // parse_case says when
+const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
 const Rule kFrame{.low = 0, .high = 36000};
 const Rule kCount{.low = -1, .high = 0x1p53};
 
@@ -40,7 +40,8 @@ void fields(V& v, const Expectation*) {
   v.field("trace", &Expectation::trace, {.text = Text::hex}, "Running hash, four hex digits a frame.");
   v.field("phase", &Expectation::phase, kText,
           "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
-  v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400}, "Of a timeout: it did not end in so many seconds.");
+  v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400},
+          "Of a timeout: it did not end in so many seconds.");
   v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
 }
 
@@ -84,6 +85,10 @@ FamilyParts family_parts(const std::string& family) {
   return {family.substr(0, first), family.substr(after(first), second - after(first)), family.substr(after(second))};
 }
 
+double depth_of(const Expectation& expect) {
+  return std::isnan(expect.worst_margin) ? std::numeric_limits<double>::infinity() : expect.depth;
+}
+
 bool is_ending(const Expectation& expect) {
   return expect.check == "crash" || expect.check == "timeout" || expect.check == "memory";
 }
@@ -91,8 +96,8 @@ bool is_ending(const Expectation& expect) {
 Result<Case> parse_case(std::string_view json) {
   Result<Case> read = json_fields::read_document<Case>(json, "case");
   if (!read || is_ending(read->expect)) return read;
-  for (const auto& [hash, name] : {std::pair(&read->expect.motion_hash, "motion_hash"),
-                                   std::pair(&read->expect.character_hash, "character_hash")})
+  for (const auto& [hash, name] :
+       {std::pair(&read->expect.motion_hash, "motion_hash"), std::pair(&read->expect.character_hash, "character_hash")})
     if (hash->empty())
       return Issue{"case.bad_text", std::string("/expect/") + name,
                    "found nothing; only a crash, a timeout or memory has no hash"};

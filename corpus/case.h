@@ -41,7 +41,7 @@ struct Provenance {
   std::string shrink_stopped;   // "fixpoint", "evaluations", "time", "flaky" or "gone"
   double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
   int rank = 0;                 // among the failures of its case by first frame; 0: the earliest
-  std::string profile;        // of the run, by name; shrinking stays within it. "": it draws everything
+  std::string profile;          // of the run, by name; shrinking stays within it. "": it draws everything
   std::string met_shrinking;  // family of the failure whose shrinking met this one; "" where the case itself showed it
   bool operator==(const Provenance&) const = default;
 };
@@ -63,6 +63,9 @@ struct FamilyParts {
   std::string check, character, subject;
 };
 FamilyParts family_parts(const std::string& family);
+
+// How deep it is in its check's scale. Nothing finite is as deep as NaN.
+double depth_of(const Expectation& expect);
 
 // The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.
 bool is_ending(const Expectation& expect);

@@ -11,7 +11,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kMinimal = "-min.json", kWorst = "-worst.json";
+// What a lead has beside its original. The minimal case is written last: where it is, all is.
+struct Beside {
+  std::string_view ending;
+  std::optional<Case> Lead::*stored;
+};
+constexpr Beside kBeside[] = {
+    {"-orig.json", &Lead::shrunk_from}, {"-worst.json", &Lead::worst}, {"-min.json", &Lead::minimal}};
+
+bool is_beside(const std::string& path) {
+  return std::ranges::any_of(kBeside, [&](const Beside& beside) { return path.ends_with(beside.ending); });
+}
 
 std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
 
@@ -47,12 +57,12 @@ Result<Lead> read_lead(const std::string& path) {
   if (!original) return original.issue();
   Lead lead{fs::path(path).parent_path().filename().string(), std::move(original).value(), {}};
   const std::string stem = path.substr(0, path.size() - 5);
-  for (const auto& [ending, into] : {std::pair(kMinimal, &lead.minimal), std::pair(kWorst, &lead.worst)}) {
-    const std::string other = stem + std::string(ending);
+  for (const Beside& beside : kBeside) {
+    const std::string other = stem + std::string(beside.ending);
     if (std::error_code error; !fs::exists(other, error)) continue;
     Result<Case> stored = read_case(other);
     if (!stored) return stored.issue();
-    *into = std::move(stored).value();
+    lead.*beside.stored = std::move(stored).value();
   }
   return lead;
 }
@@ -68,10 +78,9 @@ Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
   if (const Result<Done> made = make_folder(folder_of(corpus, lead.run)); !made) return made.issue();
   const std::string stem = stem_of(corpus, lead);
   if (const Result<Done> kept = write_file(stem + ".json", print_case(lead.original)); !kept) return kept.issue();
-  // The minimal case last: where it is, all is.
-  for (const auto& [ending, from] : {std::pair(kWorst, &lead.worst), std::pair(kMinimal, &lead.minimal)})
-    if (*from)
-      if (const Result<Done> kept = write_file(stem + std::string(ending), print_case(**from)); !kept)
+  for (const Beside& beside : kBeside)
+    if (const std::optional<Case>& stored = lead.*beside.stored)
+      if (const Result<Done> kept = write_file(stem + std::string(beside.ending), print_case(*stored)); !kept)
         return kept.issue();
   return stem + ".json";
 }
@@ -79,7 +88,7 @@ Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
 std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
   std::vector<Lead> all;
   for (const std::string& path : case_files(corpus)) {
-    if (path.ends_with(kMinimal) || path.ends_with(kWorst)) continue;
+    if (is_beside(path)) continue;
     Result<Lead> lead = read_lead(path);
     if (lead)
       all.push_back(std::move(lead).value());
@@ -91,7 +100,8 @@ std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged) {
 
 Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
   if (!lead.minimal) return Issue{"lead.not_shrunk", "", stem_of(corpus, lead) + ".json is not shrunk yet"};
-  Result<Corpus::Added> added = corpus.add({*lead.minimal, lead.original, lead.run, lead.worst});
+  Result<Corpus::Added> added =
+      corpus.add({*lead.minimal, lead.shrunk_from.value_or(lead.original), lead.run, lead.worst});
   if (added) drop_lead(corpus, lead);
   return added;
 }
@@ -99,7 +109,7 @@ Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
 void drop_lead(const Corpus& corpus, const Lead& lead) {
   std::error_code ignored;
   const std::string stem = stem_of(corpus, lead);
-  for (const std::string_view ending : {kMinimal, kWorst}) fs::remove(stem + std::string(ending), ignored);
+  for (const Beside& beside : kBeside) fs::remove(stem + std::string(beside.ending), ignored);
   fs::remove(stem + ".json", ignored);
 }
 

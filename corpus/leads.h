@@ -3,6 +3,7 @@
 //   DIR/leads/<run>/<family12>-<index>.json       as it was drawn; written as soon as it is wanted
 //                   <family12>-<index>-min.json   what it was shrunk to
 //                   <family12>-<index>-worst.json the deepest that shows the same
+//                   <family12>-<index>-orig.json  as it was drawn, if the minimal one is named by another family of it
 //
 // So a kill loses nothing, and a shard can hand over what it found. A failure that was met while another was shrunk is
 // a lead of its own, which goes the way of that other; the hash in its name is over both families.
@@ -22,6 +23,8 @@ struct Lead {
   Case original;                // provenance.index: which case of the run
   std::optional<Case> minimal;  // once it was shrunk
   std::optional<Case> worst{};
+  std::optional<Case>
+      shrunk_from{};  // original as a case of minimal's family, where that is another (fuzz/precursor.h)
   bool operator==(const Lead&) const = default;
 };
 

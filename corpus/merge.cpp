@@ -62,8 +62,8 @@ bool came_too_late(const RunRecord& run, const Lead& lead) {
   return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
 }
 
-// What one run would not have shrunk: a failure that the minimal spec of an earlier one of the same case shows as well,
-// and what was met while that was shrunk. In the order of cases, and of the failures of each.
+// What one run would not have shrunk: a failure that the minimal spec of an earlier one of the same case shows as well
+// or is named by, and what was met while that was shrunk. In the order of cases, and of the failures of each.
 class ToldAlready {
  public:
   bool operator()(const Lead& lead) {
@@ -71,6 +71,7 @@ class ToldAlready {
     if (from.index != index_) index_ = from.index, shown_.clear(), told_.clear();
     if (!from.met_shrinking.empty()) return told_.contains(from.met_shrinking);
     if (shown_.contains(family_of(lead.original))) return told_.insert(family_of(lead.original)), true;
+    shown_.insert(family_of(*lead.minimal));
     shown_.insert(lead.minimal->also.begin(), lead.minimal->also.end());
     return false;
   }

@@ -10,6 +10,7 @@
 #include "fuzz/case_fields.h"
 #include "fuzz/departures.h"
 #include "fuzz/labels.h"
+#include "fuzz/precursor.h"
 #include "generator/core/hash.h"
 
 namespace contort {
@@ -168,13 +169,28 @@ CaseReport CaseWork::shrink_waiting(const CaseTask& task, WorkerSlot& slot) {
   return report;
 }
 
+namespace {
+
+void take_shrunk(const Shrunk& shrunk, Lead& lead, CaseReport& report) {
+  lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
+  report.also = shrunk.minimal.also;
+  if (family_of(shrunk.minimal) == family_of(lead.original)) return;
+  lead.shrunk_from = shrunk.original;
+  report.also.push_back(family_of(shrunk.minimal));
+}
+
+}  // namespace
+
 // What shrank in this process at first is shrunk with a guard once a candidate has ended that.
 Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report,
                                           WorkerSlot& slot) const {
-  const Shrunk shrunk = shrink_one(lead.original, lead.run, !task.ending.empty(), slot);
+  const bool guarded = !task.ending.empty();
+  const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const Onward& onward) {
+    return shrink_one(original, lead.run, guarded, slot, onward);
+  });
   report.confirmed = shrunk.stopped != "flaky" && shrunk.stopped != "gone";
   if (report.confirmed)
-    lead.minimal = shrunk.minimal, lead.worst = shrunk.worst, report.also = shrunk.minimal.also;
+    take_shrunk(shrunk, lead, report);
   else
     lead.original.provenance.shrink_stopped = kUnsteady;
   Result<std::string> kept = keep_lead(corpus_, lead);
@@ -190,7 +206,7 @@ Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, Case
   Lead lead{shrunk.run, met, {}};
   lead.original.provenance = shrunk.original.provenance;
   lead.original.provenance.met_shrinking = family_of(shrunk.original);
-  const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot);
+  const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot, {});
   const bool again = smaller.stopped != "flaky" && smaller.stopped != "gone";
   if (again) lead.minimal = smaller.minimal;
   (again ? report.met : report.met_once).push_back(family_of(met));
@@ -205,8 +221,10 @@ std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, con
   return {};
 }
 
-Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot) const {
+Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
+                            const Onward& onward) const {
   ShrinkConfig config = config_.shrink;
+  config.onward = onward;
   config.checks = config_.checks;
   config.isolation = isolation_of(config_.limits);
   config.guarded = guarded;

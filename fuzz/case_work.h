@@ -40,7 +40,7 @@ struct CaseReport {
   std::vector<NearMiss> near;       // of the subjects of the island's group
   std::vector<WaiverUse> waivers;
   bool confirmed = false;             // of a settled failure: the second time was bit for bit the first
-  std::vector<std::string> also;      // families of the case that its minimal spec shows too
+  std::vector<std::string> also;      // families of the case that its minimal spec shows too, and who names it
   std::vector<std::string> met;       // families of other leads that its shrinking left
   std::vector<std::string> met_once;  // the same, which did not happen again
   std::string issue;                  // it could not be written: code and text
@@ -75,7 +75,8 @@ class CaseWork {
   CaseReport settle(const CaseTask& task, WorkerSlot& slot);
   CaseReport shrink_waiting(const CaseTask& task, WorkerSlot& slot);
   std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
-  Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot) const;
+  Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
+                    const Onward& onward) const;
   Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
   std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
   Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;

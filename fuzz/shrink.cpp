@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fuzz/explain.h"
+#include "fuzz/precursor.h"
 #include "fuzz/shrink_stages.h"
 #include "fuzz/shrink_state.h"
 #include "fuzz/worst.h"
@@ -47,27 +48,37 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   return from;
 }
 
+// What there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
+void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const Library& library,
+                 const ShrinkConfig& config) {
+  for (const Case& other : others) state.meet(other);
+  const Case* precursor = precursor_of(shrunk.minimal, others, config.onward.value_or(Onward{}).left);
+  if (precursor != nullptr) shrunk.precursor = state.before(*precursor);
+  if (shrunk.precursor && config.onward) return;
+  state.allow_frames(std::max(kShortFrames, 2 * state.shown().most_frames));
+  shrunk.minimal.free_fields = free_fields_of(state, library);
+  shrunk.worst = worst_of(state);
+}
+
 }  // namespace
 
 Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config) {
   ShrinkState state(trial, original, config);
-  Case confirmed = original;
-  if (state.confirm()) {
-    confirmed.expect = state.best().expect;
-    make_minimal(state);
-  }
   Shrunk shrunk;
+  shrunk.original = original;
+  std::vector<Case> others;
+  if (state.confirm()) {
+    shrunk.original.expect = state.best().expect;
+    if (config.onward && config.onward->begin_with) state.accept(*config.onward->begin_with);
+    make_minimal(state);
+    others = state.others();
+  }
   shrunk.stopped = state.stopped();
   shrunk.minimal = shrunk.worst = state.best();
-  if (shrunk.stopped == "fixpoint") {
-    state.look_around();
-    state.allow_frames(std::max(kShortFrames, 2 * state.shown().most_frames));
-    shrunk.minimal.free_fields = free_fields_of(state, library);
-    shrunk.worst = worst_of(state);
-  }
-  shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(confirmed, state, shrunk.stopped);
+  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : state.still_shown(others);
+  if (shrunk.stopped == "fixpoint") look_closer(shrunk, state, others, library, config);
+  shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(shrunk.original, state, shrunk.stopped);
   shrunk.met = state.met();
-  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : state.still_shown();
   shrunk.evaluations = state.evaluations();
   return shrunk;
 }

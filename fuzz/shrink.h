@@ -4,6 +4,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,25 +17,34 @@
 
 namespace contort {
 
+// A shrink on the way to the precursor (precursor.h). What has one is neither explained nor climbed.
+struct Onward {
+  std::optional<Spec> begin_with;  // tried first: what another failure of the same case was shrunk to
+  std::set<std::string> left;      // families it came by; none of them is the precursor again
+};
+
 struct ShrinkConfig {
   int max_evaluations = 2000;  // of all stages together
   // A candidate must stay at least this deep, as a share of the original depth: without a floor, shrinking ends at
   // violations by a hair, which look like noise.
   double depth_floor = 0.5;
-  CheckSettings checks;               // those that found the failure
-  Isolation isolation;                // for cases that end their process
-  bool guarded = false;               // a candidate is known to end its process: each is tried in another one first
-  BeforeRun before_run;               // may be empty
+  CheckSettings checks;  // those that found the failure
+  Isolation isolation;   // for cases that end their process
+  bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
+  BeforeRun before_run;  // may be empty
   std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty
-  std::function<bool()> out_of_time;  // asked before every evaluation; may be empty. Makes results differ.
+  std::optional<Onward> onward;              // the caller goes on with the precursor
+  std::function<bool()> out_of_time;         // asked before every evaluation; may be empty. Makes results differ.
 };
 
 struct Shrunk {
+  Case original;  // as it was confirmed
   Case minimal;
-  Case worst;              // what minimal needs, with numbers that make it as deep as was found
-  std::vector<Case> met;   // other families, which the original does not show: the cheapest spec seen of each
-  std::string stopped;     // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
-  int evaluations = 0;     // motions generated
+  Case worst;                     // what minimal needs, with numbers that make it as deep as was found
+  std::vector<Case> met;          // other families, which the original does not show: the cheapest spec seen of each
+  std::optional<Case> precursor;  // of minimal (precursor.h), as the original shows it, or else as minimal does
+  std::string stopped;            // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
+  int evaluations = 0;            // motions generated
 };
 
 // Keeps check, subject and character of `original`. A case that ends its process (isolate.h) is run in others: then the

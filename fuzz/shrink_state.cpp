@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "corpus/corpus.h"
 
 namespace contort {
 
 namespace {
-
-// Nothing finite is as deep as NaN.
-double depth_of(const Expectation& shown) {
-  return std::isnan(shown.worst_margin) ? std::numeric_limits<double>::infinity() : shown.depth;
-}
 
 double share_of(double depth, double floor) { return std::isinf(depth) ? depth : floor * depth; }
 
@@ -59,7 +53,7 @@ bool ShrinkState::confirm() {
   shown_ = *second;
   least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
   most_frames_ = shown_.most_frames;
-  for (const Case& other : trial_.others(best_.spec)) beside_[family_of(other)] = depth_of(other.expect);
+  for (const Case& other : trial_.others(best_.spec)) beside_.emplace(family_of(other), other);
   std::erase_if(met_, [&](const auto& met) { return beside_.contains(met.first); });
   return true;
 }
@@ -88,9 +82,17 @@ bool ShrinkState::fails(const Spec& candidate) {
   return shown->fails;
 }
 
-void ShrinkState::look_around() {
-  if (!run(best_.spec)) return;
-  for (const Case& other : trial_.others(best_.spec)) meet(other);
+std::vector<Case> ShrinkState::others() {
+  trial_.run(best_.spec, most_frames_);
+  return trial_.others(best_.spec);
+}
+
+Case ShrinkState::before(const Case& other) const {
+  const auto in_original = beside_.find(family_of(other));
+  Case found = in_original == beside_.end() ? other : in_original->second;
+  found.provenance = best_.provenance;
+  if (in_original == beside_.end()) found.provenance.met_shrinking = family_of(best_);
+  return found;
 }
 
 void ShrinkState::meet(const Case& other) {
@@ -106,14 +108,13 @@ std::vector<Case> ShrinkState::met() const {
   return cases;
 }
 
-std::vector<std::string> ShrinkState::still_shown() {
+std::vector<std::string> ShrinkState::still_shown(const std::vector<Case>& others) const {
   std::vector<std::string> families;
-  if (beside_.empty()) return families;
-  trial_.run(best_.spec, most_frames_);
-  for (const Case& other : trial_.others(best_.spec)) {
+  for (const Case& other : others) {
     const auto before = beside_.find(family_of(other));
-    if (before != beside_.end() && depth_of(other.expect) >= share_of(before->second, config_.depth_floor))
-      families.push_back(before->first);
+    if (before == beside_.end()) continue;
+    const double least = share_of(depth_of(before->second.expect), config_.depth_floor);
+    if (depth_of(other.expect) >= least) families.push_back(before->first);
   }
   return families;
 }

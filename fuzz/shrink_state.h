@@ -28,9 +28,12 @@ class ShrinkState {
   // Runs it, known or not; nothing once the budget is spent.
   std::optional<TrialResult> run(const Spec& candidate);
 
-  // Notes what other checks find in the smallest spec. Candidates are judged by the one check alone: by all of them,
-  // shrinking takes half as long again.
-  void look_around();
+  // What the smallest spec shows of other families: one more motion, whatever the budget. Candidates are judged by the
+  // one check alone: by all of them, shrinking takes half as long again.
+  std::vector<Case> others();
+
+  // Of another family that the original does not show: something new, to be handed back.
+  void meet(const Case& other);
 
   // From here on motions may have this many frames, whatever the original has.
   void allow_frames(int most_frames) { most_frames_ = most_frames; }
@@ -44,13 +47,15 @@ class ShrinkState {
   int evaluations() const { return evaluations_; }
   std::vector<Case> met() const;
 
-  // The original's other families that the smallest spec shows, as deep as the family itself must stay: by name. One
-  // more motion, whatever the budget, unless nothing was shrunk.
-  std::vector<std::string> still_shown();
+  // The original's other families, of those of the smallest spec, that are as deep as the family itself must stay: by
+  // name.
+  std::vector<std::string> still_shown(const std::vector<Case>& others) const;
+
+  // One of these as the original shows it, or as it is where the original does not.
+  Case before(const Case& other) const;
 
  private:
   bool spent();
-  void meet(const Case& other);
 
   Trial& trial_;
   const ShrinkConfig& config_;
@@ -59,8 +64,8 @@ class ShrinkState {
   double least_depth_ = 0.0;
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
-  std::map<std::string, double> beside_;  // depths of other families in the original
-  std::map<std::string, Case> met_;       // by family, none of the original's
+  std::map<std::string, Case> beside_;   // the original's other families
+  std::map<std::string, Case> met_;      // by family, none of the original's
   std::string stopped_ = "fixpoint";
   int evaluations_ = 0;
 };

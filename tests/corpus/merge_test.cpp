@@ -22,6 +22,7 @@ struct Failure {
   int subject = 0;
   int rank = 0;             // among those of the index
   std::vector<int> also{};  // subjects of the same index that the minimal spec shows too
+  int named = -1;           // subject that names the minimal spec; -1: its own
 };
 using Failures = std::vector<Failure>;  // by index, then rank
 
@@ -37,6 +38,11 @@ Lead lead_of(const Failure& failure) {
   // Some are minimal in another bucket of their family, and any may be the smallest or the deepest of its bucket.
   Lead lead{"seed_1_0", shown(160 + failure.index), shown(151 + failure.index * 7 % 9)};
   if (failure.index % 3 == 0) lead.minimal->spec.sequences.push_back(lead.minimal->spec.sequences.front());
+  if (failure.named >= 0 && failure.named != failure.subject) {
+    lead.minimal->expect.subject = subject_text(failure.named);
+    lead.shrunk_from = lead.original;
+    lead.shrunk_from->expect.subject = subject_text(failure.named);
+  }
   lead.minimal->provenance.shrunk_from = spec_id(lead.original.spec);
   for (const int subject : failure.also) {
     Case other = lead.original;
@@ -75,6 +81,7 @@ void leave(const Failures& failures, int shard, int shards, const Corpus& corpus
     if (shards > 1) continue;
     ASSERT_TRUE(file_lead(corpus, lead));
     for (const int subject : failure.also) told.insert({failure.index, subject});
+    told.insert({failure.index, failure.named});
   }
 }
 
@@ -127,7 +134,7 @@ Failures draw_failures() {
   Failures failures;
   for (int index = 0; index < 10; ++index)
     for (int rank = 0; const int subject : draw_subjects())
-      failures.push_back({index, subject, rank++, draw_subjects()});
+      failures.push_back({index, subject, rank++, draw_subjects(), *rc::gen::inRange(-1, 4)});
   return failures;
 }
 
@@ -173,6 +180,21 @@ TEST(Merge, FilesNothingThatAnEarlierFailureOfTheCaseShowsToo) {
   // What the first shows is told with it, and what only that would have told is not; another case tells nothing of it.
   EXPECT_EQ(filed, (std::set<std::pair<std::string, std::int64_t>>{
                        {subject_text(0), 0}, {subject_text(3), 0}, {subject_text(1), 1}}));
+}
+
+TEST(Merge, FilesUnderTheFamilyThatNamesTheMinimalSpec) {
+  Corpora corpora;
+  leave_shards({{0, 0, 0, {}, 1}, {0, 1, 1}, {0, 2, 2}, {1, 2, 0}}, 2, corpora);
+  const Corpus& into = corpora.make();
+  merge_all({corpora.all()[0], corpora.all()[1]}, into);
+  std::vector<Issue> damaged;
+  std::set<std::pair<std::string, std::string>> filed;
+  for (const Bucket& bucket : into.buckets(damaged))
+    filed.insert({read_case(into.folder_of(bucket) + "/" + bucket.min)->expect.subject,
+                  read_case(into.folder_of(bucket) + "/" + bucket.orig)->expect.subject});
+  // The first is filed as 1, and with it 1 of the same case is told.
+  EXPECT_EQ(filed, (std::set<std::pair<std::string, std::string>>{{subject_text(1), subject_text(1)},
+                                                                  {subject_text(2), subject_text(2)}}));
 }
 
 TEST(Merge, WhatWasMetWhileShrinkingSuchAFailureIsNotFiled) {
