@@ -166,8 +166,13 @@ class Session {
     const Observation seen{ran.shown,
                            "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
     const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };
-    const Result<Bucket> next = options_.update ? corpus.change(bucket, change) : change(bucket);
-    if (!next) return context_.fail(next.issue(), next.issue().code == "file.unwritable" ? kInternal : kBadInput);
+    Result<Bucket> next = options_.update && is_writable_ ? corpus.change(bucket, change) : change(bucket);
+    if (!next && next.issue().code == "file.unwritable") {  // said once; what is replayed is told all the same
+      context_.fail(next.issue(), kInternal);
+      is_writable_ = false;
+      next = change(bucket);
+    }
+    if (!next) return context_.fail(next.issue());
     count(ran, *next);
     if (options_.json)
       list_.push_back(bucket_json(ran, *next));
@@ -229,6 +234,7 @@ class Session {
   Baseline known_;
   std::optional<Clock::time_point> end_;
   bool has_corpus_ = false;
+  bool is_writable_ = true;  // as far as is known
   Totals totals_;
   Json list_ = Json::array();
 };

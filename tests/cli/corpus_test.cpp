@@ -122,7 +122,8 @@ TEST_F(StoredCorpus, AcknowledgingChangesAllOrNone) {
   EXPECT_EQ(corpus("ack", {left().id, "zzz", "--owner", "ana", "--ticket", "12"}).code, 2);
   EXPECT_EQ(corpus("ack", {left().id, "--owner", "ana"}).code, 2);
   EXPECT_EQ(corpus("quarantine", {left().id, "--owner", "ana", "--reason", "r", "--expires", "2027-03-13"}).code, 2);
-  EXPECT_EQ(corpus("ack", {left().id, "--owner", std::string(300, 'x'), "--ticket", "12"}).code, 2) << "nobody could read it";
+  EXPECT_EQ(corpus("ack", {left().id, "--owner", std::string(300, 'x'), "--ticket", "12"}).code, 2)
+      << "nobody could read it";
   EXPECT_EQ(corpus("note", {left().id, "--text", std::string(5000, 'x')}).code, 2);
   expect_unchanged(before);
   EXPECT_EQ(corpus("ack", {left().id, right_id(), "--owner", "ana", "--ticket", "12"}).code, 0);
@@ -214,6 +215,17 @@ TEST_F(StoredCorpus, ReplayWithoutUpdateWritesNothing) {
       << failing.out;
   EXPECT_EQ(run({"replay", corpus_.folder(), "--settings", fixed_settings()}).code, 0);
   expect_unchanged(before);
+}
+
+TEST_F(StoredCorpus, ReplayOfACorpusThatCannotBeUpdatedSaysSoOnceAndTellsWhatItSaw) {
+  const std::string lock = corpus_.folder() + "/.lock";  // a folder cannot be locked
+  std::filesystem::remove(lock);
+  std::filesystem::create_directory(lock);
+  const Ran ran = run({"replay", corpus_.folder(), "--update"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_EQ(lines_of(ran.err).size(), 1U) << ran.err;
+  EXPECT_TRUE(says(ran.err, "file.unwritable")) << ran.err;
+  EXPECT_TRUE(says(last_line(ran.out), "buckets=2 gating=2 ")) << ran.out;
 }
 
 TEST_F(StoredCorpus, WhatPassesInTwoBuildsIsFixedAndRegressesWhenItFails) {

@@ -31,7 +31,8 @@ class Night : public ::testing::Test {
 };
 class NightSlow : public Night {};
 
-// While it starts, searches, shrinks and writes. It keeps its state once a second, so that some kills come before it got on.
+// While it starts, searches, shrinks and writes. It keeps its state once a second, so that some kills come before it
+// got on.
 TEST_F(NightSlow, KilledFiftyTimesAndResumedItLeavesTheSameBytes) {
   const std::string whole = folder_ / "whole", killed = folder_ / "killed";
   constexpr int kCases = 60000;
@@ -110,6 +111,25 @@ TEST_F(Night, BadOptionsAreOneLineAndExitCode2) {
     EXPECT_EQ(lines_of(ran.err).size(), 1U) << ran.err;
   }
   EXPECT_EQ(contort_program({"merge", folder_ / "nowhere", "-o", folder_ / "out"}).code, 2);
+}
+
+TEST_F(Night, WritesWhatCiReadsOfItsCorpus) {
+  const std::string corpus = folder_ / "corpus", junit = folder_ / "j.xml", sarif = folder_ / "s.sarif",
+                    markdown = folder_ / "m.md";
+  const Ran ran =
+      contort_program(fuzz(corpus, 4, {"--junit", junit, "--sarif", sarif, "--markdown", markdown, "--github"}));
+  ASSERT_EQ(ran.code, 1) << ran.err;
+  std::ptrdiff_t annotations = 0;
+  for (const std::string& line : lines_of(ran.out)) annotations += line.starts_with("::error file=");
+  EXPECT_GT(annotations, 0) << ran.out;
+  EXPECT_TRUE(last_line(ran.out).starts_with("RESULT ")) << ran.out;
+  const Ran again = contort_program({"report", corpus, "--library", library_, "--junit", junit + "2", "--sarif",
+                                     sarif + "2", "--markdown", markdown + "2"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  for (const std::string& path : {junit, sarif, markdown}) {
+    EXPECT_FALSE(slurp(path).empty());
+    EXPECT_EQ(slurp(path), slurp(path + "2"));
+  }
 }
 
 TEST_F(Night, AcknowledgedFailuresDoNotFailABuildAndNewOnesDo) {
