@@ -19,13 +19,9 @@ constexpr int kShortFrames = 240;  // whatever explaining and climbing try may b
 void make_minimal(ShrinkState& state) {
   while (!state.halted()) {
     const Spec before = state.spec();
-    cut_time(state);
-    try_stock(state);
-    remove_structure(state);
-    queue_interrupts(state);
-    reset_fields(state);
-    lower_numbers(state);
-    if (state.spec() == before) try_pairs(state);
+    for (const auto stage : {cut_time, try_stock, remove_structure, queue_interrupts, reset_fields, lower_numbers})
+      if (!state.halted()) stage(state);
+    if (state.spec() == before && !state.halted()) try_pairs(state);
     if (state.spec() == before) return;
   }
 }

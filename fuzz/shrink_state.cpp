@@ -59,7 +59,7 @@ bool ShrinkState::confirm() {
 }
 
 bool ShrinkState::accept(Spec candidate) {
-  if (candidate == best_.spec) return false;
+  if (halted() || candidate == best_.spec) return false;  // not even printed, which takes as long as trying
   const std::string text = print_spec(candidate);
   if (tried_.contains(text) || !allows(candidate)) return false;
   std::optional<TrialResult> shown = run(candidate);

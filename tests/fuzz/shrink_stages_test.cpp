@@ -300,6 +300,22 @@ TEST(ShrinkStages, TheMinimalCaseNamesWhatOfTheOriginalItStillShowsHalfAsDeep) {
   EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
 }
 
+TEST(ShrinkStages, NothingIsMadeReadyForATrialOnceTheBudgetIsSpent) {
+  ShrinkConfig config;
+  config.max_evaluations = 6;
+  int ready = 0;
+  config.allowed = [&](const Spec&) { return ++ready, false; };  // costs no evaluation
+  PlantedTrial trial([](const Spec& spec) { return actions_of(spec) >= 2 ? 1.0 : 0.0; });
+  EXPECT_EQ(shrink_with(trial, holding(), stock_library(), config).stopped, "fixpoint");
+  const int all = ready;
+  ready = 0;
+  config.out_of_time = [&] { return ready >= 1; };
+  config.allowed = [&](const Spec&) { return ++ready, true; };
+  EXPECT_EQ(shrink_with(trial, holding(), stock_library(), config).stopped, "time");
+  EXPECT_GT(all, 1);
+  EXPECT_EQ(ready, 1);
+}
+
 TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
   CrowdedTrial trial;
   ShrinkConfig config;
