@@ -131,7 +131,7 @@ TEST_F(RunCrashes, ListACrashInShrinkingThatDoesNotHappenAgain) {
 }
 
 TEST_F(RunCrashes, OfThreeShardsMergeTheirCrashesInShrinking) {
-  expect_shards_make_one_run(folder_, config_with_crash(96, 2), 3);
+  expect_shards_make_one_run(folder_, config_with_crash(32, 2), 3);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST_F(RunFamilies, ComeByTheirFirstFramesAndThoseThatBeginTogetherTheDeepestFir
 
 TEST_F(RunFamilies, TheEarliestOfACaseAreShrunkAndTheOthersCounted) {
   for (const int most : {1, 2, 1000}) {
-    RunConfig config = config_of(40, 2);
+    RunConfig config = config_of(16, 2);
     config.draw.characters = {"human"};
     config.shrinks_per_case = most, config.shrinks_per_family = 3, config.shrink.max_evaluations = 0;
     std::vector<FailingCase> failing;
