@@ -139,6 +139,7 @@ class Session {
   }
 
   void finish() {
+    if (unwritten_ > 1) std::fprintf(stderr, "contort: %d more buckets could not be updated\n", unwritten_ - 1);
     if (options_.json) {
       std::printf("%s\n", list_.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
       return;
@@ -166,10 +167,9 @@ class Session {
     const Observation seen{ran.shown,
                            "contort " CONTORT_VERSION + (options_.build.empty() ? "" : " " + options_.build)};
     const auto change = [&](const Bucket& now) -> Result<Bucket> { return next_state(now, seen, context_.day()); };
-    Result<Bucket> next = options_.update && is_writable_ ? corpus.change(bucket, change) : change(bucket);
-    if (!next && next.issue().code == "file.unwritable") {  // said once; what is replayed is told all the same
-      context_.fail(next.issue(), kInternal);
-      is_writable_ = false;
+    Result<Bucket> next = options_.update ? corpus.change(bucket, change) : change(bucket);
+    if (!next && next.issue().code == "file.unwritable") {  // the first says why; what is seen is told all the same
+      if (++unwritten_ == 1) context_.fail(next.issue(), kInternal);
       next = change(bucket);
     }
     if (!next) return context_.fail(next.issue());
@@ -234,7 +234,7 @@ class Session {
   Baseline known_;
   std::optional<Clock::time_point> end_;
   bool has_corpus_ = false;
-  bool is_writable_ = true;  // as far as is known
+  int unwritten_ = 0;  // buckets that --update could not write
   Totals totals_;
   Json list_ = Json::array();
 };

@@ -221,11 +221,18 @@ TEST_F(StoredCorpus, ReplayOfACorpusThatCannotBeUpdatedSaysSoOnceAndTellsWhatItS
   const std::string lock = corpus_.folder() + "/.lock";  // a folder cannot be locked
   std::filesystem::remove(lock);
   std::filesystem::create_directory(lock);
-  const Ran ran = run({"replay", corpus_.folder(), "--update"});
+  const TempFolder other;
+  const Corpus writable = create(other);
+  const Case stored = failing_case(bent_elbow(190), "joint_range", kElbow);
+  ASSERT_TRUE(writable.add({stored, stored, "seed_1"}));
+  const Tree before = tree_of(writable.folder());
+  const Ran ran = run({"replay", corpus_.folder(), writable.folder(), "--update", "--settings", fixed_settings()});
   EXPECT_EQ(ran.code, 3);
-  EXPECT_EQ(lines_of(ran.err).size(), 1U) << ran.err;
+  ASSERT_EQ(lines_of(ran.err).size(), 2U) << ran.err;
   EXPECT_TRUE(says(ran.err, "file.unwritable")) << ran.err;
-  EXPECT_TRUE(says(last_line(ran.out), "buckets=2 gating=2 ")) << ran.out;
+  EXPECT_EQ(last_line(ran.err), "contort: 1 more buckets could not be updated");
+  EXPECT_TRUE(says(last_line(ran.out), "buckets=3 gating=0 ")) << ran.out;
+  EXPECT_NE(first_difference(before, tree_of(writable.folder())), "") << "the other one is updated";
 }
 
 TEST_F(StoredCorpus, WhatPassesInTwoBuildsIsFixedAndRegressesWhenItFails) {
