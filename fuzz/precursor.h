@@ -28,8 +28,8 @@ const Case* precursor_of(const Case& shown, const std::vector<Case>& others, con
 using ShrinkOnward = std::function<Shrunk(const Case& original, const Onward& onward)>;
 
 // Shrinks, and shrinks on to the precursor and that one's, until there is none that it did not come by. What is handed
-// back may be of another family than `original`. `evaluations` are of all together, and so is what was
-// met, with the cheapest spec of each family.
+// back may be of another family than `original`. `evaluations` and what was met are of all together, the latter with
+// the cheapest spec of each family.
 Shrunk shrink_to_precursor(const Case& original, const ShrinkOnward& shrink_onward);
 
 }  // namespace contort

@@ -43,6 +43,23 @@ TEST_F(ShrinkCommand, AgainWritesTheSameFile) {
   EXPECT_NE(contort_program({"replay", worst}).out.find("same "), std::string::npos);
 }
 
+// The arm snaps through the body: the hand that touches a thigh is the least of it.
+TEST_F(ShrinkCommand, KeepsTheFamilyAndSaysUnderWhichARunFilesIt) {
+  ActionUse aim = pose_use("arm_left", {{"target_m", Vec3(0.0, 1.2, 2.8)}});
+  aim.action = "aim";
+  const Case stored = failing_case(spec_of({aim}), "self_collision", "hand_left/hand ~ leg_right/thigh");
+  const std::string smaller = folder_ / "small.json", given = file("case.json", print_case(stored));
+  const Ran ran = contort_program({"shrink", given, "-o", smaller});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(family_of(*read_case(smaller)), family_of(stored));
+  const nlohmann::json said =
+      nlohmann::json::parse(contort_program({"shrink", given, "-o", smaller, "--json"}).out, nullptr, false);
+  ASSERT_TRUE(said["precursor"].is_string()) << said;
+  const std::string precursor = said["precursor"];
+  EXPECT_NE(ran.out.find("a run files it under: " + precursor + "\n"), std::string::npos) << ran.out;
+  EXPECT_NE(precursor, family_of(stored));
+}
+
 // Its 150 frames are what the profile asks for: at least 120.
 TEST_F(ShrinkCommand, StaysWithinTheProfileThatFoundTheCase) {
   Case stored = elbow_case(270, 150);
@@ -58,7 +75,8 @@ TEST_F(ShrinkCommand, StaysWithinTheProfileThatFoundTheCase) {
   EXPECT_GE(frames_of({"--profile", "tame"}), 120);
   stored.provenance.profile = "tame";
   EXPECT_GE(frames_of({}), 120);
-  const std::string longer = file("longer.json", R"({"format": "contort.profile/1", "name": "mine", "shortest_frames": 140,
+  const std::string longer =
+      file("longer.json", R"({"format": "contort.profile/1", "name": "mine", "shortest_frames": 140,
                                                      "longest_frames": 200})");
   EXPECT_GE(frames_of({"--profile", longer}), 140);
   stored.provenance.profile = "mine";
