@@ -18,8 +18,8 @@ namespace contort {
 
 namespace {
 
-using testing::AimPose;
-using testing::AimScene;
+using fixtures::AimPose;
+using fixtures::AimScene;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   const Vec3 across = glm::cross(a, b);
@@ -78,7 +78,7 @@ void compare_row(const char* how, const AimScene& scene, const std::vector<Rigid
   int sweeps = 0, good = 0, violations = 0;
   for (const Rigid& at : aims) {
     AimPose pose(scene.character);
-    const Vec3 wanted = testing::world_from_base(scene, pose).q * (at.q * Vec3(0, 0, 1));
+    const Vec3 wanted = fixtures::world_from_base(scene, pose).q * (at.q * Vec3(0, 0, 1));
     const auto start = std::chrono::steady_clock::now();
     const AimResult result = solve(wanted, pose);
     times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
@@ -95,10 +95,10 @@ void compare_row(const char* how, const AimScene& scene, const std::vector<Rigid
 void compare() {
   std::printf("%-20s %-12s %9s %8s %20s %9s %9s\n", "chain", "solver", "<=0.1 deg", "sweeps", "out of range",
               "median us", "p99 us");
-  for (const testing::AimSceneRow& row : testing::kAimScenes) {
-    const AimScene scene = testing::aim_scene(row);
+  for (const fixtures::AimSceneRow& row : fixtures::kAimScenes) {
+    const AimScene scene = fixtures::aim_scene(row);
     const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));
-    const std::vector<Rigid> aims = testing::reachable_aims(table.geometry(), 2000, 1);
+    const std::vector<Rigid> aims = fixtures::reachable_aims(table.geometry(), 2000, 1);
     compare_row("aim", scene, aims, [&](const Vec3& wanted, AimPose& pose) {
       return aim(scene.character, scene.chain, table, pose.world, {AimTarget::Kind::direction, wanted}, pose.row);
     });
@@ -109,19 +109,19 @@ void compare() {
 }
 
 struct Prepared {
-  explicit Prepared(const testing::AimSceneRow& row)
-      : scene(testing::aim_scene(row)),
+  explicit Prepared(const fixtures::AimSceneRow& row)
+      : scene(fixtures::aim_scene(row)),
         table(AimTable::build(aim_geometry(scene.character, scene.chain))),
-        aims(testing::reachable_aims(table.geometry(), 512, 1)) {}
+        aims(fixtures::reachable_aims(table.geometry(), 512, 1)) {}
   AimScene scene;
   AimTable table;
   std::vector<Rigid> aims;
 };
 
-void aim_solve(benchmark::State& state, const testing::AimSceneRow& row) {
+void aim_solve(benchmark::State& state, const fixtures::AimSceneRow& row) {
   const Prepared prepared(row);
   AimPose pose(prepared.scene.character);
-  const Rigid base = testing::world_from_base(prepared.scene, pose);
+  const Rigid base = fixtures::world_from_base(prepared.scene, pose);
   std::size_t i = 0;
   for (auto _ : state) {
     const Vec3 wanted = base.q * (prepared.aims[i++ % prepared.aims.size()].q * Vec3(0, 0, 1));
@@ -131,10 +131,10 @@ void aim_solve(benchmark::State& state, const testing::AimSceneRow& row) {
 }
 
 // A target that goes to and fro by half a degree per call.
-void aim_continue(benchmark::State& state, const testing::AimSceneRow& row) {
+void aim_continue(benchmark::State& state, const fixtures::AimSceneRow& row) {
   const Prepared prepared(row);
   AimPose pose(prepared.scene.character);
-  const Vec3 start = testing::world_from_base(prepared.scene, pose).q * (prepared.aims[0].q * Vec3(0, 0, 1));
+  const Vec3 start = fixtures::world_from_base(prepared.scene, pose).q * (prepared.aims[0].q * Vec3(0, 0, 1));
   const Vec3 axis_of_way = perpendicular(start);
   int i = 0;
   for (auto _ : state) {
@@ -145,7 +145,7 @@ void aim_continue(benchmark::State& state, const testing::AimSceneRow& row) {
   }
 }
 
-void table_lookup(benchmark::State& state, const testing::AimSceneRow& row) {
+void table_lookup(benchmark::State& state, const fixtures::AimSceneRow& row) {
   const Prepared prepared(row);
   std::array<AimHit, 4> hits;
   std::size_t i = 0;
@@ -153,7 +153,7 @@ void table_lookup(benchmark::State& state, const testing::AimSceneRow& row) {
     benchmark::DoNotOptimize(prepared.table.nearest(prepared.aims[i++ % prepared.aims.size()].q * Vec3(0, 0, 1), hits));
 }
 
-void table_interpolated(benchmark::State& state, const testing::AimSceneRow& row) {
+void table_interpolated(benchmark::State& state, const fixtures::AimSceneRow& row) {
   const Prepared prepared(row);
   std::vector<double> coords(static_cast<std::size_t>(prepared.table.geometry().coord_count));
   std::size_t i = 0;
@@ -163,14 +163,14 @@ void table_interpolated(benchmark::State& state, const testing::AimSceneRow& row
   }
 }
 
-void table_build(benchmark::State& state, const testing::AimSceneRow& row) {
-  const AimScene scene = testing::aim_scene(row);
+void table_build(benchmark::State& state, const fixtures::AimSceneRow& row) {
+  const AimScene scene = fixtures::aim_scene(row);
   const AimGeometry geometry = aim_geometry(scene.character, scene.chain);
   for (auto _ : state) benchmark::DoNotOptimize(AimTable::build(geometry).posture_count());
 }
 
-constexpr testing::AimSceneRow kHumanMuzzle = testing::kAimScenes[2];
-constexpr testing::AimSceneRow kMechMuzzle = testing::kAimScenes[5];
+constexpr fixtures::AimSceneRow kHumanMuzzle = fixtures::kAimScenes[2];
+constexpr fixtures::AimSceneRow kMechMuzzle = fixtures::kAimScenes[5];
 
 BENCHMARK_CAPTURE(aim_solve, human_muzzle, kHumanMuzzle)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(aim_solve, mech_slim_muzzle, kMechMuzzle)->Unit(benchmark::kMicrosecond);

@@ -57,12 +57,12 @@ class MujocoFrames {
  public:
   explicit MujocoFrames(const std::vector<Case>& cases)
       : body_(Multibody::of(*cases.front().stage.character)),
-        theirs_(*cases.front().stage.character, testing::Shapes::colliders) {
+        theirs_(*cases.front().stage.character, fixtures::Shapes::colliders) {
     for (const Case& each : cases) {
       std::vector<State> states;
       for (int f = 0; f < each.motion.frame_count; ++f)
-        states.push_back({theirs_.coords_of(body_, each.motion.root[static_cast<std::size_t>(f)], each.motion.row(f)),
-                          {}, {}});
+        states.push_back(
+            {theirs_.coords_of(body_, each.motion.root[static_cast<std::size_t>(f)], each.motion.row(f)), {}, {}});
       differentiate(theirs_.model(), each.motion.rate_hz, states);
       states_.push_back(std::move(states));
     }
@@ -85,7 +85,7 @@ class MujocoFrames {
 
  private:
   Multibody body_;
-  testing::MujocoModel theirs_;
+  fixtures::MujocoModel theirs_;
   std::vector<std::vector<State>> states_;  // of cases, by frame
   long contacts_ = 0;
 };
@@ -130,7 +130,8 @@ void compare(const char* character, const char* profile) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       peer += to_us * theirs.seconds(i);
       own[0] += to_us * ours.seconds(cases[i], {});
-      for (std::size_t c = 0; c < 3; ++c) own[1 + c] += to_us * ours.seconds(cases[i], std::span(kChecks).subspan(c, 1));
+      for (std::size_t c = 0; c < 3; ++c)
+        own[1 + c] += to_us * ours.seconds(cases[i], std::span(kChecks).subspan(c, 1));
       own[4] += to_us * ours.seconds(cases[i], kChecks);
     }
     peer_us.push_back(peer);

@@ -42,12 +42,12 @@ void compare(const char* name, Ours ours, Theirs theirs) {
 
 void compare_on(const char* name, const Character& character) {
   const Multibody body = Multibody::of(character);
-  testing::MujocoModel theirs(character);
+  fixtures::MujocoModel theirs(character);
   std::mt19937_64 random(1);
-  std::vector<testing::DynamicsState> states;
+  std::vector<fixtures::DynamicsState> states;
   std::vector<std::vector<double>> coords, speeds, changes;
   for (int i = 0; i < kStates; ++i) {
-    states.push_back(testing::any_state(body, random));
+    states.push_back(fixtures::any_state(body, random));
     theirs.set(body, states.back());
     const mjModel* m = theirs.model();
     const mjData* d = theirs.data();
@@ -132,9 +132,9 @@ void compare_tick(Mode mode) {
   still.dynamics = nullptr;
   const Motion target = generate(still);
   const int ticks = (target.frame_count - 1) * 4 + 1;
-  testing::MujocoModel theirs(*stage.character);
+  fixtures::MujocoModel theirs(*stage.character);
   std::mt19937_64 random(1);
-  theirs.set(stage.dynamics->figure.body, testing::any_state(stage.dynamics->figure.body, random));
+  theirs.set(stage.dynamics->figure.body, fixtures::any_state(stage.dynamics->figure.body, random));
   SimulationScratch scratch;
   Motion motion;
   std::vector<double> times, peers, ratios;

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kLimit_rad = 0.1 * kRadPerDeg;
+constexpr double kAimLimit_rad = 0.1 * kRadPerDeg;
 
 // Between the socket's +Z and the way to the target.
 double error_rad(const Rigid& world_from_socket, const Vec3& target_m) {
@@ -32,7 +32,7 @@ void aim_error_measure(const CheckInput& in, MarginFold& fold) {
     const Socket& socket = in.character.sockets()[static_cast<std::size_t>(aim.socket)];
     for (int frame = aim.first_frame; frame <= aim.last_frame; ++frame) {
       const Rigid at = in.world_at(frame)[static_cast<std::size_t>(socket.joint)] * socket.joint_from_socket;
-      fold.report(aim.socket, frame, kLimit_rad - error_rad(at, aim.target_m));
+      fold.report(aim.socket, frame, kAimLimit_rad - error_rad(at, aim.target_m));
     }
   }
 }

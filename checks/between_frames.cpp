@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/index.h"
+#include "generator/core/math.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -13,9 +15,6 @@ constexpr double kMissed_m = 0.001;   // a penetration that is deeper by no more
 constexpr int kMostHalvings = 8;      // 256 parts of the time between two frames
 constexpr int kMostStraightened = 3;  // of these, with one direction, before distances are measured anew
 constexpr double kMoments = 1 << kMostHalvings;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 Quat ball_at(std::span<const double> row, const Joint& joint) {
   const double* q = row.data() + joint.coord;

@@ -5,15 +5,14 @@
 #include <limits>
 
 #include "checks/round_distances.h"
+#include "generator/core/index.h"
 
 namespace contort {
 
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // NaN is not "apart": it goes on to be measured, and found.
 bool apart(const Vec3& a, const Vec3& b, double reach_m) {
@@ -46,7 +45,7 @@ Clearances::Pair Clearances::parted(const JudgedPair& pair) {
 
 Clearances::Ball Clearances::ball_of(const Body& body) const {
   const std::span<const Solid> solids = std::span(own_).subspan(at(body.first_collider), at(body.collider_count));
-  Vec3 low(kInfinity), high(-kInfinity);
+  Vec3 low(kUnbounded), high(-kUnbounded);
   for (const Solid& solid : solids) {
     low = glm::min(low, solid.center_m - Vec3(solid.bound_m));
     high = glm::max(high, solid.center_m + Vec3(solid.bound_m));
@@ -82,7 +81,7 @@ bool Clearances::are_apart(const ColliderPair& pair, double enough_m) const {
 // How far a body reaches along n, from its joint and in its frame.
 double Clearances::extent_of(std::size_t body, const Vec3& n) const {
   const auto& [name, joint, first, count] = character_.bodies()[body];
-  double extent_m = -kInfinity;
+  double extent_m = -kUnbounded;
   for (const Solid& solid : std::span(own_).subspan(at(first), at(count)))
     extent_m = std::max(extent_m, glm::dot(solid.center_m, n) + extent_along(solid, n));
   return extent_m;
@@ -102,7 +101,7 @@ void Clearances::set_way(Pair& pair, const Vec3& way) {
 
 void Clearances::set_way_of_round(Pair& pair, const ColliderPair& nearest) {
   Vec3 way;
-  signed_distance(world_[at(nearest.a)], world_[at(nearest.b)], kInfinity, way);
+  signed_distance(world_[at(nearest.a)], world_[at(nearest.b)], kUnbounded, way);
   set_way(pair, glm::conjugate(place_of(pair.body_a).q) * way);
 }
 

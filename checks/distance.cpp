@@ -6,12 +6,11 @@
 
 #include "checks/hull_distance.h"
 #include "checks/segment_distance.h"
+#include "generator/core/math.h"
 
 namespace contort {
 
 namespace {
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 Segment core_of(const Solid& round) { return {round.center_m, round.axis, round.half_length_m}; }
 
@@ -30,7 +29,7 @@ struct Local {
   Vec3 reach(int i) const { return size[i] * axis[i]; }
 };
 
-Local in_frame_of(const Solid& box, const Solid& other) {
+Local in_box_frame(const Solid& box, const Solid& other) {
   const Mat3 to_box = glm::transpose(box.axes);
   Local local{box.half_m, to_box * (other.center_m - box.center_m), {}, Vec3(0.0), 0};
   const auto add = [&](const Vec3& axis, double half) {
@@ -44,7 +43,7 @@ Local in_frame_of(const Solid& box, const Solid& other) {
 }
 
 // A direction across which A and B are apart by `gap` (negative: they overlap by that much everywhere).
-struct Separation {
+struct BoxSeparation {
   double gap = -std::numeric_limits<double>::infinity();
   Vec3 axis{0.0};  // unit
 };
@@ -59,8 +58,8 @@ double gap_along(const Local& l, const Vec3& n) {
 // The greatest gap over all face normals of the Minkowski difference: > 0 is a lower bound of the distance, <= 0 is
 // minus the depth (separating axis theorem: Gottschalk, Lin, Manocha 1996). Stops at the first gap greater than
 // `enough`.
-Separation separation(const Local& l, double enough) {
-  Separation best;
+BoxSeparation box_separation(const Local& l, double enough) {
+  BoxSeparation best;
   Vec3 faces = glm::abs(l.center) - l.half;
   for (int i = 0; i < l.axis_count; ++i) faces -= l.size[i] * glm::abs(l.axis[i]);
   for (int i = 0; i < 3; ++i)
@@ -130,7 +129,7 @@ Edges edges_ahead(const Vec3& center, const Vec3 (&axes)[3], const Vec3& half, c
   return out;
 }
 
-double nearest_edges(const Local& l, const Separation& apart, double best) {
+double nearest_edges(const Local& l, const BoxSeparation& apart, double best) {
   constexpr Vec3 kAxes[3] = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   const Vec3 towards_b = glm::dot(l.center, apart.axis) < 0.0 ? -apart.axis : apart.axis;
   const double slack = best - apart.gap + 1e-9;
@@ -144,8 +143,8 @@ double nearest_edges(const Local& l, const Separation& apart, double best) {
 
 // Two convex polytopes that are apart are nearest at a corner and a face, or at two edges. `way` as in signed_distance.
 double box_distance(const Solid& box, const Solid& other, double band_m, Vec3& way) {
-  const Local l = in_frame_of(box, other);
-  const Separation apart = separation(l, band_m);
+  const Local l = in_box_frame(box, other);
+  const BoxSeparation apart = box_separation(l, band_m);
   way = box.axes * (glm::dot(l.center, apart.axis) < 0.0 ? -apart.axis : apart.axis);
   if (apart.gap <= 0.0 || apart.gap > band_m) return apart.gap;
   return l.axis_count == 0 ? point_box_distance(l.center, l.half) : nearest_edges(l, apart, nearest_corners(l));

@@ -13,7 +13,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kTouch_m = 0.002;
+constexpr double kContact_m = 0.002;
 constexpr double kSlide_m = 0.02;
 constexpr double kFoot_m = 0.005;  // above the ground at rest
 
@@ -69,7 +69,7 @@ double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& g
   const Vec3 core = world_from_joint * p.core_m;
   if (!p.touches) {
     const Surface beneath = ground.nearest_ground(core);
-    if (!(beneath.distance_m - p.radius_m <= kTouch_m)) return -1.0;
+    if (!(beneath.distance_m - p.radius_m <= kContact_m)) return -1.0;
     p.touches = true;
     p.came_down_m = core - p.radius_m * beneath.normal;
     p.material_m = inverse(world_from_joint) * p.came_down_m;
@@ -77,7 +77,7 @@ double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& g
   }
   const Vec3 now = world_from_joint * p.material_m;
   const Surface beneath = ground.nearest_ground(now);
-  p.touches = beneath.distance_m <= kTouch_m;
+  p.touches = beneath.distance_m <= kContact_m;
   if (!p.touches) return -1.0;
   const Vec3 way = now - p.came_down_m;
   const Vec3 along = way - glm::dot(way, beneath.normal) * beneath.normal;

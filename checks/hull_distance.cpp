@@ -16,6 +16,8 @@
 #include <span>
 
 #include "checks/segment_distance.h"
+#include "generator/core/index.h"
+#include "generator/core/math.h"
 
 namespace contort {
 
@@ -23,11 +25,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 64;
-constexpr double kTouch_m = 1e-12;
+constexpr double kRounding_m = 1e-12;
 constexpr double kProof = 1e-13;  // of the solids' size: bounds this close prove a distance
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 // Solid B, posed in A's frame.
 struct Other {
@@ -50,7 +49,7 @@ const Polyhedron& unit_cube() {
   return cube;
 }
 
-Other in_frame_of(const Solid& a, const Solid& b) {
+Other posed_in_frame_of(const Solid& a, const Solid& b) {
   const Mat3 to_a = glm::transpose(a.axes);
   const Vec3 center = to_a * (b.center_m - a.center_m);
   Other out;
@@ -156,7 +155,7 @@ Walk walk_to_origin(std::span<const Vec3> a, std::span<const Vec3> b, double eno
 
 // ---- overlapping
 
-struct Separation {
+struct HullSeparation {
   double gap = -kInfinity;  // > 0: they are at least this far apart; else minus the depth
   Vec3 axis{0.0};           // unit, from A to B
   void try_axis(const Vec3& n, double g) {
@@ -174,7 +173,7 @@ double side_of(const Vec3& n, const Vec3& other_edge, const Vec3& left, const Ve
 // Normals across edges of A and one edge of B: a segment has every direction across it as a normal, an edge of a solid
 // those between its faces' two.
 void try_edges(const Polyhedron& a, const Vec3& edge_b, const Vec3& on_b, const std::array<Vec3, 2>* normals_b,
-               Separation& best) {
+               HullSeparation& best) {
   const double size2_b = glm::dot(edge_b, edge_b);
   for (const Polyhedron::Edge& edge : a.edges) {
     const Vec3& left = a.faces[at(edge.faces[0])].normal;
@@ -192,8 +191,8 @@ void try_edges(const Polyhedron& a, const Vec3& edge_b, const Vec3& on_b, const 
   }
 }
 
-Separation separation(const Polyhedron& a, const Other& b) {
-  Separation best;
+HullSeparation hull_separation(const Polyhedron& a, const Other& b) {
+  HullSeparation best;
   for (const Polyhedron::Face& face : a.faces)
     best.try_axis(face.normal, lowest_along(b.all(), face.normal) - glm::dot(a.corner_of(face, 0), face.normal));
   if (b.solid == nullptr) {
@@ -227,7 +226,8 @@ double nearest_to_faces(std::span<const Vec3> corners, const Polyhedron& solid, 
     };
     for (const Vec3& p : corners) {
       double height = glm::dot(n, p - corner(0));
-      if (height < 0.0 && height > -kTouch_m) height = 0.0;  // they are apart: a corner on the face, but for rounding
+      if (height < 0.0 && height > -kRounding_m)
+        height = 0.0;  // they are apart: a corner on the face, but for rounding
       if (height < 0.0 || height >= best) continue;
       bool above = true;
       for (int i = 0; i < face.count && above; ++i)
@@ -261,12 +261,12 @@ double nearest_features(const Polyhedron& a, const Other& b) {
 
 double hull_distance(const Solid& a, const Solid& b, double band_m) {
   const Polyhedron& hull = *a.hull;
-  const Other other = in_frame_of(a, b);
+  const Other other = posed_in_frame_of(a, b);
   const double proof = kProof * (a.bound_m + b.bound_m);
   const Walk walk = walk_to_origin(hull.corners_m, other.all(), band_m, proof);
   if (walk.low > band_m) return walk.low;
   if (walk.high - walk.low <= proof) return walk.high;
-  const Separation apart = separation(hull, other);
+  const HullSeparation apart = hull_separation(hull, other);
   return apart.gap <= 0.0 ? apart.gap : nearest_features(hull, other);
 }
 

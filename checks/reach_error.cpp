@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kLimit_m = 0.001;
+constexpr double kReachLimit_m = 0.001;
 constexpr double kComeBack_s = 0.2;  // an action that was cut takes this long to come in again
 
 // The limb's grip: of the part, or of one that hangs on it; else the tip of its chain.
@@ -88,7 +88,7 @@ void reach_error_measure(const CheckInput& in, MarginFold& fold) {
     for (int frame = goal.first_frame; frame <= goal.last_frame; ++frame) {
       if (is_disturbed(in, goal.socket, span.part, frame)) continue;
       const Vec3 missing = place_of(in, goal.socket, frame) - target_of(in, *action, frame);
-      fold.report(goal.socket, frame, kLimit_m - std::sqrt(glm::dot(missing, missing)));
+      fold.report(goal.socket, frame, kReachLimit_m - std::sqrt(glm::dot(missing, missing)));
     }
   }
 }

@@ -10,8 +10,8 @@ namespace contort {
 namespace {
 
 constexpr double kReturn_s = 0.7;  // people recover from a push within a step
-constexpr double kLimit_rad = 3.0 * kRadPerDeg;
-constexpr double kLimit_m = 0.01;  // of travels
+constexpr double kBack_rad = 3.0 * kRadPerDeg;
+constexpr double kBack_m = 0.01;  // of travels
 
 double error_of(const Joint& joint, const double* now, const double* goal) {
   if (joint.kind != JointKind::ball) return std::fabs(now[0] - goal[0]);
@@ -34,7 +34,7 @@ void judge(const CheckInput& in, int first, int last, MarginFold& fold) {
     for (std::size_t j = 1; j < in.character.joints().size(); ++j) {
       const Joint& joint = in.character.joints()[j];
       const std::size_t at = row + static_cast<std::size_t>(joint.coord);
-      const double limit = joint.kind == JointKind::prismatic ? kLimit_m : kLimit_rad;
+      const double limit = joint.kind == JointKind::prismatic ? kBack_m : kBack_rad;
       fold.report(static_cast<int>(j) - 1, frame,
                   limit - error_of(joint, &in.motion.coords[at], &in.motion.response.target_coords[at]));
     }

@@ -20,7 +20,7 @@ const Rule kText{.text = Text::label, .may_be_empty = true};
 const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
 const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
 const Rule kFrame{.low = 0, .high = 36000};
-const Rule kCount{.low = -1, .high = 0x1p53};
+const Rule kWholeNumber{.low = -1, .high = 0x1p53};
 
 }  // namespace
 
@@ -48,8 +48,8 @@ void fields(V& v, const Expectation*) {
 template <class V>
 void fields(V& v, const Provenance*) {
   v.field("tool", &Provenance::tool, kText, "Version that found it.");
-  v.field("seed", &Provenance::seed, kCount, "Of the run; -1: written by a person.");
-  v.field("index", &Provenance::index, kCount, "Of the case in the run.");
+  v.field("seed", &Provenance::seed, kWholeNumber, "Of the run; -1: written by a person.");
+  v.field("index", &Provenance::index, kWholeNumber, "Of the case in the run.");
   v.field("shrunk_from", &Provenance::shrunk_from, kText, "Content id of the spec before shrinking.");
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
   v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");

@@ -101,7 +101,7 @@ Result<Done> read_record(const std::string& path) {
   return Done{};
 }
 
-Result<Done> read_lead(const std::string& path) {
+Result<Done> check_lead(const std::string& path) {
   const Result<Case> lead = read_case(path);
   if (!lead) return lead.issue();
   return Done{};
@@ -141,7 +141,7 @@ Result<std::vector<CorpusFault>> check_files(const Corpus& corpus, bool repair) 
       faults.add(path, "unknown_file", "is no folder of a bucket", [&] { return faults.move_aside(path); });
   }
   check_plain(corpus.folder() + "/runs", read_record, faults);
-  check_plain(corpus.folder() + "/leads", read_lead, faults);
+  check_plain(corpus.folder() + "/leads", check_lead, faults);
   return faults.take();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/core/math.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -12,15 +13,15 @@ namespace {
 
 // On the lattice, and never beyond the ends.
 double within(double value, double steps_per_unit, double low, double high) {
-  const double rounded = contort::on_lattice(value, steps_per_unit);
+  const double rounded = on_lattice(value, steps_per_unit);
   if (rounded < low) return std::ceil(low * steps_per_unit) / steps_per_unit + 0.0;
   if (rounded > high) return std::floor(high * steps_per_unit) / steps_per_unit + 0.0;
   return rounded;
 }
 
-Vec3 on_lattice(const Vec3& v, double steps_per_unit) {
+Vec3 point_on_lattice(const Vec3& v, double steps_per_unit) {
   Vec3 out;
-  for (int i = 0; i < 3; ++i) out[i] = contort::on_lattice(v[i], steps_per_unit);
+  for (int i = 0; i < 3; ++i) out[i] = on_lattice(v[i], steps_per_unit);
   return out;
 }
 
@@ -50,7 +51,7 @@ Vec3 draw_ball_deg(const Joint& joint, Values& values) {
       radius * (joint.swing_a_rad * around.cos * joint.swing_axis + joint.swing_b_rad * around.sin * other);
   const double twist = 0.98 * (joint.low + (joint.high - joint.low) * values.next_in_range());
   const Quat q = joint.swing_center * from_rotation_vector(swing) * axis_angle(joint.axis, twist);
-  return on_lattice(to_rotation_vector(q) * kDegPerRad, 1.0);
+  return point_on_lattice(to_rotation_vector(q) * kDegPerRad, 1.0);
 }
 
 ParamValue draw_joint(const Joint& joint, Values& values) {
@@ -59,8 +60,6 @@ ParamValue draw_joint(const Joint& joint, Values& values) {
   if (joint.kind == JointKind::prismatic) return within(value, 100.0, joint.low, joint.high);
   return within(value * kDegPerRad, 1.0, joint.low * kDegPerRad, joint.high * kDegPerRad);
 }
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 // A point around the chain's upper joint at rest, between 0.3 and 1.1 of the stretched chain away, in centimetres.
 Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Values& values) {
@@ -73,14 +72,14 @@ Vec3 draw_reach_point(const Character& character, const ReachChain& chain, Value
   const double height = 2.0 * values.next() - 1.0;  // even over the sphere
   const det::SinCos around = det::sincos(2.0 * kPi * values.next());
   const double across = std::sqrt(1.0 - height * height);
-  return on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
+  return point_on_lattice(upper + distance * Vec3(across * around.sin, height, across * around.cos), 100.0);
 }
 
 // A point 0.3 to 5 m away, between the ground and 2.5 m, in centimetres.
 ParamValue draw_around(Values& values) {
   const det::SinCos around = det::sincos(2.0 * kPi * values.next());
   const double distance_m = 0.3 + 4.7 * values.next();
-  return on_lattice(Vec3(distance_m * around.sin, 2.5 * values.next(), distance_m * around.cos), 100.0);
+  return point_on_lattice(Vec3(distance_m * around.sin, 2.5 * values.next(), distance_m * around.cos), 100.0);
 }
 
 ParamValue draw_uniform(const ParamDef& def, Values& values) {

@@ -12,7 +12,7 @@ namespace contort {
 inline const json_fields::Rule kFrames{.low = 0, .high = 36000};
 inline const json_fields::Rule kBlend{.low = 0, .high = 600};
 inline const json_fields::Rule kSpeed{.low = 0.1, .high = 10};
-inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
+inline const json_fields::Rule kOptionalLabel{.text = json_fields::Text::label, .may_be_empty = true};
 
 template <class V>
 void fields(V& v, const ActionUse*) {
@@ -28,7 +28,7 @@ void fields(V& v, const ActionUse*) {
 
 template <class V>
 void fields(V& v, const ClipDesc*) {
-  v.field("name", &ClipDesc::name, kLabel, "For reports.");
+  v.field("name", &ClipDesc::name, kOptionalLabel, "For reports.");
   v.field("start_frame", &ClipDesc::start_frame, kFrames, "From the sequence's start.");
   v.field("duration_frames", &ClipDesc::duration_frames, kFrames, "0: natural length; else stretched to this.");
   v.field("speed", &ClipDesc::speed, kSpeed, "Divides the length.");
@@ -37,7 +37,7 @@ void fields(V& v, const ClipDesc*) {
 
 template <class V>
 void fields(V& v, const SequenceDesc*) {
-  v.field("name", &SequenceDesc::name, kLabel, "For reports.");
+  v.field("name", &SequenceDesc::name, kOptionalLabel, "For reports.");
   v.field("duration_frames", &SequenceDesc::duration_frames, kFrames, "0: natural length; else stretched to this.");
   v.field("clips", &SequenceDesc::clips, {.max_count = 256}, "Clips on one time line.");
 }
@@ -48,7 +48,7 @@ template <class V>
 void fields(V& v, const ConditionDesc*) {
   v.field("event", &ConditionDesc::event, {.names = event_names(), .required = true}, "What it waits for.");
   v.field("frame", &ConditionDesc::frame, kFrames, "frame: of the motion.");
-  v.field("name", &ConditionDesc::name, kLabel, "clip_ended, sequence_ended, near_obstacle: whose.");
+  v.field("name", &ConditionDesc::name, kOptionalLabel, "clip_ended, sequence_ended, near_obstacle: whose.");
   v.field("slot", &ConditionDesc::slot, {.may_be_empty = true}, "contact, aim_reached: of this slot's part.");
   v.field("distance_m", &ConditionDesc::distance_m, {.low = 0, .high = 1000}, "near_obstacle: from the root.");
   v.field("slope_deg", &ConditionDesc::slope_deg, {.low = 0, .high = 90}, "ground_steeper: under the root.");
@@ -58,7 +58,7 @@ template <class V>
 void fields(V& v, const InterruptDesc*) {
   v.field("when", &InterruptDesc::when, {.required = true}, "Fires in the first frame in which this holds.");
   v.field("enter", &InterruptDesc::enter, {.names = kEnterNames}, "Its place in the queue.");
-  v.field("after", &InterruptDesc::after, kLabel, "after_sequence: the name of that sequence.");
+  v.field("after", &InterruptDesc::after, kOptionalLabel, "after_sequence: the name of that sequence.");
   v.field("resume", &InterruptDesc::resume, {}, "What it cuts goes on afterwards; else the rest is dropped.");
   v.field("sequence", &InterruptDesc::sequence, {.required = true}, "What enters.");
 }
@@ -84,7 +84,8 @@ template <class V>
 void fields(V& v, const ImpactDesc*) {
   v.field("frame", &ImpactDesc::frame, kFrames, "Strikes before this frame moves on.");
   v.field("slot", &ImpactDesc::slot, {.required = true}, "The slot whose part is struck.");
-  v.field("joint", &ImpactDesc::joint, {.may_be_empty = true}, "Of that part, by its own name; its first one where left out.");
+  v.field("joint", &ImpactDesc::joint, {.may_be_empty = true},
+          "Of that part, by its own name; its first one where left out.");
   v.field("point_m", &ImpactDesc::point_m, {.low = -10, .high = 10}, "In that joint's frame.");
   v.field("impulse_N_s", &ImpactDesc::impulse_N_s, {.low = -10000, .high = 10000}, "Along the axes of the start.");
 }
@@ -92,7 +93,8 @@ void fields(V& v, const ImpactDesc*) {
 template <class V>
 void fields(V& v, const DynamicsDesc*) {
   v.field("mode", &DynamicsDesc::mode, {.names = mode_names()}, "How the motion is controlled.");
-  v.field("ticks_per_frame", &DynamicsDesc::ticks_per_frame, {.low = 0, .high = 64}, "Of control; 0: as many as make 120 a second.");
+  v.field("ticks_per_frame", &DynamicsDesc::ticks_per_frame, {.low = 0, .high = 64},
+          "Of control; 0: as many as make 120 a second.");
   v.field("loads", &DynamicsDesc::loads, {.max_count = 16}, "Boxes that the target motion does not know of.");
   v.field("impacts", &DynamicsDesc::impacts, {.max_count = 64}, "Blows.");
 }
@@ -113,10 +115,13 @@ void fields(V& v, const CharacterChoice*) {
 
 template <class V>
 void fields(V& v, const RecordingDesc*) {
-  v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true}, "An animation of a library folder, without .glb, .gltf or .bvh.");
-  v.field("clip", &RecordingDesc::clip, kLabel, "One of its clips; the first where left out.");
+  v.field("name", &RecordingDesc::name, {.text = json_fields::Text::label, .required = true, .may_be_empty = true},
+          "An animation of a library folder, without .glb, .gltf or .bvh.");
+  v.field("clip", &RecordingDesc::clip, kOptionalLabel, "One of its clips; the first where left out.");
   v.field("from_s", &RecordingDesc::from_s, {.low = 0, .high = 3600}, "Leaves out what comes before.");
-  v.field("joints", &RecordingDesc::joints, {.max_count = 1024, .text = json_fields::Text::label, .key_text = json_fields::Text::label}, "Node to joint, where names differ, as in a contort.map/1.");
+  v.field("joints", &RecordingDesc::joints,
+          {.max_count = 1024, .text = json_fields::Text::label, .key_text = json_fields::Text::label},
+          "Node to joint, where names differ, as in a contort.map/1.");
 }
 
 template <class V>

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "generator/asset/sample.h"
+#include "generator/core/index.h"
 #include "import/limits.h"
 
 namespace contort {
@@ -9,8 +10,6 @@ namespace {
 
 constexpr int kMostPoses = 2400;
 constexpr int kMostPerClip = 120;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // How every node lies in the world; scales do not turn it.
 std::vector<Quat> world_turns(const Asset& asset, const std::vector<Trs>& local) {

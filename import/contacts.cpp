@@ -7,6 +7,7 @@
 
 #include "checks/distance.h"
 #include "generator/core/detmath.h"
+#include "generator/core/index.h"
 #include "generator/motion/joint_clamp.h"
 #include "generator/motion/kinematics.h"
 #include "generator/motion/recording.h"
@@ -17,9 +18,7 @@ namespace {
 
 constexpr std::size_t kMostPairs = 1000;  // of a character's file
 constexpr double kPosesPerClip = 24.0;
-constexpr int kMostPoses = 600;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+constexpr int kMostContactPoses = 600;
 
 // What makes an overlap no fault: that it is in this share of the poses.
 struct Habit {
@@ -158,7 +157,7 @@ OwnContacts find_contacts(const Character& character, const Asset& asset,
   int poses = 0;
   for (const AssetClip& clip : asset.clips) {
     const double length_s = clip.last_s - clip.first_s;
-    if (poses >= kMostPoses || !(length_s > 0.0)) continue;
+    if (poses >= kMostContactPoses || !(length_s > 0.0)) continue;
     const double rate_hz = std::min(30.0, kPosesPerClip / length_s);
     const Result<Motion> motion = follow_recording(character, {asset, clip, joints, 0.0, rate_hz, 0, Rigid{}});
     if (!motion) continue;  // names that do not fit: then the rest pose alone tells

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/core/index.h"
 #include "import/names.h"
 #include "import/parts.h"
 #include "import/roles.h"
@@ -11,8 +12,6 @@ namespace {
 
 constexpr std::size_t kMostParts = 64;  // as slots of a character
 constexpr std::size_t kMostBones = 30;  // of a part: with two joints for each, within its 64
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 int subtree_size(const RiggedFigure& figure, int bone) {
   int size = 1;

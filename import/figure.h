@@ -9,6 +9,7 @@
 
 #include "generator/asset/skinned.h"
 #include "generator/character/desc.h"
+#include "generator/core/math.h"
 
 namespace contort {
 
@@ -89,8 +90,6 @@ struct ImportOptions {
 inline const Bone& bone_at(const RiggedFigure& figure, int index) {
   return figure.bones[static_cast<std::size_t>(index)];
 }
-inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 // Children of a bone, in order.
 std::vector<int> children_of(const RiggedFigure& figure, int bone);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "generator/core/math.h"
+
 namespace contort {
 
 namespace {
@@ -12,8 +14,6 @@ constexpr double kTrimmed = 0.02;  // of the points, at either end: stray vertic
 constexpr int kSideBySide = 4;
 constexpr double kFlat = 1.5;  // from this ratio of width to depth on, capsules stand side by side
 constexpr double kLong = 2.5;  // from this ratio of length to width on, two follow one another
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 struct Range {
   double low = 0.0;

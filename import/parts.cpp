@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "generator/core/index.h"
 #include "import/names.h"
 #include "import/roles.h"
 
@@ -14,8 +15,6 @@ namespace {
 constexpr double kMaxSpeed_deg_s = 3000.0;     // as `contort check` has it where nothing is known
 constexpr std::size_t kMostColliders = 64;     // of a part
 constexpr std::size_t kMostTriangles = 33000;  // of a piece of mesh: 100000 vertices
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Vec3 rounded(const Vec3& v, double steps) {
   return {on_lattice(v.x, steps), on_lattice(v.y, steps), on_lattice(v.z, steps)};

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "generator/core/index.h"
+
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool is_leg_family(BoneFamily family) {
   return family == BoneFamily::thigh || family == BoneFamily::shank || family == BoneFamily::leg;

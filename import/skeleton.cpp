@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "generator/core/index.h"
 #include "import/names.h"
 #include "import/skinning.h"
 
@@ -16,8 +17,6 @@ constexpr std::size_t kMaxBones = 256;
 constexpr double kSurfacePoints = 40000.0;  // of a figure
 constexpr std::size_t kFewPoints = 40;      // of a bone
 constexpr double kMaxCoordinate = 1e6;      // of vertices and joints, in the file's units
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // ---- which skeleton
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "generator/core/index.h"
+
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Mat4 matrix_of(const Trs& trs) {
   const Mat3 turn = glm::mat3_cast(trs.rotation);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/index.h"
+
 namespace contort {
 namespace {
 
 constexpr double kDot = 0.011;  // radii, in sizes of the figure
 constexpr double kLine = 0.005;
 constexpr double kRim = 0.004;  // is wider by
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Solid placed(const Character& character, std::span<const Rigid> world, int collider) {
   const Collider& own = character.colliders()[at(collider)];

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "checks/solid_points.h"
+#include "generator/core/index.h"
 #include "generator/core/json_fields.h"
 #include "generator/motion/kinematics.h"
 #include "renders/wording.h"
@@ -15,8 +16,6 @@ namespace contort {
 namespace {
 
 using json_fields::Json;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checks/distance.h"
+#include "generator/core/index.h"
 #include "generator/motion/kinematics.h"
 #include "renders/wires.h"
 
@@ -19,8 +20,6 @@ constexpr Vec3 kPaleColor{0.80, 0.80, 0.79};
 constexpr double kMarkerRadius_m = 0.038;
 constexpr double kWire = 0.0016;  // radius, in sizes of the figure: about a pixel of a strip's tile
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 Vec3 muted(const Vec3& color) {
   const double grey = glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
   return glm::mix(Vec3(0.26 + 0.6 * grey), color, 0.3);
@@ -31,10 +30,6 @@ Vec3 color_of(int group) { return group == 2 ? kSecondColor : kHighlightColor; }
 int add_mesh(Figure& figure, const MeshShape& shape) {
   figure.meshes.push_back(tessellate(shape));
   return static_cast<int>(figure.meshes.size()) - 1;
-}
-
-MeshShape as_mesh(const ColliderShape& shape) {
-  return std::visit([](const auto& s) { return MeshShape(s); }, shape);
 }
 
 void add_mesh_pieces(Figure& figure, const Character& character, const Highlight& highlight, bool wears_skin) {

@@ -5,12 +5,12 @@
 #include <limits>
 #include <string_view>
 
+#include "generator/core/index.h"
+
 namespace contort {
 namespace {
 
 constexpr std::string_view kBetween = " ~ ";
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // The colliders of the body or collider of this name; empty where there is none.
 std::vector<int> find_solid(const Character& character, std::string_view name) {

@@ -4,22 +4,21 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/core/index.h"
 #include "renders/response_marks.h"
 
 namespace contort {
 namespace {
 
-constexpr double kShare = 0.8;           // of the limb's length
-constexpr double kStep_rad = 0.1;        // of an arc; 6 degrees look round
-constexpr double kLeastLever = 0.1;      // sine below which a limb lies along its axis
+constexpr double kShare = 0.8;       // of the limb's length
+constexpr double kStep_rad = 0.1;    // of an arc; 6 degrees look round
+constexpr double kLeastLever = 0.1;  // sine below which a limb lies along its axis
 constexpr int kConeCorners = 64;
 constexpr Vec3 kAllowedColor{0.04, 0.50, 0.09};
 constexpr Vec3 kBeyondColor{0.80, 0.03, 0.03};
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 // Seen from both sides.
-void add_triangle(Triangles& triangles, const Vec3& a, const Vec3& b, const Vec3& c) {
+void add_two_sided(Triangles& triangles, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = unit_or(glm::cross(b - a, c - a), Vec3(0, 1, 0));
   for (const Vec3& corner : {a, b, c}) triangles.positions_m.push_back(corner), triangles.normals.push_back(normal);
   for (const Vec3& corner : {a, c, b}) triangles.positions_m.push_back(corner), triangles.normals.push_back(-normal);
@@ -27,8 +26,9 @@ void add_triangle(Triangles& triangles, const Vec3& a, const Vec3& b, const Vec3
 
 void add_mark(DrawList& list, std::vector<Triangles>& meshes, Triangles triangles, const Vec3& color, bool ghost) {
   if (triangles.positions_m.empty()) return;
-  add_instance(list, {.mesh = static_cast<int>(meshes.size()), .world_from_mesh = {}, .color = color, .ghost = ghost,
-                      .mark = true});
+  add_instance(
+      list,
+      {.mesh = static_cast<int>(meshes.size()), .world_from_mesh = {}, .color = color, .ghost = ghost, .mark = true});
   meshes.push_back(std::move(triangles));
 }
 
@@ -44,8 +44,8 @@ struct Hinge {
     Triangles fan;
     const int steps = static_cast<int>(std::ceil((to_rad - from_rad) / kStep_rad));
     for (int i = 0; i < steps; ++i)
-      add_triangle(fan, center_m, rim(from_rad + (to_rad - from_rad) * i / steps),
-                   rim(from_rad + (to_rad - from_rad) * (i + 1) / steps));
+      add_two_sided(fan, center_m, rim(from_rad + (to_rad - from_rad) * i / steps),
+                    rim(from_rad + (to_rad - from_rad) * (i + 1) / steps));
     return fan;
   }
 };
@@ -78,7 +78,8 @@ void add_ball(const Joint& joint, const Rigid& place, const Vec3& lever_m, const
   const double sign = glm::dot(along, joint.axis) < 0.0 ? -1.0 : 1.0;
   Triangles cone;
   for (int i = 0; i < kConeCorners; ++i)
-    add_triangle(cone, place.p_m, place.p_m + sign * (rim(i) - place.p_m), place.p_m + sign * (rim(i + 1) - place.p_m));
+    add_two_sided(cone, place.p_m, place.p_m + sign * (rim(i) - place.p_m),
+                  place.p_m + sign * (rim(i + 1) - place.p_m));
   add_mark(list, meshes, std::move(cone), kAllowedColor, true);
 }
 

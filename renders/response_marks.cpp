@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/dynamics.h"
 #include "generator/dynamics/ground.h"
 #include "renders/arrow.h"
@@ -11,14 +12,12 @@
 namespace contort {
 namespace {
 
-constexpr double kSamePlace_m = 0.01;
+constexpr double kOwnPlace_m = 0.01;
 constexpr double kOnAxis = 0.05;  // Sine of the angle between axis and lever below which nothing is seen to turn.
 constexpr double kBallRadius_m = 0.022;
 constexpr double kLifted_m = 0.004;        // A patch in the ground's plane would flicker.
 constexpr double kFarOutside_m = 0.5;      // Beyond it a ball would have all else drawn small.
 constexpr double kShortestImpact_m = 0.1;  // A blow is worth seeing, however weak.
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void add_shape(DrawList& list, std::vector<Triangles>& meshes, Triangles triangles, DrawInstance instance) {
   instance.mesh = static_cast<int>(meshes.size());
@@ -106,7 +105,7 @@ Vec3 lever_point_m(const Character& character, std::span<const Rigid> world, int
   const Vec3 origin_m = world[at(joint)].p_m;
   int last = joint;
   for (int next = only_child(character, last); next >= 0; next = only_child(character, last)) {
-    if (glm::distance(world[at(next)].p_m, origin_m) > kSamePlace_m) return world[at(next)].p_m;
+    if (glm::distance(world[at(next)].p_m, origin_m) > kOwnPlace_m) return world[at(next)].p_m;
     last = next;
   }
   return world[at(last)] * character.joints()[at(last)].center_of_mass_m;

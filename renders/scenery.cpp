@@ -26,19 +26,15 @@ double rise_toward(const View& view, const Environment& environment, const Vec3&
   return (near_m - environment.height_at(at_m.x - x_m, at_m.z - z_m)) / (2.0 * radius_m);
 }
 
-struct Extent {
+struct Corners {
   Vec3 low{0.0}, high{0.0};
 };
 
-Extent extent_of(const std::vector<Vec3>& points) {
+Corners corners_of(const std::vector<Vec3>& points) {
   if (points.empty()) return {};
-  Extent extent{points.front(), points.front()};
-  for (const Vec3& p : points) extent = {glm::min(extent.low, p), glm::max(extent.high, p)};
-  return extent;
-}
-
-MeshShape as_mesh(const ColliderShape& shape) {
-  return std::visit([](const auto& s) { return MeshShape(s); }, shape);
+  Corners corners{points.front(), points.front()};
+  for (const Vec3& p : points) corners = {glm::min(corners.low, p), glm::max(corners.high, p)};
+  return corners;
 }
 
 int add_mesh(std::vector<Triangles>& meshes, Triangles triangles) {
@@ -49,14 +45,14 @@ int add_mesh(std::vector<Triangles>& meshes, Triangles triangles) {
 }  // namespace
 
 GroundRegion region_around(std::span<const std::vector<Vec3>> outlines) {
-  Extent all;
+  Corners all;
   double diagonal_m = 2.0;  // At least; of a frame without a figure, see frame_points.
   bool first = true;
   for (const std::vector<Vec3>& points : outlines) {
     if (points.empty()) continue;
-    const Extent extent = extent_of(points);
-    all = first ? extent : Extent{glm::min(all.low, extent.low), glm::max(all.high, extent.high)};
-    diagonal_m = std::max(diagonal_m, glm::distance(extent.low, extent.high));
+    const Corners corners = corners_of(points);
+    all = first ? corners : Corners{glm::min(all.low, corners.low), glm::max(all.high, corners.high)};
+    diagonal_m = std::max(diagonal_m, glm::distance(corners.low, corners.high));
     first = false;
   }
   const double margin_m = kReachPerDiagonal * diagonal_m;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "generator/core/index.h"
 #include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
 #include "renders/contact_marks.h"
@@ -13,8 +14,6 @@
 
 namespace contort {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 bool has_response(const Motion& motion) { return !motion.response.stances.empty(); }
 

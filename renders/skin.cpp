@@ -5,13 +5,12 @@
 #include <map>
 #include <tuple>
 
+#include "generator/core/index.h"
 #include "generator/motion/kinematics.h"
 #include "renders/draw_list.h"
 
 namespace contort {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Mat4 matrix_of(const Trs& trs) {
   Mat4 matrix = Mat4(glm::mat3_cast(trs.rotation));

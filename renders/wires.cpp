@@ -6,8 +6,8 @@
 namespace contort {
 namespace {
 
-constexpr int kSides = 3;   // of a wire's cross-section: it is a pixel or two wide
-constexpr int kBends = 24;  // of a circle
+constexpr int kWireSides = 3;  // of a wire's cross-section: it is a pixel or two wide
+constexpr int kBends = 24;     // of a circle
 
 class Wires {
  public:
@@ -17,7 +17,7 @@ class Wires {
     const Vec3 along = unit_or(to - from, Vec3(0.0));
     if (along == Vec3(0.0)) return;
     const Vec3 u = perpendicular(along), v = glm::cross(along, u);
-    for (int side = 0; side < kSides; ++side) {
+    for (int side = 0; side < kWireSides; ++side) {
       const Vec3 a = around(u, v, side), b = around(u, v, side + 1);
       add_corners({from + radius_m_ * a, from + radius_m_ * b, to + radius_m_ * b}, {a, b, b});
       add_corners({from + radius_m_ * a, to + radius_m_ * b, to + radius_m_ * a}, {a, b, a});
@@ -39,7 +39,7 @@ class Wires {
 
  private:
   static Vec3 around(const Vec3& u, const Vec3& v, int side) {
-    const det::SinCos turn = det::sincos(2.0 * kPi * (side % kSides) / kSides);
+    const det::SinCos turn = det::sincos(2.0 * kPi * (side % kWireSides) / kWireSides);
     return turn.cos * u + turn.sin * v;
   }
   void add_corners(std::initializer_list<Vec3> positions_m, std::initializer_list<Vec3> normals) {

@@ -22,8 +22,6 @@ void wait_for_cpu(Answer& answer, double wait_s) {
     if (name == "Retry-After" && wait_s > 1.0) value = std::to_string(static_cast<int>(std::ceil(wait_s)));
 }
 
-Time now() { return std::chrono::steady_clock::now(); }
-
 }  // namespace
 
 // ---- news

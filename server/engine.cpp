@@ -32,8 +32,6 @@ Worked worked_of(const BrokerReply& reply) {
   return {parse_reply(end == answer.size() ? "" : answer.substr(end + 1)), 1e-6 * std::strtod(answer.c_str(), nullptr)};
 }
 
-Time now() { return std::chrono::steady_clock::now(); }
-
 WorkerPool::Work make_work(const Library& library, const CheckSettings& settings, const std::string& tool) {
   auto worker = std::make_shared<Worker>(library, settings, tool);
   return [worker](const std::string& task, WorkerSlot&) { return work(*worker, task); };
@@ -68,8 +66,9 @@ Worked Engine::run(const Task& task, const std::string& client, Urgency urgency)
 Result<Done> Engine::may_work(const std::string& client) {
   const double wait = wait_s(client);
   if (wait <= 0.0) return Done{};
-  return Issue{"limit.cpu", "", "this client has used the time of the CPU that it may; there is more in " +
-                                    std::to_string(static_cast<int>(std::ceil(wait))) + " s"};
+  return Issue{"limit.cpu", "",
+               "this client has used the time of the CPU that it may; there is more in " +
+                   std::to_string(static_cast<int>(std::ceil(wait))) + " s"};
 }
 
 void Engine::spend(const std::string& client, double cpu_s) { cpu_left_.spend(client, cpu_s, now()); }

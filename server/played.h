@@ -13,6 +13,7 @@
 namespace contort::server {
 
 using Time = std::chrono::steady_clock::time_point;
+inline Time now() { return std::chrono::steady_clock::now(); }
 
 // Frames that go by while it plays.
 class PlayClock {
@@ -36,7 +37,7 @@ struct Played {
   std::string motion_hash;
   std::string frames;  // compact
   std::vector<QueueSpan> queue;
-  std::string spans;   // fields of the event, without take, revision and mode
+  std::string spans;  // fields of the event, without take, revision and mode
 
   int frame_bytes() const { return joint_count * kJointBytes; }
   // Of two motions of one take the first frame that differs, in bits of what is sent.

@@ -20,7 +20,7 @@ namespace contort::server {
 namespace {
 
 constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
-constexpr int kLook_ms = 50;
+constexpr int kSignalCheck_ms = 50;
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -82,7 +82,7 @@ Result<Ran> run_program(const std::vector<std::string>& command, double seconds,
   bool more_out = true, more_err = true;
   while (more_out || more_err) {
     pollfd files[] = {{more_out ? out.ends[0] : -1, POLLIN, 0}, {more_err ? err.ends[0] : -1, POLLIN, 0}};
-    ::poll(files, 2, kLook_ms);
+    ::poll(files, 2, kSignalCheck_ms);
     if (files[0].revents != 0) more_out = read_some(out.ends[0], ran.out);
     if (files[1].revents != 0) more_err = read_some(err.ends[0], ran.err);
     if (ran.killed || (std::chrono::steady_clock::now() < end && !stop())) continue;

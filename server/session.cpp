@@ -13,10 +13,6 @@ using json_fields::Json;
 
 constexpr double kPrepare_s = 1.5;  // before the end of a take the next one is made
 
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-Time now() { return std::chrono::steady_clock::now(); }
-
 bool is_finite(const Rigid& place) {
   return std::isfinite(glm::dot(place.p_m, place.p_m)) && std::isfinite(place.q.w + place.q.x + place.q.y + place.q.z);
 }
@@ -42,8 +38,13 @@ Result<std::shared_ptr<Session>> Session::open(const SessionDesc& desc, Engine& 
 Result<PlayedTake> Session::made(int number, const Spec& spec, const std::vector<Mode>& modes) {
   PlayedTake take{number, spec, {}};
   for (const Mode mode : modes) {
-    Task task{TaskKind::play, spec, static_cast<int>(engine_.limits().take_s * spec.rate_hz) + 1,
-              static_cast<int>(engine_.limits().most_s * spec.rate_hz) + 1, desc_.library, "", ""};
+    Task task{TaskKind::play,
+              spec,
+              static_cast<int>(engine_.limits().take_s * spec.rate_hz) + 1,
+              static_cast<int>(engine_.limits().most_s * spec.rate_hz) + 1,
+              desc_.library,
+              "",
+              ""};
     task.spec.dynamics.mode = mode;
     const Worked worked = engine_.run(task, desc_.client);
     {
@@ -251,7 +252,7 @@ void Session::roll() {
   if (!command.owns_lock() || !has_ended()) return;
   const std::lock_guard lock(mutex_);
   if (!next_ || next_for_ != revision_) {  // it could not be made: stand still
-    next_for_ = -1;  // who plays again asks again
+    next_for_ = -1;                        // who plays again asks again
     clock_.set(last_frame(), false, now());
     ++clock_version_;
     changed_.notify_all();
@@ -275,20 +276,20 @@ std::string Session::state() const {
   }
   for (const QueueSpan& span : played.queue)
     queue.push_back({{"first_frame", span.first_frame}, {"last_frame", span.last_frame}, {"sequence", span.sequence}});
-  return dump({{"session", desc_.id},
-               {"spec", *json_fields::parse_document(print_spec(take_.spec))},
-               {"take", take_.number},
-               {"revision", revision_},
-               {"frame", frame_now()},
-               {"frame_count", played.frame_count},
-               {"rate_hz", played.rate_hz},
-               {"playing", clock_.playing()},
-               {"modes", modes},
-               {"model", model_number_},
-               {"motion_hashes", hashes},
-               {"findings", findings},
-               {"queue", queue},
-               {"cpu_s", cpu_s_}});
+  return json_fields::compact_text({{"session", desc_.id},
+                                    {"spec", *json_fields::parse_document(print_spec(take_.spec))},
+                                    {"take", take_.number},
+                                    {"revision", revision_},
+                                    {"frame", frame_now()},
+                                    {"frame_count", played.frame_count},
+                                    {"rate_hz", played.rate_hz},
+                                    {"playing", clock_.playing()},
+                                    {"modes", modes},
+                                    {"model", model_number_},
+                                    {"motion_hashes", hashes},
+                                    {"findings", findings},
+                                    {"queue", queue},
+                                    {"cpu_s", cpu_s_}});
 }
 
 std::string Session::model() const {

@@ -51,7 +51,7 @@ Result<Spec> with_sequence(const Spec& spec, const SequenceDesc& sequence, Enter
   if (spec.interrupts.size() >= kMostInterrupts) return full("interrupts");
   Spec next = spec;
   InterruptDesc interrupt;
-  interrupt.when.event = Event::frame, interrupt.when.frame = now.frame + 1;
+  interrupt.when.event = contort::Event::frame, interrupt.when.frame = now.frame + 1;
   interrupt.enter = enter, interrupt.resume = resume, interrupt.sequence = sequence;
   next.interrupts.push_back(std::move(interrupt));
   return next;

@@ -22,8 +22,6 @@ namespace {
 constexpr double kReplay_s = 120.0, kShrink_s = 120.0, kReport_s = 3600.0;
 constexpr const char* kRun = "serve";  // what sessions keep is of this run
 
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 Json bucket_json(const Bucket& bucket, const std::string& today) {
   Json json = *json_fields::parse_document(print_bucket(bucket));
   json.erase("format");
@@ -37,7 +35,8 @@ std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \n");
   if (end == std::string::npos) return "";
   const std::size_t begin = text.rfind('\n', end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end + 1 - (begin == std::string::npos ? 0 : begin + 1));
+  return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                     end + 1 - (begin == std::string::npos ? 0 : begin + 1));
 }
 
 Issue failed(const Ran& ran) {
@@ -73,7 +72,7 @@ Result<std::string> Triage::list(const std::string& today) const {
   Json buckets = Json::array(), issues = Json::array();
   for (const Bucket& bucket : corpus->buckets(damaged)) buckets.push_back(bucket_json(bucket, today));
   for (const Issue& issue : damaged) issues.push_back(to_line(issue));
-  return dump({{"buckets", buckets}, {"damaged", issues}, {"revision", revision()}});
+  return json_fields::compact_text({{"buckets", buckets}, {"damaged", issues}, {"revision", revision()}});
 }
 
 Result<std::string> Triage::show(const std::string& name, const std::string& today) const {
@@ -88,7 +87,7 @@ Result<std::string> Triage::show(const std::string& name, const std::string& tod
     const Result<Json> stored = text ? json_fields::parse_document(*text) : Result<Json>(text.issue());
     if (stored) json["cases"][file.substr(0, file.find('-'))] = *stored;
   }
-  return dump(json);
+  return json_fields::compact_text(json);
 }
 
 Result<std::string> Triage::change(const std::string& name, const Corpus::Change& change,
@@ -99,7 +98,7 @@ Result<std::string> Triage::change(const std::string& name, const Corpus::Change
   if (!bucket) return bucket.issue();
   const Result<Bucket> next = corpus->change(*bucket, change);
   if (!next) return next.issue();
-  return dump(bucket_json(*next, today));
+  return json_fields::compact_text(bucket_json(*next, today));
 }
 
 Result<std::string> Triage::keep(const Case& shown) const {
@@ -107,7 +106,8 @@ Result<std::string> Triage::keep(const Case& shown) const {
   if (!corpus) return corpus.issue();
   const Result<Corpus::Added> added = corpus->add({shown, shown, kRun});
   if (!added) return added.issue();
-  return dump({{"bucket", fs::path(added->bucket).filename().string()}, {"is_new", added->is_new}});
+  return json_fields::compact_text(
+      {{"bucket", fs::path(added->bucket).filename().string()}, {"is_new", added->is_new}});
 }
 
 Result<Jobs::Work> Triage::replay_work(const std::string& name) const {
@@ -143,7 +143,8 @@ Result<Jobs::Outcome> Triage::shrink(const std::string& name, Jobs::Running& run
   const Result<Case> original = read_case(input);
   if (!original) return original.issue();
   const std::string output =
-      (fs::temp_directory_path() / ("contort-shrink-" + std::to_string(::getpid()) + "-" + bucket->id + ".json")).string();
+      (fs::temp_directory_path() / ("contort-shrink-" + std::to_string(::getpid()) + "-" + bucket->id + ".json"))
+          .string();
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"shrink", input, "-o", output, "--json"});
   const Result<Ran> ran = run_job(command, kShrink_s, running);
@@ -164,7 +165,8 @@ Result<Jobs::Outcome> Triage::store(const Corpus& corpus, const Bucket& from, co
     if (const Result<Done> removed = corpus.remove(from); !removed) return removed.issue();
   const std::size_t before = print_spec(original.spec).size(), after = print_spec(minimal.spec).size();
   return Jobs::Outcome{"shrunk from " + std::to_string(before) + " to " + std::to_string(after) + " bytes of spec",
-                       dump({{"bucket", into}, {"is_new", added->is_new}, {"bytes_before", before}, {"bytes", after}})};
+                       json_fields::compact_text(
+                           {{"bucket", into}, {"is_new", added->is_new}, {"bytes_before", before}, {"bytes", after}})};
 }
 
 Jobs::Work Triage::report_work(const std::string& into) const {

@@ -7,6 +7,7 @@
 #include "corpus/case.h"
 #include "generator/core/base64.h"
 #include "generator/core/hash.h"
+#include "generator/core/index.h"
 #include "generator/gltf/write.h"
 #include "generator/motion/kinematics.h"
 #include "generator/spec_fields.h"
@@ -21,8 +22,6 @@ using json_fields::Json;
 constexpr std::string_view kKinds[] = {"model", "play", "judge", "evaluate", "model_file", "make_case"};
 constexpr double kSight_m = 8.0;  // ground that is shown around the start
 constexpr int kMostHold = 6000;   // as spec_fields.h has it
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -67,8 +66,6 @@ Result<Reply> parse_reply(const std::string& text) {
 }
 
 namespace {
-
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 void append(std::string& bytes, double value) {
   const auto narrow = static_cast<float>(value);
@@ -124,13 +121,13 @@ Result<Reply> model_of(const Stage& stage) {
   const Rigid path[] = {{kNoRotation, here.p_m + Vec3(kSight_m, 0, kSight_m)},
                         {kNoRotation, here.p_m - Vec3(kSight_m, 0, kSight_m)}};
   const Quat rest = character.rest_root().q;
-  return Reply{dump({{"joints", joints_json(character)},
-                     {"glb", to_base64(*glb)},
-                     {"colliders", scene::colliders_json(character)},
-                     {"ground", scene::ground_json(stage.environment, path)},
-                     {"obstacles", scene::obstacles_json(stage.environment)},
-                     {"aims", aims_json(character)},
-                     {"rest", {rest.x, rest.y, rest.z, rest.w}}}),
+  return Reply{json_fields::compact_text({{"joints", joints_json(character)},
+                                          {"glb", to_base64(*glb)},
+                                          {"colliders", scene::colliders_json(character)},
+                                          {"ground", scene::ground_json(stage.environment, path)},
+                                          {"obstacles", scene::obstacles_json(stage.environment)},
+                                          {"aims", aims_json(character)},
+                                          {"rest", {rest.x, rest.y, rest.z, rest.w}}}),
                ""};
 }
 
@@ -160,7 +157,8 @@ Json findings_json(const std::vector<Finding>& findings) {
 
 Issue too_long(int frames, const Task& task) {
   return {"take.too_long", "",
-          "the motion would be " + std::to_string(frames) + " frames long, allowed are " + std::to_string(task.most_frames)};
+          "the motion would be " + std::to_string(frames) + " frames long, allowed are " +
+              std::to_string(task.most_frames)};
 }
 
 Result<Done> refuse_long(const Stage& stage, const Task& task) {
@@ -187,14 +185,16 @@ Result<int> hold_for(const Task& task, const Library& library) {
   if (!bare) return bare.issue();
   const int ends = 1 + static_cast<int>(plain.interrupts.size());
   const int room = std::clamp((kMaxFrames - bare->timeline.frame_count) / ends, 0, kMostHold);
-  if (task.most_frames > 0 && bare->timeline.frame_count > task.most_frames) return too_long(bare->timeline.frame_count, task);
+  if (task.most_frames > 0 && bare->timeline.frame_count > task.most_frames)
+    return too_long(bare->timeline.frame_count, task);
   plain.hold_frames = std::min(room, task.take_frames);
   const Result<Stage> stage = build_stage(plain, library);
   if (!stage) return stage.issue();
   const Motion motion = generate(*stage);
   const int ended = motion.queue.empty() ? 0 : motion.queue.back().last_frame;
   const int gap = longest_gap(motion);
-  if (gap > room) return Issue{"take.full", "", "this take holds as many interrupts as its length allows; begin a new one"};
+  if (gap > room)
+    return Issue{"take.full", "", "this take holds as many interrupts as its length allows; begin a new one"};
   return std::clamp(std::max(task.take_frames - 1 - ended, gap), 0, room);
 }
 
@@ -214,8 +214,9 @@ Result<Reply> model_file(const Stage& stage, const Task& task) {
   const Motion motion = generate(stage);
   const Result<std::vector<std::byte>> glb = write_glb(*stage.character, motion, {spec_id(task.spec), ""});
   if (!glb) return glb.issue();
-  return Reply{dump({{"motion_hash", to_hex(motion_hash(motion))}, {"frame_count", motion.frame_count}}),
-               std::string(reinterpret_cast<const char*>(glb->data()), glb->size())};
+  return Reply{
+      json_fields::compact_text({{"motion_hash", to_hex(motion_hash(motion))}, {"frame_count", motion.frame_count}}),
+      std::string(reinterpret_cast<const char*>(glb->data()), glb->size())};
 }
 
 }  // namespace
@@ -244,14 +245,14 @@ Result<Reply> Worker::play(Task task, const Library& library) {
   if (!stage) return stage.issue();
   const Motion motion = generate(*stage);
   if (task.most_frames > 0 && motion.frame_count > task.most_frames) return too_long(motion.frame_count, task);
-  return Reply{dump({{"rate_hz", motion.rate_hz},
-                     {"frame_count", motion.frame_count},
-                     {"joint_count", stage->character->joints().size()},
-                     {"hold_frames", task.spec.hold_frames},
-                     {"motion_hash", to_hex(motion_hash(motion))},
-                     {"queue", queue_json(motion)},
-                     {"spans", scene::spans_json(*stage, motion)},
-                     {"marks", scene::marks_json(*stage, motion)}}),
+  return Reply{json_fields::compact_text({{"rate_hz", motion.rate_hz},
+                                          {"frame_count", motion.frame_count},
+                                          {"joint_count", stage->character->joints().size()},
+                                          {"hold_frames", task.spec.hold_frames},
+                                          {"motion_hash", to_hex(motion_hash(motion))},
+                                          {"queue", queue_json(motion)},
+                                          {"spans", scene::spans_json(*stage, motion)},
+                                          {"marks", scene::marks_json(*stage, motion)}}),
                compact_frames(*stage->character, motion)};
 }
 
@@ -260,9 +261,9 @@ Result<Reply> Worker::judge(const Stage& stage, const Task& task) {
   Finding about;
   about.check = task.check, about.subject = task.subject;
   if (about.check.empty() && !evaluation.findings.empty()) about = evaluation.findings.front();
-  return Reply{dump({{"motion_hash", to_hex(evaluation.motion_hash)},
-                     {"curves", scene::curves_json(evaluator_.curves(stage, about, 12))},
-                     {"findings", findings_json(evaluation.findings)}}),
+  return Reply{json_fields::compact_text({{"motion_hash", to_hex(evaluation.motion_hash)},
+                                          {"curves", scene::curves_json(evaluator_.curves(stage, about, 12))},
+                                          {"findings", findings_json(evaluation.findings)}}),
                ""};
 }
 
@@ -282,10 +283,10 @@ Result<Reply> Worker::run(const Task& task) {
     case TaskKind::evaluate: break;
   }
   const Evaluation evaluation = evaluator_.run(*stage);
-  return Reply{dump({{"motion_hash", to_hex(evaluation.motion_hash)},
-                     {"frame_count", evaluation.frame_count},
-                     {"rate_hz", stage->rate_hz},
-                     {"findings", findings_json(evaluation.findings)}}),
+  return Reply{json_fields::compact_text({{"motion_hash", to_hex(evaluation.motion_hash)},
+                                          {"frame_count", evaluation.frame_count},
+                                          {"rate_hz", stage->rate_hz},
+                                          {"findings", findings_json(evaluation.findings)}}),
                ""};
 }
 

@@ -57,10 +57,6 @@ std::shared_ptr<const Polyhedron> polyhedron_of(const ColliderShape& shape, bool
   return std::make_shared<Polyhedron>(moved(to_from_own, mirror ? mirrored(std::move(solid)) : std::move(solid)));
 }
 
-MeshShape as_mesh(const ColliderShape& shape) {
-  return std::visit([](const auto& s) -> MeshShape { return s; }, shape);
-}
-
 JointKind kind_of(JointType type) {
   switch (type) {
     case JointType::hinge: return JointKind::hinge;

@@ -149,6 +149,7 @@ class Character {
  public:
   const std::string& name() const { return name_; }
   std::span<const Joint> joints() const { return joints_; }
+  const Joint& joint(int index) const { return joints_[static_cast<std::size_t>(index)]; }
   std::span<const Part> parts() const { return parts_; }
   std::span<const Collider> colliders() const { return colliders_; }
   std::span<const MeshPiece> mesh() const { return mesh_; }

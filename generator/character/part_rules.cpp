@@ -38,7 +38,8 @@ std::string_view joint_of_socket(const PartDesc& part, std::string_view socket) 
   return "";
 }
 
-Issue at(std::string code, const std::string& list, std::size_t index, const std::string& field, std::string text) {
+Issue issue_at(std::string code, const std::string& list, std::size_t index, const std::string& field,
+               std::string text) {
   return {"part." + std::move(code), "/" + list + "/" + std::to_string(index) + "/" + field, std::move(text)};
 }
 
@@ -47,7 +48,7 @@ Result<Done> unique_names(const std::vector<T>& items, const std::string& list) 
   std::set<std::string> seen;
   for (std::size_t i = 0; i < items.size(); ++i)
     if (!seen.insert(items[i].name).second)
-      return at("duplicate_name", list, i, "name", "\"" + items[i].name + "\" stands twice");
+      return issue_at("duplicate_name", list, i, "name", "\"" + items[i].name + "\" stands twice");
   return Done{};
 }
 
@@ -55,7 +56,7 @@ template <class T>
 Result<Done> known_joints(const PartDesc& part, const std::vector<T>& items, const std::string& list) {
   for (std::size_t i = 0; i < items.size(); ++i)
     if (!items[i].joint.empty() && index_of(part, items[i].joint) < 0)
-      return at("unknown_joint", list, i, "joint", "\"" + items[i].joint + "\" is no joint of this part");
+      return issue_at("unknown_joint", list, i, "joint", "\"" + items[i].joint + "\" is no joint of this part");
   return Done{};
 }
 
@@ -64,8 +65,8 @@ Result<Done> check_range(const JointDesc& joint, std::size_t i) {
   const double low = travels ? joint.low_m : joint.low_deg;
   const double high = travels ? joint.high_m : joint.high_deg;
   if (low <= 0.0 && high >= 0.0 && low < high) return Done{};
-  return at("bad_range", "joints", i, travels ? "low_m" : "low_deg",
-            "the range must hold the rest pose 0 and not be empty");
+  return issue_at("bad_range", "joints", i, travels ? "low_m" : "low_deg",
+                  "the range must hold the rest pose 0 and not be empty");
 }
 
 Result<Done> check_type(const JointDesc& joint, std::size_t i) {
@@ -74,13 +75,13 @@ Result<Done> check_type(const JointDesc& joint, std::size_t i) {
   const bool swings = joint.type == JointType::ball;
   if (!travels &&
       (joint.low_m != plain.low_m || joint.high_m != plain.high_m || joint.max_speed_m_s != plain.max_speed_m_s))
-    return at("other_type", "joints", i, "low_m", "only prismatic joints travel");
+    return issue_at("other_type", "joints", i, "low_m", "only prismatic joints travel");
   if (travels && (joint.low_deg != plain.low_deg || joint.high_deg != plain.high_deg ||
                   joint.max_speed_deg_s != plain.max_speed_deg_s))
-    return at("other_type", "joints", i, "low_deg", "prismatic joints do not turn");
+    return issue_at("other_type", "joints", i, "low_deg", "prismatic joints do not turn");
   if (!swings && (joint.swing_axis != plain.swing_axis || joint.swing_deg != plain.swing_deg ||
                   joint.swing_center_deg != plain.swing_center_deg))
-    return at("other_type", "joints", i, "swing_deg", "only ball joints swing");
+    return issue_at("other_type", "joints", i, "swing_deg", "only ball joints swing");
   return Done{};
 }
 
@@ -88,13 +89,14 @@ Result<Done> check_joint(const PartDesc& part, std::size_t i) {
   const JointDesc& joint = part.joints[i];
   const int parent = index_of(part, joint.parent);
   if (!joint.parent.empty() && (parent < 0 || parent >= static_cast<int>(i)))
-    return at("unknown_joint", "joints", i, "parent", "\"" + joint.parent + "\" is no earlier joint of this part");
-  if (!is_unit(joint.axis)) return at("bad_axis", "joints", i, "axis", "the axis must have length 1");
+    return issue_at("unknown_joint", "joints", i, "parent",
+                    "\"" + joint.parent + "\" is no earlier joint of this part");
+  if (!is_unit(joint.axis)) return issue_at("bad_axis", "joints", i, "axis", "the axis must have length 1");
   if (const Result<Done> range = check_range(joint, i); !range) return range;
   if (const Result<Done> type = check_type(joint, i); !type) return type;
   const bool crossed = std::fabs(glm::dot(joint.axis, joint.swing_axis)) <= kUnitTolerance && is_unit(joint.swing_axis);
   if (joint.type == JointType::ball && !crossed)
-    return at("bad_axis", "joints", i, "swing_axis", "it must have length 1 and stand at a right angle to axis");
+    return issue_at("bad_axis", "joints", i, "swing_axis", "it must have length 1 and stand at a right angle to axis");
   return Done{};
 }
 
@@ -114,22 +116,23 @@ Result<Done> check_reach(const PartDesc& part) {
   for (const ReachDesc& reach : part.reach) {
     const int upper = index_of(part, reach.upper);
     const int middle = index_of(part, reach.middle);
-    if (upper < 0) return at("unknown_joint", "reach", 0, "upper", "\"" + reach.upper + "\" is no joint of this part");
+    if (upper < 0)
+      return issue_at("unknown_joint", "reach", 0, "upper", "\"" + reach.upper + "\" is no joint of this part");
     if (middle < 0)
-      return at("unknown_joint", "reach", 0, "middle", "\"" + reach.middle + "\" is no joint of this part");
+      return issue_at("unknown_joint", "reach", 0, "middle", "\"" + reach.middle + "\" is no joint of this part");
     const auto u = static_cast<std::size_t>(upper);
     const bool ball = part.joints[u].type == JointType::ball;
     if (!ball && !hinge_triple(part, u))
-      return at("bad_reach", "reach", 0, "upper",
-                "it must be a ball joint or the first of three hinges in one point, with axes at right angles");
+      return issue_at("bad_reach", "reach", 0, "upper",
+                      "it must be a ball joint or the first of three hinges in one point, with axes at right angles");
     const std::string& carrier = part.joints[ball ? u : u + 2].name;
     const JointDesc& m = part.joints[static_cast<std::size_t>(middle)];
     if (m.type != JointType::hinge || m.parent != carrier)
-      return at("bad_reach", "reach", 0, "middle", "it must be a hinge on \"" + carrier + "\"");
+      return issue_at("bad_reach", "reach", 0, "middle", "it must be a hinge on \"" + carrier + "\"");
     if (!has_socket(part, reach.tip))
-      return at("unknown_socket", "reach", 0, "tip", "\"" + reach.tip + "\" is no socket of this part");
+      return issue_at("unknown_socket", "reach", 0, "tip", "\"" + reach.tip + "\" is no socket of this part");
     if (!moves_with(part, joint_of_socket(part, reach.tip), m.name))
-      return at("bad_reach", "reach", 0, "tip", "\"" + m.name + "\" does not move it");
+      return issue_at("bad_reach", "reach", 0, "tip", "\"" + m.name + "\" does not move it");
   }
   return Done{};
 }
@@ -138,18 +141,19 @@ Result<Done> check_facing(const PartDesc& part) {
   for (const FacingDesc& facing : part.facing) {
     for (const std::string& joint : facing.joints) {
       const int index = index_of(part, joint);
-      if (index < 0) return at("unknown_joint", "facing", 0, "joints", "\"" + joint + "\" is no joint of this part");
+      if (index < 0)
+        return issue_at("unknown_joint", "facing", 0, "joints", "\"" + joint + "\" is no joint of this part");
       if (part.joints[static_cast<std::size_t>(index)].type == JointType::prismatic)
-        return at("bad_facing", "facing", 0, "joints", "\"" + joint + "\" does not turn");
+        return issue_at("bad_facing", "facing", 0, "joints", "\"" + joint + "\" does not turn");
     }
     for (std::size_t i = 0; i + 1 < facing.joints.size(); ++i)
       if (facing.joints[i] == facing.joints[i + 1] || !moves_with(part, facing.joints[i + 1], facing.joints[i]))
-        return at("bad_facing", "facing", 0, "joints", "each must move the next, from the body outward");
-    if (facing.joints.empty()) return at("bad_facing", "facing", 0, "joints", "at least one joint is needed");
+        return issue_at("bad_facing", "facing", 0, "joints", "each must move the next, from the body outward");
+    if (facing.joints.empty()) return issue_at("bad_facing", "facing", 0, "joints", "at least one joint is needed");
     if (!has_socket(part, facing.socket))
-      return at("unknown_socket", "facing", 0, "socket", "\"" + facing.socket + "\" is no socket of this part");
+      return issue_at("unknown_socket", "facing", 0, "socket", "\"" + facing.socket + "\" is no socket of this part");
     if (!moves_with(part, joint_of_socket(part, facing.socket), facing.joints.back()))
-      return at("bad_facing", "facing", 0, "socket", "\"" + facing.joints.back() + "\" does not move it");
+      return issue_at("bad_facing", "facing", 0, "socket", "\"" + facing.joints.back() + "\" does not move it");
   }
   return Done{};
 }
@@ -159,7 +163,7 @@ Result<Done> check_hulls(const std::vector<T>& items, const std::string& list) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto* hull = std::get_if<ConvexHull>(&items[i].shape);
     const std::string fault = hull == nullptr ? "" : hull_fault(hull->points_m);
-    if (!fault.empty()) return at("bad_shape", list, i, "shape/points_m", fault);
+    if (!fault.empty()) return issue_at("bad_shape", list, i, "shape/points_m", fault);
   }
   return Done{};
 }
@@ -170,10 +174,10 @@ Result<Done> check_mesh(const std::vector<MeshDesc>& mesh) {
     const auto* triangles = std::get_if<TriangleMesh>(&mesh[i].shape);
     if (triangles == nullptr) continue;
     if (triangles->indices.size() % 3 != 0)
-      return at("bad_shape", "mesh", i, "shape/indices", "their number must be a multiple of 3");
+      return issue_at("bad_shape", "mesh", i, "shape/indices", "their number must be a multiple of 3");
     for (const int index : triangles->indices)
       if (index < 0 || index >= static_cast<int>(triangles->positions_m.size()))
-        return at("bad_shape", "mesh", i, "shape/indices", std::to_string(index) + " is no vertex");
+        return issue_at("bad_shape", "mesh", i, "shape/indices", std::to_string(index) + " is no vertex");
   }
   return Done{};
 }

@@ -7,6 +7,8 @@
 
 #include "generator/character/shape.h"
 #include "generator/core/assert.h"
+#include "generator/core/index.h"
+#include "generator/core/math.h"
 
 namespace contort {
 
@@ -15,11 +17,7 @@ namespace {
 using Mask = std::uint64_t;  // of points
 static_assert(kMaxHullPoints <= 64);
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 bool has(Mask mask, std::size_t i) { return (mask >> i & 1) != 0; }
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 // Greatest difference of a coordinate.
 double extent_of(std::span<const Vec3> points) {

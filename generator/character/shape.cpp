@@ -137,6 +137,10 @@ MeshShape mirrored(const MeshShape& shape) {
   return std::visit([](const auto& s) -> MeshShape { return mirror(s); }, shape);
 }
 
+MeshShape as_mesh(const ColliderShape& shape) {
+  return std::visit([](const auto& s) { return MeshShape(s); }, shape);
+}
+
 Triangles tessellate(const MeshShape& shape) { return std::visit(Tessellate{}, shape); }
 
 }  // namespace contort

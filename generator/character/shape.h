@@ -47,6 +47,9 @@ using MeshShape = std::variant<Sphere, Capsule, Box, ConvexHull, TriangleMesh>;
 ColliderShape mirrored(const ColliderShape& shape);
 MeshShape mirrored(const MeshShape& shape);
 
+// The same shape, to be drawn.
+MeshShape as_mesh(const ColliderShape& shape);
+
 // The shape's triangles, flat shaded: three consecutive entries are one triangle, with its outward normal each.
 struct Triangles {
   std::vector<Vec3> positions_m;

@@ -152,6 +152,8 @@ std::string shortest(double value) {
   return Json(value).dump();
 }
 
+std::string compact_text(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context) {
   if (rule.may_be_nan && in == "nan") return out = std::numeric_limits<double>::quiet_NaN(), true;
   if (!in.is_number()) return context.fail("wrong_type", "found " + kind_of(in) + ", expected a number"), false;

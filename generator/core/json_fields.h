@@ -69,6 +69,8 @@ Result<Json> parse_document(std::string_view text);
 std::string kind_of(const Json& value);       // "a text", "a number" … for messages
 std::string quoted(const std::string& text);  // for messages: bounded, without control characters
 std::string shortest(double value);           // as JSON writes it
+// On one line; bytes that are not UTF-8 become the replacement character.
+std::string compact_text(const Json& value);
 bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context);
 bool read_integer(const Json& in, const Rule& rule, int& out, ReadContext& context);
 bool read_integer64(const Json& in, const Rule& rule, std::int64_t& out, ReadContext& context);

@@ -41,6 +41,11 @@ double rotation_angle(const Quat& q) {
   return 2.0 * det::atan2(s, std::fabs(q.w));
 }
 
+double angle_towards(const Vec3& axis, const Vec3& v, const Vec3& direction) {
+  const double along = glm::dot(axis, v) * glm::dot(axis, direction);
+  return det::atan2(glm::dot(axis, glm::cross(v, direction)), glm::dot(v, direction) - along);
+}
+
 Quat shortest_arc(const Vec3& from, const Vec3& to) {
   const double w = 1.0 + glm::dot(from, to);
   if (w < 1e-9) {

@@ -37,6 +37,11 @@ inline Rigid inverse(const Rigid& a_from_b) {
   return {q, -(q * a_from_b.p_m)};
 }
 
+inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+// A rotation in a row of coordinates: w, x, y, z.
+inline Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
+
 // The unit vector along v, or `fallback` where v is too short to have a direction (length below 1e-12).
 Vec3 unit_or(const Vec3& v, const Vec3& fallback);
 
@@ -52,6 +57,9 @@ Vec3 to_rotation_vector(const Quat& q);
 
 // The angle of the rotation q, short way, in [0, pi].
 double rotation_angle(const Quat& q);
+
+// The angle about the unit vector `axis` that turns v nearest to `direction`, in [-pi, pi].
+double angle_towards(const Vec3& axis, const Vec3& v, const Vec3& direction);
 
 // The smallest rotation that turns unit vector `from` to unit vector `to`; half a turn about a fixed
 // perpendicular when they are opposite.

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kComfort = 0.3;         // share of its strength that a joint may always use
 constexpr double kUnnoticed = 0.01;      // share of its strength by which a load must change its effort

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "generator/core/detmath.h"
+#include "generator/core/index.h"
 #include "generator/dynamics/recursions.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 const RecursionSet& fastest() { return recursion_sets().back(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/index.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
@@ -17,8 +18,6 @@ constexpr double kPlannedRise_m_s = 0.03;  // but one that rises has been lifted
 constexpr double kSoft_s = 0.15;           // a sole becomes firm within this
 constexpr double kLeastFirm = 0.1;
 constexpr double kPlannedLevel = 0.97;  // cosine of 14 degrees
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/control.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // rad/s^2; the lower body's also m/s^2. From a study of a human squat: an arm may swing, a trunk may only give way.
 constexpr double kGreatestArms = 25.0;

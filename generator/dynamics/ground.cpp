@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
 
 namespace contort {
@@ -12,8 +13,6 @@ namespace {
 
 constexpr double kMomentPrice = 100.0;  // of a squared N m against a squared N
 constexpr double kLeastShare = 0.2;     // of the weight that must press on the ground
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Twice the area of a triangle seen from above, > 0 counter-clockwise (+Y is Z cross X).
 double area_above(const Vec3& a, const Vec3& b, const Vec3& c) {

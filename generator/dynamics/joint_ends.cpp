@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/tracking.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Calls visit(joint, link) for hinges and travels that no foot holds.
 template <class Visit>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
 
 namespace contort {
@@ -14,8 +15,6 @@ constexpr double kNear_m = 0.02;         // beyond what a tick covers, points ne
 constexpr double kRecovery_per_s = 5.0;  // of depth
 constexpr double kFastestRecovery_m_s = 0.5;
 constexpr int kSweeps = 30;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
   const auto add = [&](const Vec3& point, double radius) { out.push_back({collider.joint, point, radius, false}); };

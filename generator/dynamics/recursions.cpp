@@ -4,13 +4,12 @@
 #include <cstring>
 #include <vector>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Vectors of GCC and Clang, here and below: two of two numbers, which any processor of ours has.
 namespace twos {

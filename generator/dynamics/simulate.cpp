@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/closed_chain.h"
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
@@ -12,8 +13,6 @@
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kRootEase = 1e3;        // against a joint's 1: the root goes where the legs say
 constexpr double kFootStiffness = 15.0;  // rad/s, of soles that have drifted

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Columns of one foot: rows [6 f, 6 f + 6).
 void add_foot(const Multibody& body, const StandingFoot& foot, const Vec3& sole_m, int first_row,

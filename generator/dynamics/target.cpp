@@ -9,7 +9,6 @@ namespace contort {
 
 namespace {
 
-Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 void put(const Quat& q, double* out) { out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z; }
 
 // The cubic from a to b over one frame with slopes m0 and m1 a frame: value and slope.

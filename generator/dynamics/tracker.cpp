@@ -6,7 +6,6 @@ namespace contort {
 
 namespace {
 
-Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
 void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 

@@ -24,8 +24,6 @@ const KindRow& row(ElementKind kind) { return kKinds[static_cast<std::size_t>(ki
 
 Issue bad_accessor(const std::string& pointer, const std::string& text) { return {"gltf.bad_accessor", pointer, text}; }
 
-std::string accessor_pointer(int accessor) { return "/accessors/" + std::to_string(accessor); }
-
 // 0 for what is no component type.
 std::size_t component_bytes(int type) {
   switch (type) {

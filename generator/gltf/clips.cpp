@@ -79,8 +79,6 @@ bool normalize_rotations(AssetChannel& channel, std::size_t& bad_key) {
   return true;
 }
 
-std::string accessor_pointer(int accessor) { return "/accessors/" + std::to_string(accessor); }
-
 class ClipReader {
  public:
   ClipReader(const tinygltf::Animation& animation, AccessorReader& accessors, std::string pointer)

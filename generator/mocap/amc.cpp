@@ -12,7 +12,7 @@ namespace contort {
 
 namespace {
 
-constexpr MocapSyntax kSyntax{.area = "amc", .alone = "", .blank = "", .comment = '#'};
+constexpr MocapSyntax kAmcSyntax{.area = "amc", .alone = "", .blank = "", .comment = '#'};
 
 // A bone's place in a row.
 struct BonePlace {
@@ -172,7 +172,7 @@ void add_bone_channels(const AsfBone& bone, int node, const Vec3& rest, std::siz
 }  // namespace
 
 Result<AmcMotion> parse_amc(std::string_view text, const AsfSkeleton& skeleton) {
-  MocapWords words(kSyntax, text);
+  MocapWords words(kAmcSyntax, text);
   const BonePlaces places = places_of(skeleton);
   AmcMotion motion;
   for (const AsfBone& bone : skeleton.bones) motion.dof_count += static_cast<int>(bone.dofs.size());

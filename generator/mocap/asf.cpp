@@ -11,7 +11,7 @@ namespace contort {
 
 namespace {
 
-constexpr MocapSyntax kSyntax{.area = "asf", .alone = "", .blank = "()", .comment = '#'};
+constexpr MocapSyntax kAsfSyntax{.area = "asf", .alone = "", .blank = "()", .comment = '#'};
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr std::array<std::string_view, 7> kDofNames = {"rx", "ry", "rz", "tx", "ty", "tz", "l"};
 
@@ -240,7 +240,7 @@ void finish_bone(RawBone& raw, double rad, std::vector<AsfBone>& out) {
 std::string_view dof_name(DofKind kind) { return kDofNames[static_cast<std::size_t>(kind)]; }
 
 Result<AsfSkeleton> parse_asf(std::string_view text) {
-  MocapWords words(kSyntax, text);
+  MocapWords words(kAsfSyntax, text);
   AsfText raw;
   raw.bones.front().bone.name = "root";
   while (words.has_more()) read_section(words, raw);

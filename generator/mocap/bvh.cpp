@@ -14,7 +14,7 @@ namespace contort {
 
 namespace {
 
-constexpr MocapSyntax kSyntax{.area = "bvh", .alone = "{}", .blank = ""};
+constexpr MocapSyntax kBvhSyntax{.area = "bvh", .alone = "{}", .blank = ""};
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
@@ -235,7 +235,7 @@ Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name) {
   if (text.size() > kMaxMocapBytes)
     return Issue{"bvh.too_large", "",
                  "the text has more than the allowed " + std::to_string(kMaxMocapBytes) + " bytes"};
-  MocapWords words(kSyntax, text);
+  MocapWords words(kBvhSyntax, text);
   Hierarchy hierarchy = read_hierarchy(words);
   AssetClip clip = read_motion(words, hierarchy, clip_name);
   if (!words.ok()) return words.issue();

@@ -10,10 +10,6 @@ namespace contort {
 
 namespace {
 
-const Joint& joint_at(const Character& character, int index) {
-  return character.joints()[static_cast<std::size_t>(index)];
-}
-
 void keep_outermost(std::vector<int>& joints) {
   if (joints.size() > kMaxAimJoints) joints.erase(joints.begin(), joints.end() - kMaxAimJoints);
 }
@@ -21,8 +17,8 @@ void keep_outermost(std::vector<int>& joints) {
 // ancestor_from_joint at rest.
 Rigid at_rest(const Character& character, int ancestor, int joint) {
   Rigid ancestor_from_joint;
-  for (int j = joint; j > ancestor; j = joint_at(character, j).parent)
-    ancestor_from_joint = joint_at(character, j).parent_from_joint * ancestor_from_joint;
+  for (int j = joint; j > ancestor; j = character.joint(j).parent)
+    ancestor_from_joint = character.joint(j).parent_from_joint * ancestor_from_joint;
   return ancestor_from_joint;
 }
 
@@ -39,9 +35,9 @@ void add(Hash64& hash, const Quat& q) {
 AimChain aim_chain_for(const Character& character, int part, int socket) {
   AimChain chain{{}, socket};
   std::size_t keep = 0;
-  for (int j = character.sockets()[static_cast<std::size_t>(socket)].joint; j > 0; j = joint_at(character, j).parent) {
+  for (int j = character.sockets()[static_cast<std::size_t>(socket)].joint; j > 0; j = character.joint(j).parent) {
     chain.joints.push_back(j);
-    if (joint_at(character, j).part == part) keep = chain.joints.size();
+    if (character.joint(j).part == part) keep = chain.joints.size();
   }
   chain.joints.resize(keep);
   std::ranges::reverse(chain.joints);
@@ -58,9 +54,9 @@ AimChain aim_chain_for(const FacingChain& chain) {
 AimGeometry aim_geometry(const Character& character, const AimChain& chain) {
   CONTORT_ASSERT(!chain.joints.empty() && chain.joints.size() <= kMaxAimJoints);
   AimGeometry geometry;
-  int before = joint_at(character, chain.joints.front()).parent;
+  int before = character.joint(chain.joints.front()).parent;
   for (const int j : chain.joints) {
-    Joint joint = joint_at(character, j);
+    Joint joint = character.joint(j);
     joint.name = joint.local_name = joint.body_name = {};
     joint.parent_from_joint = at_rest(character, before, j);
     joint.coord = geometry.coord_count;

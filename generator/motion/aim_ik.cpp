@@ -17,7 +17,7 @@ namespace contort {
 
 namespace {
 
-constexpr int kMaxSweeps = 48;        // of one start
+constexpr int kMaxIterations = 48;    // of one start
 constexpr int kCandidates = 8;        // starts from the table, after the interpolated one
 constexpr double kWorthwhile = 0.98;  // a sweep that leaves more than this share of the error is a stall
 constexpr int kMaxStalls = 3;         // in a row
@@ -26,12 +26,6 @@ constexpr int kHalvings = 4;          // of a turn that made the error greater
 // best turn may be half a circle for a thousandth of a degree, and a hand that rolls so from one frame to the next is a
 // jump. The other joints do what is left.
 constexpr double kTurnPerError = 2.0;
-
-// Angle about the unit axis that turns v nearest to d.
-double turn_towards(const Vec3& axis, const Vec3& v, const Vec3& d) {
-  const double along = glm::dot(axis, v) * glm::dot(axis, d);
-  return det::atan2(glm::dot(axis, glm::cross(v, d)), glm::dot(v, d) - along);
-}
 
 double angle_between(const Vec3& a, const Vec3& b) {
   const Vec3 across = glm::cross(a, b);
@@ -68,7 +62,7 @@ class Aimer {
   // Sweeps until the target is reached or nothing moves on.
   AimResult solve() {
     AimResult result{error_rad(), 0, false};
-    for (int stalls = 0; result.iterations < kMaxSweeps && stalls < kMaxStalls;) {
+    for (int stalls = 0; result.iterations < kMaxIterations && stalls < kMaxStalls;) {
       result.reached = result.error_rad <= kAimReached_rad;
       if (result.reached) break;
       const double before = result.error_rad;
@@ -108,7 +102,7 @@ class Aimer {
   // ball it is the twist, which is still free where the swing is at its limit.
   Vec3 axis_turn(int j) const {
     const auto [facing, wanted] = lines();
-    const double turn_rad = turn_towards(world_[static_cast<std::size_t>(j)].q * joint(j).axis, facing, wanted);
+    const double turn_rad = angle_towards(world_[static_cast<std::size_t>(j)].q * joint(j).axis, facing, wanted);
     const double most_rad = kTurnPerError * angle_between(facing, wanted);
     return std::clamp(turn_rad, -most_rad, most_rad) * joint(j).axis;
   }

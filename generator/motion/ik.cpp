@@ -10,18 +10,14 @@ namespace contort {
 
 namespace {
 
-const Joint& joint_at(const Character& character, int index) {
-  return character.joints()[static_cast<std::size_t>(index)];
-}
-
 double& coord_of(std::span<double> row, const Joint& joint) { return row[static_cast<std::size_t>(joint.coord)]; }
 
 // The tip seen from the middle joint's moving frame, with the joints between them as they are.
 Vec3 tip_in_middle(const Character& character, const ReachChain& chain, std::span<const double> row) {
   const Socket& tip = character.sockets()[static_cast<std::size_t>(chain.tip)];
   Vec3 point = tip.joint_from_socket.p_m;
-  for (int j = tip.joint; j != chain.middle && j > 0; j = joint_at(character, j).parent) {
-    const Joint& joint = joint_at(character, j);
+  for (int j = tip.joint; j != chain.middle && j > 0; j = character.joint(j).parent) {
+    const Joint& joint = character.joint(j);
     point = joint.parent_from_joint * (joint_motion(joint, row) * point);
   }
   return point;
@@ -45,14 +41,14 @@ double bend_for_distance(const Vec3& elbow, const Vec3& tip, const Joint& hinge,
 }
 
 void set_upper(const Character& character, const ReachChain& chain, const Quat& rotation, std::span<double> row) {
-  const Joint& upper = joint_at(character, chain.upper);
+  const Joint& upper = character.joint(chain.upper);
   double* q = &coord_of(row, upper);
   if (upper.kind == JointKind::ball) {
     q[0] = rotation.w, q[1] = rotation.x, q[2] = rotation.y, q[3] = rotation.z;
     return;
   }
-  const Joint& second = joint_at(character, chain.upper + 1);
-  const Joint& third = joint_at(character, chain.upper + 2);
+  const Joint& second = character.joint(chain.upper + 1);
+  const Joint& third = character.joint(chain.upper + 2);
   const Vec3 angles = hinge_angles(upper.axis, second.axis, third.axis, rotation);
   coord_of(row, upper) = angles.x;
   coord_of(row, second) = angles.y;
@@ -65,12 +61,6 @@ void set_to_rest(const Joint& joint, std::span<double> row) {
   if (joint.kind == JointKind::ball) q[1] = q[2] = q[3] = 0.0;
 }
 
-// Angle about the unit axis that turns v nearest to d.
-double turn_towards(const Vec3& axis, const Vec3& v, const Vec3& d) {
-  const double along = glm::dot(axis, v) * glm::dot(axis, d);
-  return det::atan2(glm::dot(axis, glm::cross(v, d)), glm::dot(v, d) - along);
-}
-
 // Turns one joint so that `facing` (world) comes nearest to `wanted`; answers false where the joint cannot help.
 bool turn_joint(const Joint& joint, const Rigid& world_from_joint, const Vec3& facing, const Vec3& wanted,
                 std::span<double> row) {
@@ -81,7 +71,7 @@ bool turn_joint(const Joint& joint, const Rigid& world_from_joint, const Vec3& f
     q[0] = turned.w, q[1] = turned.x, q[2] = turned.y, q[3] = turned.z;
     return true;
   }
-  const double step = turn_towards(world_from_joint.q * joint.axis, facing, wanted);
+  const double step = angle_towards(world_from_joint.q * joint.axis, facing, wanted);
   q[0] += step;
   return std::fabs(step) > 1e-13;
 }
@@ -109,7 +99,7 @@ std::array<double, 2> hinge_pair_angles(const HingePair& pair, const Vec3& axis,
   const std::array<double, 2> turns = solve_turn(x, y, glm::dot(pair.first_axis, direction) - along);
   const double turn = std::fabs(turns[0]) < std::fabs(turns[1]) ? turns[0] : turns[1];
   const Vec3 turned = pair.between * (axis_angle(second, turn) * axis);
-  return {turn_towards(pair.first_axis, turned, direction), turn};
+  return {angle_towards(pair.first_axis, turned, direction), turn};
 }
 
 Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation) {
@@ -129,8 +119,8 @@ Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& t
 
 void reach_for(const Character& character, const ReachChain& chain, std::span<const Rigid> world,
                const Vec3& target_world_m, double swivel_rad, std::span<double> row) {
-  const Joint& upper = joint_at(character, chain.upper);
-  const Joint& middle = joint_at(character, chain.middle);
+  const Joint& upper = character.joint(chain.upper);
+  const Joint& middle = character.joint(chain.middle);
   const Rigid upper_from_world = inverse(world[static_cast<std::size_t>(upper.parent)] * upper.parent_from_joint);
   const Vec3 target = upper_from_world * target_world_m;
   const double distance_m = std::sqrt(glm::dot(target, target));
@@ -156,10 +146,10 @@ struct TurnedChain {
   int socket;
   Vec3 socket_axis;
 
-  int end() const {
-    return std::max(joints.back(), character.sockets()[static_cast<std::size_t>(socket)].joint) + 1;
+  int end() const { return std::max(joints.back(), character.sockets()[static_cast<std::size_t>(socket)].joint) + 1; }
+  Vec3 facing(std::span<const Rigid> world) const {
+    return world_from_socket(character, world, socket).q * socket_axis;
   }
-  Vec3 facing(std::span<const Rigid> world) const { return world_from_socket(character, world, socket).q * socket_axis; }
 };
 
 // How `facing` changes with a joint's angle, as an axis to turn about; what lies along `facing` does nothing.
@@ -170,11 +160,12 @@ Vec3 turning_part(const Vec3& axis, const Vec3& facing) { return axis - glm::dot
 // Inverse Kinematics with Jacobian Transpose, Pseudoinverse and Damped Least Squares methods", 2004).
 Vec3 shared_turn(const TurnedChain& chain, std::span<const Rigid> world, const Vec3& facing, const Vec3& wanted) {
   constexpr double kDamping = 1e-4;
-  const Vec3 u = unit_or(turning_part(std::fabs(facing.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), facing), Vec3(1, 0, 0));
+  const Vec3 u =
+      unit_or(turning_part(std::fabs(facing.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), facing), Vec3(1, 0, 0));
   const Vec3 v = glm::cross(facing, u);
   double uu = kDamping, uv = 0.0, vv = kDamping;
   for (const int j : chain.joints) {
-    const Joint& joint = joint_at(chain.character, j);
+    const Joint& joint = chain.character.joint(j);
     const Vec3 p = turning_part(world[static_cast<std::size_t>(j)].q * joint.axis, facing);
     const bool is_ball = joint.kind == JointKind::ball;
     const double pu = glm::dot(p, u), pv = glm::dot(p, v);
@@ -194,7 +185,7 @@ void turn_together(const TurnedChain& chain, std::span<Rigid> world, const Vec3&
     if (glm::dot(wanted, wanted) < 1e-24) return;
     const Vec3 turn = shared_turn(chain, world, facing, wanted);
     for (const int j : chain.joints) {
-      const Joint& joint = joint_at(chain.character, j);
+      const Joint& joint = chain.character.joint(j);
       const Quat& world_from_joint = world[static_cast<std::size_t>(j)].q;
       double* q = &coord_of(row, joint);
       if (joint.kind == JointKind::ball) {
@@ -221,7 +212,7 @@ void sweep(const TurnedChain& chain, std::span<Rigid> world, const Vec3& directi
       const Vec3 facing = chain.facing(world);
       const Vec3 apart = glm::cross(facing, direction_world);
       if (glm::dot(apart, apart) < 1e-24 && glm::dot(facing, direction_world) > 0.0) return;
-      moved |= turn_joint(joint_at(character, j), world[static_cast<std::size_t>(j)], facing, direction_world, row);
+      moved |= turn_joint(character.joint(j), world[static_cast<std::size_t>(j)], facing, direction_world, row);
       forward_kinematics(character, row, j, last, world);
     }
     if (!moved) return;
@@ -229,7 +220,7 @@ void sweep(const TurnedChain& chain, std::span<Rigid> world, const Vec3& directi
 }
 
 void go_to_rest(const TurnedChain& chain, std::span<Rigid> world, std::span<double> row) {
-  for (const int j : chain.joints) set_to_rest(joint_at(chain.character, j), row);
+  for (const int j : chain.joints) set_to_rest(chain.character.joint(j), row);
   forward_kinematics(chain.character, row, chain.joints.front(), chain.end(), world);
 }
 

@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "generator/core/detmath.h"
+#include "generator/core/math.h"
 #include "generator/motion/ik.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
-
-const Joint& joint_at(const Character& character, int index) {
-  return character.joints()[static_cast<std::size_t>(index)];
-}
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 bool is_sole_of(const Character& character, const Socket& socket, int leg_part) {
   if (!std::string_view(socket.name).ends_with("/sole") || socket.name.starts_with("object:")) return false;
@@ -36,7 +31,7 @@ void find_ankles(const Character& character, const ReachChain& chain, Leg& leg) 
     if (character.joints()[static_cast<std::size_t>(j)].kind == JointKind::hinge) upward.push_back(j);
   leg.ankle_count = static_cast<int>(std::min<std::size_t>(upward.size(), leg.ankles.size()));
   std::copy_n(upward.rbegin(), leg.ankle_count, leg.ankles.begin());
-  leg.has_ankle_pair = leg.ankle_count == 2 && joint_at(character, leg.ankles[1]).parent == leg.ankles[0] &&
+  leg.has_ankle_pair = leg.ankle_count == 2 && character.joint(leg.ankles[1]).parent == leg.ankles[0] &&
                        character.sockets()[static_cast<std::size_t>(leg.sole)].joint == leg.ankles[1];
 }
 
@@ -100,7 +95,7 @@ void place_below(const Character& character, const Leg& leg, int first, std::spa
     const Part& own = character.parts()[static_cast<std::size_t>(part)];
     return own.first_joint + own.joint_count;
   };
-  const int part = joint_at(character, first).part;
+  const int part = character.joint(first).part;
   forward_kinematics(character, row, first, end_of(part), world);
   if (part == leg.foot_part) return;
   const int foot = character.parts()[static_cast<std::size_t>(leg.foot_part)].first_joint;
@@ -153,8 +148,8 @@ void level_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
   const auto ankles = std::span(leg.ankles).first(static_cast<std::size_t>(leg.ankle_count));
   if (ankles.empty()) return;
   if (!leg.has_ankle_pair) return turn_axis_to(character, ankles, leg.sole, Vec3(0, 1, 0), world, up_world, row);
-  const Joint& first = joint_at(character, ankles[0]);
-  const Joint& second = joint_at(character, ankles[1]);
+  const Joint& first = character.joint(ankles[0]);
+  const Joint& second = character.joint(ankles[1]);
   const Vec3 up = character.sockets()[static_cast<std::size_t>(leg.sole)].joint_from_socket.q * Vec3(0, 1, 0);
   const auto angles = hinge_pair_angles({first.axis, second.axis, second.parent_from_joint.q}, up,
                                         glm::conjugate(world_from_ankle(first, world)) * up_world);
@@ -174,7 +169,7 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
   place_below(character, leg, chain.upper, row, world);
   const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
   if (leg.has_ankle_pair) {
-    const Joint& flex = joint_at(character, leg.ankles[0]);
+    const Joint& flex = character.joint(leg.ankles[0]);
     swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
   }
   // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands

@@ -7,14 +7,13 @@
 
 #include "generator/asset/sample.h"
 #include "generator/core/detmath.h"
+#include "generator/core/index.h"
 #include "generator/motion/ik.h"
 #include "generator/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Where every node is. Turns and places only: a bone that is scaled does not turn.
 std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <type_traits>
 
+#include "renders/raster/find_symbol.h"
 #include "renders/raster/gl_backend.h"
 
 namespace contort {
@@ -20,21 +21,17 @@ struct EglApi {
   std::add_pointer_t<decltype(eglGetProcAddress)> function = nullptr;
 };
 
-template <class Function>
-bool find(void* library, const char* name, Function*& into) {
-  into = reinterpret_cast<Function*>(::dlsym(library, name));
-  return into != nullptr;
-}
-
 bool find_all(void* library, EglApi& api) {
-  return find(library, "eglGetPlatformDisplay", api.display) && find(library, "eglInitialize", api.initialize) &&
-         find(library, "eglBindAPI", api.bind) && find(library, "eglCreateContext", api.create) &&
-         find(library, "eglDestroyContext", api.destroy) && find(library, "eglMakeCurrent", api.make_current) &&
-         find(library, "eglGetProcAddress", api.function);
+  return find_symbol(library, "eglGetPlatformDisplay", api.display) &&
+         find_symbol(library, "eglInitialize", api.initialize) && find_symbol(library, "eglBindAPI", api.bind) &&
+         find_symbol(library, "eglCreateContext", api.create) &&
+         find_symbol(library, "eglDestroyContext", api.destroy) &&
+         find_symbol(library, "eglMakeCurrent", api.make_current) &&
+         find_symbol(library, "eglGetProcAddress", api.function);
 }
 
 // Stays loaded for good, as libOSMesa does. Always the software driver: the pictures of two machines shall be the same.
-void* open_library() {
+void* open_egl() {
   ::setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", /*overwrite=*/0);
   for (const char* name : {"libEGL.so.1", "libEGL.so"})
@@ -70,7 +67,7 @@ class EglBackend final : public GlBackend {
 }  // namespace
 
 Result<std::unique_ptr<GlBackend>> make_egl_backend() {
-  void* library = open_library();
+  void* library = open_egl();
   EglApi api;
   if (!library || !find_all(library, api))
     return Issue{"render.no_opengl", "",
@@ -80,8 +77,9 @@ Result<std::unique_ptr<GlBackend>> make_egl_backend() {
   if (display == EGL_NO_DISPLAY || api.initialize(display, nullptr, nullptr) != EGL_TRUE ||
       api.bind(EGL_OPENGL_API) != EGL_TRUE)
     return Issue{"render.no_opengl", "", "libEGL cannot draw without a screen (EGL_MESA_platform_surfaceless)."};
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const EGLint wanted[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   EGLContext context = api.create(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
   if (context == EGL_NO_CONTEXT) return Issue{"render.no_opengl", "", "libEGL cannot make an OpenGL 3.3 context."};
   return std::unique_ptr<GlBackend>(std::make_unique<EglBackend>(api, display, context));

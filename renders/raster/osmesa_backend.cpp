@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <type_traits>
 
+#include "renders/raster/find_symbol.h"
 #include "renders/raster/gl_backend.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -32,14 +33,8 @@ struct OsmesaApi {
   std::add_pointer_t<decltype(OSMesaGetProcAddress)> function = nullptr;
 };
 
-template <class Function>
-bool find(void* library, const char* name, Function*& into) {
-  into = reinterpret_cast<Function*>(::dlsym(library, name));
-  return into != nullptr;
-}
-
 // The library stays loaded for good: Mesa's threads and exit handlers may outlive a context.
-void* open_library() {
+void* open_osmesa() {
   // One rasterizer thread per process would fight over one lock; processes scale instead (twice as fast on two cores).
   ::setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
@@ -75,11 +70,12 @@ class OsmesaBackend final : public GlBackend {
 }  // namespace
 
 Result<std::unique_ptr<GlBackend>> make_osmesa_backend() {
-  void* library = open_library();
+  void* library = open_osmesa();
   OsmesaApi api;
-  if (!library || !find(library, "OSMesaCreateContextAttribs", api.create) ||
-      !find(library, "OSMesaDestroyContext", api.destroy) || !find(library, "OSMesaMakeCurrent", api.make_current) ||
-      !find(library, "OSMesaGetProcAddress", api.function))
+  if (!library || !find_symbol(library, "OSMesaCreateContextAttribs", api.create) ||
+      !find_symbol(library, "OSMesaDestroyContext", api.destroy) ||
+      !find_symbol(library, "OSMesaMakeCurrent", api.make_current) ||
+      !find_symbol(library, "OSMesaGetProcAddress", api.function))
     return Issue{"render.no_opengl", "",
                  "libOSMesa was not found, so no pictures can be drawn; install the package libosmesa6."};
   const int wanted[] = {OSMESA_FORMAT,

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kHeader = 58;
 constexpr int kCaption = 24;
-constexpr int kGap = 2;
-constexpr int kPadding = 12;
+constexpr int kSheetGap = 2;
+constexpr int kSheetPadding = 12;
 constexpr int kTitleSize = 18;
 constexpr int kTextSize = 14;
 constexpr int kCaptionSize = 13;
@@ -66,14 +66,16 @@ double Sheet::picture_aspect(const StripInput& input) {
 Sheet::Sheet(const StripInput& input, int tiles) : input_(input), face_{input.font} {
   const int columns = std::min(input.columns, tiles);
   const int rows = (tiles + columns - 1) / columns;
-  image_ = Image(columns * (input.tile_width + kGap) + kGap, kHeader + rows * (input.tile_height + kGap));
+  image_ =
+      Image(columns * (input.tile_width + kSheetGap) + kSheetGap, kHeader + rows * (input.tile_height + kSheetGap));
   fill(image_, 0, 0, image_.width, image_.height, kFrame);
   write_header();
 }
 
 Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
   const int column = added_ % input_.columns, row = added_ / input_.columns;
-  const int x = kGap + column * (input_.tile_width + kGap), y = kHeader + row * (input_.tile_height + kGap);
+  const int x = kSheetGap + column * (input_.tile_width + kSheetGap),
+            y = kHeader + row * (input_.tile_height + kSheetGap);
   paste(image_, picture, x, y);
   write_caption(x, y + picture.height, frame, complete);
   ++added_;
@@ -81,11 +83,11 @@ Sheet::Corner Sheet::add_tile(const Image& picture, int frame, bool complete) {
 }
 
 void Sheet::write_header() {
-  const int width = image_.width - 2 * kPadding;
-  write(kPadding, 25, width, title_of(input_), kTitleSize, kBright);
+  const int width = image_.width - 2 * kSheetPadding;
+  write(kSheetPadding, 25, width, title_of(input_), kTitleSize, kBright);
   const std::string note = input_.note.empty() ? "" : "; " + input_.note;
   const bool alarms = input_.finding || !note.empty();
-  write(kPadding, 47, width, summary_of(input_) + note, kTextSize, alarms ? kAlarm : kDim);
+  write(kSheetPadding, 47, width, summary_of(input_) + note, kTextSize, alarms ? kAlarm : kDim);
 }
 
 void Sheet::write_caption(int x, int y, int frame, bool complete) {
@@ -95,9 +97,9 @@ void Sheet::write_caption(int x, int y, int frame, bool complete) {
   std::string text = "frame " + std::to_string(frame) + "  " + time_text(frame, input_.motion.rate_hz);
   if (!complete) text += "  NOT FINITE";
   const int mark_width = 8 * static_cast<int>(caption.mark.size());
-  const int room = input_.tile_width - 2 * kPadding;
-  write(x + kPadding, baseline, room - mark_width, text, kCaptionSize, kBright);
-  write(x + input_.tile_width - kPadding - mark_width, baseline, mark_width, caption.mark, kCaptionSize, kBright);
+  const int room = input_.tile_width - 2 * kSheetPadding;
+  write(x + kSheetPadding, baseline, room - mark_width, text, kCaptionSize, kBright);
+  write(x + input_.tile_width - kSheetPadding - mark_width, baseline, mark_width, caption.mark, kCaptionSize, kBright);
 }
 
 void Sheet::write(int x, int y, int width, std::string_view text, int size, Rgb8 color) {

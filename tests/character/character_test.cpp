@@ -15,11 +15,10 @@
 namespace contort {
 namespace {
 
-using testing::built;
-using testing::human;
-using testing::joint;
-using testing::length;
-using testing::mech_choice;
+using fixtures::built;
+using fixtures::human;
+using fixtures::joint;
+using fixtures::mech_choice;
 
 struct Refused {
   CharacterChoice choice;
@@ -210,7 +209,7 @@ RC_GTEST_PROP(Character, ArmsAreMirrorImagesInEveryPosture, ()) {
     const Joint& l = c.joints()[static_cast<std::size_t>(left.first_joint + i)];
     const auto lc = static_cast<std::size_t>(l.coord);
     const auto rc = static_cast<std::size_t>(c.joints()[static_cast<std::size_t>(right.first_joint + i)].coord);
-    const Quat q = testing::any_quat();
+    const Quat q = fixtures::any_quat();
     const Quat m = mirror_rotation(q);
     if (l.kind == JointKind::ball)
       for (int k = 0; k < 4; ++k) {
@@ -218,7 +217,7 @@ RC_GTEST_PROP(Character, ArmsAreMirrorImagesInEveryPosture, ()) {
         row[lc + at] = std::array{q.w, q.x, q.y, q.z}[at], row[rc + at] = std::array{m.w, m.x, m.y, m.z}[at];
       }
     else
-      row[lc] = row[rc] = testing::lattice_number(-2, 2);
+      row[lc] = row[rc] = fixtures::lattice_number(-2, 2);
   }
   std::vector<Rigid> world(c.joints().size());
   forward_kinematics(c, c.rest_root(), row, world);
@@ -226,18 +225,18 @@ RC_GTEST_PROP(Character, ArmsAreMirrorImagesInEveryPosture, ()) {
     const Rigid& l = world[static_cast<std::size_t>(left.first_joint + i)];
     const Rigid& r = world[static_cast<std::size_t>(right.first_joint + i)];
     RC_ASSERT(length(mirror_point(l.p_m) - r.p_m) < 1e-12);
-    RC_ASSERT(testing::difference(mirror_rotation(l.q), r.q) < 1e-7);
+    RC_ASSERT(fixtures::difference(mirror_rotation(l.q), r.q) < 1e-7);
   }
 }
 
 RC_GTEST_PROP(Inertia, MergingDoesNotCareForOrderOrPlace, ()) {
   const auto body = [] {
-    return principal_inertia(testing::lattice_number(0.1, 9), testing::any_vec(1),
-                             Vec3(testing::lattice_number(0.1, 1)));
+    return principal_inertia(fixtures::lattice_number(0.1, 9), fixtures::any_vec(1),
+                             Vec3(fixtures::lattice_number(0.1, 1)));
   };
   const BodyInertia a = body();
   const BodyInertia b = body();
-  const Rigid place = testing::any_rigid(2);
+  const Rigid place = fixtures::any_rigid(2);
   const BodyInertia here = moved(place, merged(a, b));
   const BodyInertia there = merged(moved(place, b), moved(place, a));
   RC_ASSERT(std::fabs(here.mass_kg - there.mass_kg) < 1e-12);

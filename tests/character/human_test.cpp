@@ -9,9 +9,8 @@
 namespace contort {
 namespace {
 
-using testing::human;
-using testing::joint;
-using testing::length;
+using fixtures::human;
+using fixtures::joint;
 
 int degrees_of_freedom(const Character& character) {
   int count = 6;  // the root's
@@ -19,7 +18,7 @@ int degrees_of_freedom(const Character& character) {
   return count;
 }
 
-std::vector<Rigid> world_at_rest(const Character& character) {
+std::vector<Rigid> human_world_at_rest(const Character& character) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
   return world;
@@ -31,7 +30,7 @@ struct Body73 {
 };
 
 Body73 whole_body(const Character& character) {
-  const std::vector<Rigid> world = world_at_rest(character);
+  const std::vector<Rigid> world = human_world_at_rest(character);
   Body73 body;
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Joint& j = character.joints()[i];
@@ -84,7 +83,7 @@ TEST(Human, JointsAreWhereTheTablePutsThem) {
       {"leg_right/knee", {-0.081, -0.4222, 0}},
       {"foot_left/ankle_flex", {0.081, -0.4222 - 0.4403, 0}},
   };
-  const std::vector<Rigid> world = world_at_rest(human());
+  const std::vector<Rigid> world = human_world_at_rest(human());
   const Vec3 root_m = human().rest_root().p_m;
   EXPECT_NEAR(root_m.y, 0.9325, 1e-9);
   for (const Place& place : places) {
@@ -135,7 +134,7 @@ TEST(Human, PositiveAnglesTurnTheWayTheirNamesSay) {
       {"leg_left/knee", "foot_left/ankle_flex", {0, 0, -1}}, {"leg_right/knee", "foot_right/ankle_flex", {0, 0, -1}},
       {"torso/lumbar_flex", "head/neck_flex", {0, 0, 1}},
   };
-  const std::vector<Rigid> rest = world_at_rest(human());
+  const std::vector<Rigid> rest = human_world_at_rest(human());
   for (const Turn& turn : turns) {
     std::vector<double> row(human().rest_coords().begin(), human().rest_coords().end());
     row[static_cast<std::size_t>(joint(human(), turn.joint).coord)] = 0.2;
@@ -150,7 +149,7 @@ TEST(Human, PositiveAnglesTurnTheWayTheirNamesSay) {
 TEST(Human, ABackpackBecomesPartOfTheTrunk) {
   const CharacterChoice choice{"human", {}, {{"backpack", "torso", "back"}}};
   const Joint& bare = joint(human(), "torso/lumbar_rot");
-  const Character loaded_human = testing::built(choice);
+  const Character loaded_human = fixtures::built(choice);
   const Joint& loaded = joint(loaded_human, "torso/lumbar_rot");
   EXPECT_NEAR(loaded.mass_kg, bare.mass_kg + 5.0, 1e-12);
   const Vec3 pack_m(0, 0.25, -0.18);

@@ -8,11 +8,11 @@
 namespace contort {
 namespace {
 
-using testing::all_combinations;
-using testing::built;
-using testing::expect_no_findings_at_rest;
-using testing::expect_stands_free;
-using testing::world_at_rest;
+using fixtures::all_combinations;
+using fixtures::built;
+using fixtures::expect_no_findings_at_rest;
+using fixtures::expect_stands_free;
+using fixtures::world_at_rest;
 
 const CharacterDesc& mech() { return stock_library().characters.at("mech"); }
 
@@ -56,14 +56,14 @@ TEST(Mech, HumansStandFreeWithWhatTheyCarry) {
 // The checks of the product agree that rest is no fault, for every character and part.
 TEST(Mech, RestHasNoFindings) {
   expect_no_findings_at_rest({});
-  expect_no_findings_at_rest(testing::mech_choice());
+  expect_no_findings_at_rest(fixtures::mech_choice());
   for (const SlotDesc& slot : mech().slots)
-    for (const std::string& part : slot.parts) expect_no_findings_at_rest(testing::mech_choice({{slot.name, part}}));
+    for (const std::string& part : slot.parts) expect_no_findings_at_rest(fixtures::mech_choice({{slot.name, part}}));
 }
 
 TEST(Mech, PartsOfBothSidesMirrorEachOtherAtRest) {
   for (const std::string& arm : mech().slots[3].parts) {
-    const Character character = built(testing::mech_choice({{"arm_left", arm}, {"arm_right", arm}}));
+    const Character character = built(fixtures::mech_choice({{"arm_left", arm}, {"arm_right", arm}}));
     const std::vector<Rigid> world = world_at_rest(character);
     const Part& left = character.parts()[static_cast<std::size_t>(character.find_part("arm_left"))];
     const Part& right = character.parts()[static_cast<std::size_t>(character.find_part("arm_right"))];
@@ -71,7 +71,7 @@ TEST(Mech, PartsOfBothSidesMirrorEachOtherAtRest) {
     for (int i = 0; i < left.joint_count; ++i) {
       const Rigid& l = world[static_cast<std::size_t>(left.first_joint + i)];
       const Rigid& r = world[static_cast<std::size_t>(right.first_joint + i)];
-      EXPECT_LT(testing::length(mirror_point(l.p_m) - r.p_m), 1e-12) << arm;
+      EXPECT_LT(length(mirror_point(l.p_m) - r.p_m), 1e-12) << arm;
     }
   }
 }

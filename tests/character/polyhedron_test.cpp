@@ -8,14 +8,13 @@
 #include <set>
 
 #include "generator/character/shape.h"
+#include "generator/core/math.h"
 #include "tests/checks/solids.h"
 
 namespace contort {
 namespace {
 
 using test_solids::Random;
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 std::vector<Vec3> cube_points() {
   std::vector<Vec3> points;

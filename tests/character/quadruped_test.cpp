@@ -9,8 +9,8 @@
 namespace contort {
 namespace {
 
-using testing::built;
-using testing::joint;
+using fixtures::built;
+using fixtures::joint;
 
 CharacterChoice quadruped_choice(std::map<std::string, std::string> parts = {}) { return {"quadruped", parts, {}}; }
 
@@ -27,13 +27,13 @@ double mass_kg(const Character& character) {
 
 TEST(Quadruped, EveryCombinationStandsFreeAndHasNoFindings) {
   const CharacterDesc& desc = stock_library().characters.at("quadruped");
-  const auto choices = testing::all_combinations(desc);
+  const auto choices = fixtures::all_combinations(desc);
   EXPECT_EQ(choices.size(), 4U);
   for (CharacterChoice choice : choices) {
-    testing::expect_stands_free(choice);
-    testing::expect_no_findings_at_rest(choice);
+    fixtures::expect_stands_free(choice);
+    fixtures::expect_no_findings_at_rest(choice);
     choice.attachments = {{"backpack", "trunk", "back"}};
-    testing::expect_stands_free(choice);
+    fixtures::expect_stands_free(choice);
   }
 }
 
@@ -59,7 +59,7 @@ Vec3 moved_m(const std::string& turned, const std::string& watched) {
   std::vector<Rigid> world(c.joints().size());
   forward_kinematics(c, c.rest_root(), row, world);
   const auto at = static_cast<std::size_t>(c.find_joint(watched));
-  return world[at].p_m - testing::world_at_rest(c)[at].p_m;
+  return world[at].p_m - fixtures::world_at_rest(c)[at].p_m;
 }
 
 // Flexing folds a leg: stifle and shoulder bring what is below them back, hock, elbow and hip bring it forward.
@@ -82,7 +82,7 @@ TEST(Quadruped, RangesAreThoseMeasuredOnDogs) {
   };
   // The angle at rest follows from the bones' directions.
   const auto angle_at_rest_deg = [](const std::string& above, const std::string& at, const std::string& below) {
-    const std::vector<Rigid> world = testing::world_at_rest(quadruped());
+    const std::vector<Rigid> world = fixtures::world_at_rest(quadruped());
     const auto place = [&](const std::string& name) {
       return world[static_cast<std::size_t>(quadruped().find_joint(name))].p_m;
     };

@@ -14,8 +14,8 @@
 namespace contort {
 namespace {
 
-using testing::any_vec;
-using testing::lattice_number;
+using fixtures::any_vec;
+using fixtures::lattice_number;
 
 // Divergence theorem: the sum of a . (b x c) / 6 over outward triangles.
 double volume(const Triangles& t) {

@@ -8,7 +8,7 @@
 #include "generator/motion/kinematics.h"
 #include "tests/character/stock.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 inline std::vector<Rigid> world_at_rest(const Character& character) {
   std::vector<Rigid> world(character.joints().size());
@@ -86,4 +86,4 @@ inline void expect_no_findings_at_rest(const CharacterChoice& choice) {
   for (const Finding& finding : evaluator.run(*stage).findings) ADD_FAILURE() << text_of(choice) << finding.subject;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "generator/character/character.h"
+#include "generator/core/math.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 inline Character built(const CharacterChoice& choice, const Library& library = stock_library()) {
   Result<Character> character = build_character(choice, library);
@@ -35,8 +36,6 @@ inline const Joint& joint(const Character& character, std::string_view name) {
   return character.joints()[static_cast<std::size_t>(index < 0 ? 0 : index)];
 }
 
-inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 // Every combination of parts that the character's slots allow, as choices.
 inline std::vector<CharacterChoice> all_combinations(const CharacterDesc& desc) {
   CharacterChoice plain;
@@ -54,4 +53,4 @@ inline std::vector<CharacterChoice> all_combinations(const CharacterDesc& desc) 
   return choices;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -7,7 +7,7 @@
 namespace contort {
 namespace {
 
-using testing::use;
+using fixtures::use;
 
 // The character turned by an angle about the vertical, while a socket should point along +Z.
 double margin_when_turned(double angle_deg, bool declared = true) {
@@ -48,7 +48,7 @@ TEST(AimError, ATargetInThePointItselfIsViolated) {
 
 Evaluation played(const std::vector<ActionUse>& actions, Motion* motion = nullptr) {
   Evaluator evaluator;
-  const Stage stage = testing::stage_of({testing::sequence(actions)});
+  const Stage stage = fixtures::stage_of({fixtures::sequence(actions)});
   const Evaluation evaluation = evaluator.run(stage, "aim_error");
   if (motion != nullptr) *motion = evaluator.motion();
   return evaluation;

@@ -6,8 +6,8 @@
 namespace contort {
 namespace {
 
-using testing::sequence;
-using testing::use;
+using fixtures::sequence;
+using fixtures::use;
 
 struct Case {
   Stage stage;

@@ -15,18 +15,19 @@ TEST(JointMap, NamesOfNodesAreFree) {
 }
 
 TEST(JointMap, AnythingElseIsRefusedByName) {
-  struct Row {
+  struct BadMap {
     const char* text;
     const char* code;
   };
-  for (const Row& row : {Row{"", "json.syntax"}, Row{"{}", "map.wrong_format"},
-                         Row{R"({"format": "contort.map/2", "joints": {}})", "map.wrong_format"},
-                         Row{R"({"format": "contort.map/1"})", "map.missing_field"},
-                         Row{R"({"format": "contort.map/1", "joints": []})", "map.wrong_type"},
-                         Row{R"({"format": "contort.map/1", "joints": {"a": 1}})", "map.wrong_type"},
-                         Row{R"({"format": "contort.map/1", "joints": {"": "a/b"}})", "map.bad_text"},
-                         Row{R"({"format": "contort.map/1", "joints": {"a": "b", "a": "c"}})", "json.duplicate_key"},
-                         Row{R"({"format": "contort.map/1", "joints": {}, "bones": {}})", "map.unknown_field"}}) {
+  for (const BadMap& row :
+       {BadMap{"", "json.syntax"}, BadMap{"{}", "map.wrong_format"},
+        BadMap{R"({"format": "contort.map/2", "joints": {}})", "map.wrong_format"},
+        BadMap{R"({"format": "contort.map/1"})", "map.missing_field"},
+        BadMap{R"({"format": "contort.map/1", "joints": []})", "map.wrong_type"},
+        BadMap{R"({"format": "contort.map/1", "joints": {"a": 1}})", "map.wrong_type"},
+        BadMap{R"({"format": "contort.map/1", "joints": {"": "a/b"}})", "map.bad_text"},
+        BadMap{R"({"format": "contort.map/1", "joints": {"a": "b", "a": "c"}})", "json.duplicate_key"},
+        BadMap{R"({"format": "contort.map/1", "joints": {}, "bones": {}})", "map.unknown_field"}}) {
     const auto map = parse_joint_map(row.text);
     ASSERT_FALSE(map.ok()) << row.text;
     EXPECT_EQ(map.issue().code, row.code) << row.text << ": " << to_line(map.issue());

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kStep = 1e-6;
+constexpr double kRangeStep = 1e-6;
 
 class JointRange : public testing::Test {
  protected:
@@ -41,19 +41,19 @@ TEST_F(JointRange, HingeEndsAtItsLimits) {
   const double low = -20 * kRadPerDeg, high = 50 * kRadPerDeg;
   for (const std::string arm : {"arm_left/lift", "arm_right/lift"}) {
     EXPECT_EQ(margin(arm, high, "max"), 0.0);
-    EXPECT_NEAR(margin(arm, high - kStep, "max"), kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, high + kStep, "max"), -kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, low + kStep, "min"), kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, low - kStep, "min"), -kStep, 1e-15);
+    EXPECT_NEAR(margin(arm, high - kRangeStep, "max"), kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, high + kRangeStep, "max"), -kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, low + kRangeStep, "min"), kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, low - kRangeStep, "min"), -kRangeStep, 1e-15);
   }
 }
 
 TEST_F(JointRange, PrismaticEndsAtItsLimits) {
   for (const std::string arm : {"arm_left/slide", "arm_right/slide"}) {
-    EXPECT_NEAR(margin(arm, 0.1 - kStep, "max"), kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, 0.1 + kStep, "max"), -kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, -0.25 + kStep, "min"), kStep, 1e-15);
-    EXPECT_NEAR(margin(arm, -0.25 - kStep, "min"), -kStep, 1e-15);
+    EXPECT_NEAR(margin(arm, 0.1 - kRangeStep, "max"), kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, 0.1 + kRangeStep, "max"), -kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, -0.25 + kRangeStep, "min"), kRangeStep, 1e-15);
+    EXPECT_NEAR(margin(arm, -0.25 - kRangeStep, "min"), -kRangeStep, 1e-15);
   }
 }
 
@@ -62,7 +62,7 @@ TEST_F(JointRange, BallSwingsUpToBothHalfAngles) {
   const Vec3 b_axis = glm::cross(Vec3(0, -1, 0), a_axis);
   const double a = 35 * kRadPerDeg, b = 80 * kRadPerDeg;
   for (const double sign : {-1.0, 1.0})
-    for (const double step : {-kStep, kStep}) {
+    for (const double step : {-kRangeStep, kRangeStep}) {
       expect_wrist_margin(wrist(sign * (a - step) * a_axis, 0.3), "swing", step);
       expect_wrist_margin(wrist(sign * (b - step) * b_axis, -0.3), "swing", step);
     }
@@ -74,7 +74,7 @@ TEST_F(JointRange, BallSwingBetweenTheAxesIsAnEllipseOfAngles) {
     const double t = i * kPi / 8.0;
     const Vec3 on_edge = a * std::cos(t) * Vec3(1, 0, 0) + b * std::sin(t) * glm::cross(Vec3(0, -1, 0), Vec3(1, 0, 0));
     const double length = std::sqrt(glm::dot(on_edge, on_edge));
-    for (const double step : {-kStep, kStep})
+    for (const double step : {-kRangeStep, kRangeStep})
       expect_wrist_margin(wrist(on_edge * (1.0 - step / length), 0.1), "swing", step);
   }
 }
@@ -82,7 +82,7 @@ TEST_F(JointRange, BallSwingBetweenTheAxesIsAnEllipseOfAngles) {
 TEST_F(JointRange, BallTwistsBetweenItsLimits) {
   const double low = -40 * kRadPerDeg, high = 60 * kRadPerDeg;
   const Vec3 swing(0.2, 0.0, 0.5);
-  for (const double step : {-kStep, kStep}) {
+  for (const double step : {-kRangeStep, kRangeStep}) {
     expect_wrist_margin(wrist(swing, low + step), "twist min", step);
     expect_wrist_margin(wrist(swing, high - step), "twist max", step);
   }

@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kStep = 1e-6;
+constexpr double kCollisionStep = 1e-6;
 const char* const kArms = "arm_left/slide ~ arm_right/slide";
 
 // Both arms slide inward; the boxes' inner faces are 0.4 m apart at rest.
@@ -30,13 +30,13 @@ Library with_capsules() {
 
 TEST(SelfCollision, BoxesTouchAtZeroAndCountTheirDepth) {
   const Character character = small::build();
-  for (const double clearance : {0.05, kStep, -kStep, -0.03})
+  for (const double clearance : {0.05, kCollisionStep, -kCollisionStep, -0.03})
     EXPECT_NEAR(arm_clearance(character, clearance), clearance, 1e-12);
 }
 
 TEST(SelfCollision, CapsulesTouchAtZeroAndCountTheirDepth) {
   const Character character = small::build(with_capsules());
-  for (const double clearance : {0.05, kStep, -kStep, -0.03})
+  for (const double clearance : {0.05, kCollisionStep, -kCollisionStep, -0.03})
     EXPECT_NEAR(arm_clearance(character, clearance), clearance, 1e-12);
 }
 
@@ -46,7 +46,7 @@ TEST(SelfCollision, ABoxAndACapsuleTouchAtZero) {
   library.parts["box_arm"].name = "box_arm";
   library.characters["small"].slots[1].parts = {"box_arm"};
   const Character character = small::build(library);
-  for (const double clearance : {kStep, -kStep, -0.03})
+  for (const double clearance : {kCollisionStep, -kCollisionStep, -0.03})
     EXPECT_NEAR(arm_clearance(character, clearance), clearance, 1e-12);
 }
 
@@ -71,7 +71,7 @@ TEST(SelfCollision, AFindingNamesBothBodiesAndItsDepthInTwoCentimetres) {
 TEST(SelfCollision, AnAttachedObjectCounts) {
   CharacterChoice choice{"small", {}, {{"peg", "arm_left", "inside"}}};
   const Character character = small::build(small::library(), choice);
-  for (const double clearance : {kStep, -kStep}) {  // the peg reaches 0.1 m beyond the box
+  for (const double clearance : {kCollisionStep, -kCollisionStep}) {  // the peg reaches 0.1 m beyond the box
     const Motion motion = pushed_together(character, 0.1 + clearance);
     EXPECT_NEAR(small::margin_of("self_collision", character, motion, "arm_right/slide ~ object:peg"), clearance,
                 1e-12);
@@ -110,8 +110,8 @@ TEST(SelfCollision, NeighboursAreSilent) {  // the slider runs into the base tha
 
 TEST(SelfCollision, WhatIsFartherApartThanTheBandIsNotReported) {
   const Character character = small::build();
-  EXPECT_NEAR(arm_clearance(character, 0.1 - kStep), 0.1 - kStep, 1e-12);
-  EXPECT_EQ(arm_clearance(character, 0.1 + kStep), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(arm_clearance(character, 0.1 - kCollisionStep), 0.1 - kCollisionStep, 1e-12);
+  EXPECT_EQ(arm_clearance(character, 0.1 + kCollisionStep), std::numeric_limits<double>::infinity());
 }
 
 TEST(SelfCollision, DoesNotDependOnWhereTheRootStands) {

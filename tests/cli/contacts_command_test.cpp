@@ -9,7 +9,7 @@
 namespace contort {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 class ContactsCommand : public testing::Test {
  protected:
@@ -35,11 +35,11 @@ TEST_F(ContactsCommand, SaysWhatIsAllowedAndWhy) {
 TEST_F(ContactsCommand, EveryPairOfCollidersIsEitherJudgedOrAllowedWithAReason) {
   const Ran ran = contort_program({"contacts", "human", "--poses", "0", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const json out = json::parse(ran.out);
+  const Json out = Json::parse(ran.out);
   Result<Character> human = build_character({"human", {}, {}}, stock_library());
   const std::size_t colliders = human->colliders().size();
   EXPECT_EQ(out["judged"].get<std::size_t>() + out["allowed"].size(), colliders * (colliders - 1) / 2);
-  for (const json& pair : out["allowed"]) EXPECT_NE(pair["reason"], "");
+  for (const Json& pair : out["allowed"]) EXPECT_NE(pair["reason"], "");
 }
 
 TEST_F(ContactsCommand, WhatItProposesCanBePutIntoTheCharactersFile) {
@@ -50,12 +50,12 @@ TEST_F(ContactsCommand, WhatItProposesCanBePutIntoTheCharactersFile) {
   EXPECT_NE(before.out.find("all ranges: 1\n  arm_left/box ~ arm_right/box: rest_pose: they overlap by 0.0200 m\n"),
             std::string::npos)
       << before.out;
-  json character = json::parse(slurp(own + "/small.json"));
-  character["allowed_pairs"] = json::parse(slurp(proposed))["allowed_pairs"];
+  Json character = Json::parse(slurp(own + "/small.json"));
+  character["allowed_pairs"] = Json::parse(slurp(proposed))["allowed_pairs"];
   spill(own + "/small.json", character.dump());
   const Ran after = contort_program(command);
   EXPECT_NE(after.out.find("all ranges: 0\n"), std::string::npos) << after.out << after.err;
-  EXPECT_EQ(json::parse(slurp(proposed))["allowed_pairs"], character["allowed_pairs"]);  // nothing is lost
+  EXPECT_EQ(Json::parse(slurp(proposed))["allowed_pairs"], character["allowed_pairs"]);  // nothing is lost
 }
 
 TEST_F(ContactsCommand, TakesPartsAndObjectsFromASpec) {

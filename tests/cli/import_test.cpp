@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 class ImportCommand : public ::testing::Test {
  protected:
-  std::string model(const testing::GlbBuilder& builder, const std::string& name = "Some One.glb") {
-    const testing::ByteList bytes = builder.glb();
+  std::string model(const fixtures::GlbBuilder& builder, const std::string& name = "Some One.glb") {
+    const fixtures::ByteList bytes = builder.glb();
     const std::string path = folder_ / name;
     spill(path, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     return path;
@@ -24,8 +24,8 @@ class ImportCommand : public ::testing::Test {
 };
 
 // The left elbow turns by 100 degrees in a tenth of a second.
-testing::GlbBuilder quick_person() {
-  testing::GlbBuilder b = testing::rigged(testing::person());
+fixtures::GlbBuilder quick_person() {
+  fixtures::GlbBuilder b = fixtures::rigged(fixtures::person());
   b.root["animations"] = {{{"name", "quick"}}};
   const Quat q = axis_angle(Vec3(0, 1, 0), -100.0 * kRadPerDeg);
   const auto f = [](double v) { return static_cast<float>(v); };
@@ -35,7 +35,7 @@ testing::GlbBuilder quick_person() {
 }
 
 TEST_F(ImportCommand, MakesALibraryThatFuzzesAtOnce) {
-  const Ran import = contort_program({"import", model(testing::rigged(testing::person())), "-o", library()});
+  const Ran import = contort_program({"import", model(fixtures::rigged(fixtures::person())), "-o", library()});
   ASSERT_EQ(import.code, 0) << import.err;
   EXPECT_NE(import.out.find("some_one: humanoid, 1.8 m"), std::string::npos) << import.out;
   EXPECT_TRUE(fs::exists(library() + "/some_one.import.md"));
@@ -46,7 +46,7 @@ TEST_F(ImportCommand, MakesALibraryThatFuzzesAtOnce) {
 }
 
 TEST_F(ImportCommand, TakesTheModelAlongForPictures) {
-  const std::string path = model(testing::rigged(testing::person()));
+  const std::string path = model(fixtures::rigged(fixtures::person()));
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);
   EXPECT_EQ(slurp(library() + "/skins/some_one.glb"), slurp(path));
   const std::string spec = folder_ / "spec.json", picture = folder_ / "picture.png";
@@ -66,12 +66,13 @@ TEST_F(ImportCommand, TakesTheModelAlongForPictures) {
 }
 
 TEST_F(ImportCommand, LeavesTheModelWhereItIsWhenAsked) {
-  ASSERT_EQ(contort_program({"import", model(testing::rigged(testing::person())), "-o", library(), "--no-model"}).code, 0);
+  ASSERT_EQ(
+      contort_program({"import", model(fixtures::rigged(fixtures::person())), "-o", library(), "--no-model"}).code, 0);
   EXPECT_FALSE(fs::exists(library() + "/skins"));
 }
 
 TEST_F(ImportCommand, KeepsWhatIsThereUnlessForced) {
-  const std::string path = model(testing::rigged(testing::person()));
+  const std::string path = model(fixtures::rigged(fixtures::person()));
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);
   const std::string part = library() + "/some_one_arm_left.json";
   const std::string before = slurp(part);
@@ -118,11 +119,11 @@ TEST_F(ImportCommand, RefusesByCodeAndWritesNothing) {
     EXPECT_EQ(ran.err.rfind("contort: " + code, 0), 0U) << ran.err;
     EXPECT_FALSE(fs::exists(library())) << code;
   };
-  const std::string person = model(testing::rigged(testing::person()));
+  const std::string person = model(fixtures::rigged(fixtures::person()));
   refused({folder_ / "none.glb"}, "gltf.unreadable");
   refused({person, "--name", "human"}, "import.bad_name");
   refused({person, "--skin", "4"}, "import.unknown_skin");
-  refused({model(testing::small_arm(), "arm.glb")}, "import.no_vertices");
+  refused({model(fixtures::small_arm(), "arm.glb")}, "import.no_vertices");
   refused({person, "--scale", "nan"}, "usage");
   refused({person, "--scale", "1", "--height-m", "2"}, "usage");
 }

@@ -11,14 +11,13 @@
 namespace contort {
 namespace {
 
-using testing::any_quat;
-using testing::any_rigid;
-using testing::any_unit;
-using testing::any_vec;
-using testing::difference;
-using testing::lattice_number;
+using fixtures::any_quat;
+using fixtures::any_rigid;
+using fixtures::any_unit;
+using fixtures::any_vec;
+using fixtures::difference;
+using fixtures::lattice_number;
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 double norm(const Quat& q) { return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z); }
 
 // Worst measured over 10^5 pairs: 6.4e-14, for pairs within half a degree of opposite.

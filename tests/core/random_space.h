@@ -7,7 +7,7 @@
 
 #include "generator/core/math.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 inline double lattice_number(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 1000001) / 1e6;
@@ -29,4 +29,4 @@ inline Rigid any_rigid(double size_m) { return {any_quat(), any_vec(size_m)}; }
 // Angle of the rotation between two rotations, by the vector part: exact to double precision for small angles too.
 inline double difference(const Quat& a, const Quat& b) { return rotation_angle(glm::conjugate(a) * b); }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCrashes_deg = 171, kHangs_deg = 172;
 
-Case elbow_case(double degrees) { return failing_case(bent_elbow(degrees), "joint_range", kElbow); }
+Case bent_elbow_case(double degrees) { return failing_case(bent_elbow(degrees), "joint_range", kElbow); }
 
 double elbow_of(const Case& stored) {
   return std::get<double>(stored.spec.sequences[0].clips[0].actions[0].params.at("elbow_deg"));
@@ -31,12 +31,12 @@ Replay faulty(const Case& stored) {
 TEST(GuardedReplay, ShowsWhatAReplayHereShows) {
   GuardedReplay guarded(faulty, {});
   Evaluator evaluator;
-  Case refused = elbow_case(170), passes = elbow_case(170), other = elbow_case(170);
+  Case refused = bent_elbow_case(170), passes = bent_elbow_case(170), other = bent_elbow_case(170);
   refused.spec.character.name = "nobody";
   passes.spec = bent_elbow(20);
   other.spec = bent_elbow(165);
   other.expect.trace[0] = other.expect.trace[0] == '0' ? '1' : '0';
-  for (const Case& stored : {elbow_case(170), refused, passes, other}) {
+  for (const Case& stored : {bent_elbow_case(170), refused, passes, other}) {
     const Replay here = replay(stored, stock_library(), evaluator), there = guarded(stored);
     EXPECT_EQ(there.verdict, here.verdict);
     EXPECT_EQ(there.first_difference, here.first_difference);
@@ -45,21 +45,21 @@ TEST(GuardedReplay, ShowsWhatAReplayHereShows) {
     EXPECT_EQ(there.now.motion_hash, here.now.motion_hash);
     EXPECT_TRUE(here.verdict == Verdict::passes || there.now == here.now);
   }
-  EXPECT_EQ(guarded(elbow_case(170)).verdict, Verdict::same);
+  EXPECT_EQ(guarded(bent_elbow_case(170)).verdict, Verdict::same);
   EXPECT_EQ(guarded(refused).verdict, Verdict::refused);
   EXPECT_EQ(guarded(passes).verdict, Verdict::passes);
 }
 
 TEST(GuardedReplay, WhatCrashesOrHangsIsDifferentAndTheNextCaseIsReplayed) {
   GuardedReplay guarded(faulty, {0.5, std::int64_t{4} << 30});
-  const Replay crashed = guarded(elbow_case(kCrashes_deg));
+  const Replay crashed = guarded(bent_elbow_case(kCrashes_deg));
   EXPECT_EQ(crashed.verdict, Verdict::different);
   EXPECT_EQ(crashed.now.check + "|" + crashed.now.subject, "crash|SIGABRT");
-  EXPECT_EQ(guarded(elbow_case(170)).verdict, Verdict::same);
-  const Replay hung = guarded(elbow_case(kHangs_deg));
+  EXPECT_EQ(guarded(bent_elbow_case(170)).verdict, Verdict::same);
+  const Replay hung = guarded(bent_elbow_case(kHangs_deg));
   EXPECT_EQ(hung.verdict, Verdict::different);
   EXPECT_EQ(hung.now.check, "timeout");
-  EXPECT_EQ(guarded(elbow_case(170)).verdict, Verdict::same);
+  EXPECT_EQ(guarded(bent_elbow_case(170)).verdict, Verdict::same);
 }
 
 // The worker may take as long as the stored limit says, whatever its own is.

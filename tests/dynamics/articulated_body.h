@@ -9,7 +9,7 @@
 
 #include "generator/dynamics/dynamics.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 using Six = std::array<double, 6>;
 using SixBySix = std::array<Six, 6>;
@@ -41,7 +41,8 @@ inline double dot(const Six& a, const Six& b) {
 
 inline void put(SixBySix& m, std::size_t row, std::size_t column, const Mat3& block) {
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m[row + static_cast<std::size_t>(i)][column + static_cast<std::size_t>(j)] = block[j][i];
+    for (int j = 0; j < 3; ++j)
+      m[row + static_cast<std::size_t>(i)][column + static_cast<std::size_t>(j)] = block[j][i];
 }
 inline Mat3 cross_of(const Vec3& a) { return {Vec3(0, a.z, -a.y), Vec3(-a.z, 0, a.x), Vec3(a.y, -a.x, 0)}; }
 
@@ -97,8 +98,8 @@ std::array<double, N> solved(std::array<std::array<double, N>, N> m, std::array<
   return b;
 }
 
-// Each freedom of a ball is a link of its own here: three hinges of which two have no inertia are not the same joint, so
-// balls are handled with their three columns at once.
+// Each freedom of a ball is a link of its own here: three hinges of which two have no inertia are not the same joint,
+// so balls are handled with their three columns at once.
 inline std::vector<double> articulated_body_acceleration(const Multibody& body, const DynamicsScratch& scratch,
                                                          std::span<const double> velocity,
                                                          std::span<const double> forces, double gravity_m_s2) {
@@ -113,12 +114,14 @@ inline std::vector<double> articulated_body_acceleration(const Multibody& body, 
   for (std::size_t i = 0; i < count; ++i) {
     inertia[i] = matrix_of(links[i]);
     if (i > 0) {
-      to_link[i] = motion_transform(relative(scratch.world[static_cast<std::size_t>(links[i].parent)], scratch.world[i]));
+      to_link[i] =
+          motion_transform(relative(scratch.world[static_cast<std::size_t>(links[i].parent)], scratch.world[i]));
       v[i] = times(to_link[i], v[static_cast<std::size_t>(links[i].parent)]);
       Six rate{};
       for (int k = 0; k < links[i].dof_count; ++k) {
         Six column{};
-        const Vec3 axis = links[i].kind == JointKind::ball ? Vec3(k == 0, k == 1, k == 2) : links[i].axis * links[i].rest;
+        const Vec3 axis =
+            links[i].kind == JointKind::ball ? Vec3(k == 0, k == 1, k == 2) : links[i].axis * links[i].rest;
         const std::size_t from = links[i].kind == JointKind::prismatic ? 3 : 0;
         for (int j = 0; j < 3; ++j) column[from + static_cast<std::size_t>(j)] = axis[j];
         columns[i].push_back(column);
@@ -195,4 +198,4 @@ inline std::vector<double> articulated_body_acceleration(const Multibody& body, 
   return out;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

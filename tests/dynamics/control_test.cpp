@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -17,17 +18,17 @@
 namespace contort {
 namespace {
 
-using testing::use;
+using fixtures::use;
 
 // Everything that a tick has computed when control begins, in a pose of a squat with random velocities and
 // accelerations.
 class Tick {
  public:
   explicit Tick(std::uint64_t seed, double load_kg = 8.0) {
-    const Character& character = testing::human();
+    const Character& character = fixtures::human();
     Spec spec;
-    spec.sequences = {testing::sequence({use("squat", "waist", 0, 60, {{"share", 0.25}, {"lean_deg", 35.0}})})};
-    const Stage stage = *build_stage(spec, testing::shared_human());
+    spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 60, {{"share", 0.25}, {"lean_deg", 35.0}})})};
+    const Stage stage = *build_stage(spec, fixtures::shared_human());
     std::vector<Load> loads;
     if (load_kg > 0.0)
       loads = {box_load(character.find_joint("torso/lumbar_rot"), {kNoRotation, {0, 0.25, -0.2}}, {0.3, 0.4, 0.15},
@@ -41,7 +42,7 @@ class Tick {
       target.joint_at(link, 28.0, &state.coords[static_cast<std::size_t>(link.coord)], unused);
     std::mt19937_64 random(seed);
     for (std::size_t k = kRootDofs; k < state.velocity.size(); ++k)
-      state.velocity[k] = testing::between(random, -0.3, 0.3);
+      state.velocity[k] = fixtures::between(random, -0.3, 0.3);
     prepare(random);
   }
 
@@ -69,7 +70,7 @@ class Tick {
     find_rows();
     stop_feet(ease, support, state.velocity);
     find_rows();
-    for (std::size_t k = kRootDofs; k < n; ++k) acceleration[k] = testing::between(random, -2.0, 2.0);
+    for (std::size_t k = kRootDofs; k < n; ++k) acceleration[k] = fixtures::between(random, -2.0, 2.0);
     project_on_support(ease, support, acceleration);
     mass_matrix(figure.body, dynamics, mass);
     multiply(mass, acceleration, forces);
@@ -92,8 +93,8 @@ TEST(Ground, SharesOfTheSolesAddUpAndBalanceTheRoot) {
     const SpatialForce net = ground_force(tick.dynamics, tick.forces);
     SpatialForce sum = tick.ground.share(0, net);
     sum += tick.ground.share(1, net);
-    EXPECT_LT(testing::length(sum.force - net.force), 1e-9 * (1 + testing::length(net.force)));
-    EXPECT_LT(testing::length(sum.moment - net.moment), 1e-9 * (1 + testing::length(net.moment)));
+    EXPECT_LT(length(Vec3(sum.force - net.force)), 1e-9 * (1 + length(Vec3(net.force))));
+    EXPECT_LT(length(Vec3(sum.moment - net.moment)), 1e-9 * (1 + length(Vec3(net.moment))));
   }
 }
 
@@ -229,9 +230,9 @@ TEST(Control, KneesAreNotRelieved) {
     for (const Sole& sole : weak.figure.soles)
       for (const int dof : sole.leg_dofs) {
         const Link& link =
-            weak.figure.body.links()[static_cast<std::size_t>(testing::human().find_joint("leg_left/knee"))];
+            weak.figure.body.links()[static_cast<std::size_t>(fixtures::human().find_joint("leg_left/knee"))];
         const Link& other =
-            weak.figure.body.links()[static_cast<std::size_t>(testing::human().find_joint("leg_right/knee"))];
+            weak.figure.body.links()[static_cast<std::size_t>(fixtures::human().find_joint("leg_right/knee"))];
         if (dof != link.dof && dof != other.dof) continue;
         weak.figure.strength_low[static_cast<std::size_t>(dof)] *= 0.05;
         weak.figure.strength_high[static_cast<std::size_t>(dof)] *= 0.05;
@@ -265,7 +266,7 @@ TEST(Impact, SolesStayAndMomentumIsTheBlowsAndTheGrounds) {
   Tick tick(9);
   std::vector<double> factors = tick.mass, change(tick.size(), 0.0);
   factorise(tick.figure.body, factors);
-  const Blow blow{0, testing::human().find_joint("arm_left/shoulder"), {0, -0.1, 0}, {2, 1, -5}};
+  const Blow blow{0, fixtures::human().find_joint("arm_left/shoulder"), {0, -0.1, 0}, {2, 1, -5}};
   add_impulse(tick.figure.body, tick.dynamics, blow, change);
   std::vector<double> stay(static_cast<std::size_t>(tick.support.count));
   soles_moved_by(tick.support, tick.state.velocity, stay);
@@ -280,14 +281,14 @@ TEST(Impact, SolesStayAndMomentumIsTheBlowsAndTheGrounds) {
   Vec3 given = blow.impulse_N_s;
   for (std::size_t f = 0; f < 2; ++f)
     given += Vec3(response.push[6 * f], response.push[6 * f + 1], response.push[6 * f + 2]);
-  EXPECT_LT(testing::length(given - Vec3(momentum[0], momentum[1], momentum[2])), 1e-9);
+  EXPECT_LT(length(given - Vec3(momentum[0], momentum[1], momentum[2])), 1e-9);
 }
 
 TEST(Impact, BracingKeepsTheMomentumAndNoJointIsFasterThanItCanBe) {
   Tick tick(11);
   std::vector<double> factors = tick.mass, change(tick.size(), 0.0), stiff(tick.size(), 0.0), forces(tick.size(), 0.0);
   factorise(tick.figure.body, factors);
-  const Blow blow{0, testing::human().find_joint("arm_left/elbow"), {0, -0.2, 0}, {0, 0, 60}};
+  const Blow blow{0, fixtures::human().find_joint("arm_left/elbow"), {0, -0.2, 0}, {0, 0, 60}};
   add_impulse(tick.figure.body, tick.dynamics, blow, change);
   const std::vector<double> impulse = change;
   solve(tick.figure.body, factors, change);

@@ -27,11 +27,11 @@ Result<Character> declaring(std::vector<ControlGroupDesc> groups) {
 
 TEST(Groups, AreFoundInEveryStockCharacter) {
   using Names = std::vector<std::string>;
-  EXPECT_EQ(names(figure_of(testing::human())), (Names{"arms", "back", "lower_body"}));
-  EXPECT_EQ(names(figure_of(testing::built(testing::mech_choice()))), (Names{"arms", "back", "lower_body"}));
+  EXPECT_EQ(names(figure_of(fixtures::human())), (Names{"arms", "back", "lower_body"}));
+  EXPECT_EQ(names(figure_of(fixtures::built(fixtures::mech_choice()))), (Names{"arms", "back", "lower_body"}));
   CharacterChoice dog;
   dog.name = "quadruped";
-  EXPECT_EQ(names(figure_of(testing::built(dog))), (Names{"limbs", "back", "lower_body"}));
+  EXPECT_EQ(names(figure_of(fixtures::built(dog))), (Names{"limbs", "back", "lower_body"}));
 }
 
 TEST(Groups, ThoseThatACharacterDeclaresReplaceThem) {
@@ -47,7 +47,7 @@ TEST(Groups, ThoseThatACharacterDeclaresReplaceThem) {
   EXPECT_FALSE(figure.groups[0].moves_feet);
   EXPECT_EQ(figure.groups[1].handles.size(), 5U);
   EXPECT_TRUE(figure.groups[1].moves_feet);
-  EXPECT_NE(character->hash(), testing::human().hash());
+  EXPECT_NE(character->hash(), fixtures::human().hash());
 }
 
 TEST(Groups, MoreThanEightFreedomsAreRefused) {

@@ -12,11 +12,11 @@
 namespace contort {
 namespace {
 
-using testing::any_state;
-using testing::any_vec;
-using testing::between;
-using testing::DynamicsState;
-using testing::random_tree;
+using fixtures::any_state;
+using fixtures::any_vec;
+using fixtures::between;
+using fixtures::DynamicsState;
+using fixtures::random_tree;
 
 double largest(std::span<const double> values) {
   double most = 0.0;
@@ -64,8 +64,8 @@ void expect_matrix_and_recursion_agree(Scene& scene) {
 void expect_forward_undoes_inverse(Scene& scene) {
   const std::size_t n = scene.n();
   const std::vector<double> forces = scene.forces(scene.state_.acceleration);
-  const std::vector<double> by_aba =
-      testing::articulated_body_acceleration(scene.body_, scene.scratch_, scene.state_.velocity, forces, kGravity_m_s2);
+  const std::vector<double> by_aba = fixtures::articulated_body_acceleration(
+      scene.body_, scene.scratch_, scene.state_.velocity, forces, kGravity_m_s2);
   std::vector<double> by_factors = forces;
   const std::vector<double> bias = scene.forces(std::vector<double>(n));
   for (std::size_t i = 0; i < n; ++i) by_factors[i] -= bias[i];
@@ -123,11 +123,10 @@ void expect_jacobians(Scene& scene) {
   constexpr double kStep_s = 1e-5;
   std::vector<double> before, now, after;
   const Vec3 p0 = point_at(-kStep_s, before), p1 = point_at(0.0, now), p2 = point_at(kStep_s, after);
-  EXPECT_LT(testing::length((p2 - p0) / (2 * kStep_s) - speed(now)), 1e-7);
+  EXPECT_LT(length((p2 - p0) / (2 * kStep_s) - speed(now)), 1e-7);
   const std::vector<double> unused = scene.forces(std::vector<double>(n), 0.0);
   const Vec3 bias = point_acceleration(scene.scratch_, link, p1);
-  EXPECT_LT(testing::length((speed(after) - speed(before)) / (2 * kStep_s) - bias),
-            1e-5 * (1.0 + testing::length(bias)));
+  EXPECT_LT(length((speed(after) - speed(before)) / (2 * kStep_s) - bias), 1e-5 * (1.0 + length(bias)));
 }
 
 void expect_laws(const Character& character, int states, std::uint64_t seed) {
@@ -142,10 +141,11 @@ void expect_laws(const Character& character, int states, std::uint64_t seed) {
 }
 
 TEST(Dynamics, KeepsItsLawsOnTheStockCharacters) {
-  expect_laws(testing::human(), 100, 1);
-  expect_laws(testing::built(testing::mech_choice({{"arm_left", "mech_arm_extend"}, {"leg_left", "mech_leg_reverse"}})),
-              100, 1000);
-  expect_laws(testing::built({"quadruped", {}, {}}), 100, 2000);
+  expect_laws(fixtures::human(), 100, 1);
+  expect_laws(
+      fixtures::built(fixtures::mech_choice({{"arm_left", "mech_arm_extend"}, {"leg_left", "mech_leg_reverse"}})), 100,
+      1000);
+  expect_laws(fixtures::built({"quadruped", {}, {}}), 100, 2000);
 }
 
 TEST(Dynamics, KeepsItsLawsOnRandomTrees) {
@@ -154,17 +154,17 @@ TEST(Dynamics, KeepsItsLawsOnRandomTrees) {
 
 // Placed bodies are where forward kinematics puts them, mass is all of the mass.
 TEST(Dynamics, SeesTheCharacterThatItIsMadeOf) {
-  const Multibody body = Multibody::of(testing::human());
+  const Multibody body = Multibody::of(fixtures::human());
   EXPECT_EQ(body.dof_count(), 36);
   EXPECT_NEAR(body.mass_kg(), 73.0, 0.003);
   DynamicsScratch scratch;
-  place(body, testing::human().rest_root(), testing::human().rest_coords(), scratch);
+  place(body, fixtures::human().rest_root(), fixtures::human().rest_coords(), scratch);
   std::vector<double> m(36 * 36);
   mass_matrix(body, scratch, m);
   // Measured on another model of the same tables (y and z are z and x there).
   const auto entry = [&](const char* a, const char* b) {
     const auto dof = [&](const char* name) {
-      const int joint = testing::human().find_joint(name);
+      const int joint = fixtures::human().find_joint(name);
       return static_cast<std::size_t>(body.links()[static_cast<std::size_t>(joint)].dof);
     };
     return m[dof(a) * 36 + dof(b)];
@@ -311,15 +311,15 @@ Drift drift_over_a_second(Flight& flight, int steps, Step step) {
   for (int i = 0; i < steps; ++i) step();
   const Conserved after = flight.now();
   return {std::fabs(after.energy_J / before.energy_J - 1.0),
-          testing::length(after.momentum_N_s - before.momentum_N_s) / testing::length(before.momentum_N_s),
-          testing::length(after.angular_momentum - before.angular_momentum) / testing::length(before.angular_momentum)};
+          length(after.momentum_N_s - before.momentum_N_s) / length(before.momentum_N_s),
+          length(after.angular_momentum - before.angular_momentum) / length(before.angular_momentum)};
 }
 
 TEST(Dynamics, FreeFlightKeepsEnergyAndMomentum) {
   const std::pair<const char*, Character> flyers[] = {
-      {"human", testing::human()},
-      {"mech", testing::built(testing::mech_choice({{"arm_left", "mech_arm_extend"}}))},
-      {"quadruped", testing::built({"quadruped", {}, {}})}};
+      {"human", fixtures::human()},
+      {"mech", fixtures::built(fixtures::mech_choice({{"arm_left", "mech_arm_extend"}}))},
+      {"quadruped", fixtures::built({"quadruped", {}, {}})}};
   for (const auto& [name, character] : flyers) {
     Flight exact(character, 0.25);
     const Drift rk4 = drift_over_a_second(exact, 480, [&] { exact.step_rk4(1.0 / 480); });

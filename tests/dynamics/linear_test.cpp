@@ -17,7 +17,7 @@ using Row = std::vector<double>;
 
 Row any_row(std::size_t n, std::mt19937_64& random) {
   Row row(n);
-  for (double& v : row) v = testing::between(random, -1.0, 1.0);
+  for (double& v : row) v = fixtures::between(random, -1.0, 1.0);
   return row;
 }
 

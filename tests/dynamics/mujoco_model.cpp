@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 namespace {
 
@@ -20,7 +20,9 @@ std::string numbers(std::initializer_list<double> values) {
   return text;
 }
 
-std::string at(const char* name, const Vec3& v) { return std::string(" ") + name + "=\"" + numbers({v.x, v.y, v.z}) + "\""; }
+std::string at(const char* name, const Vec3& v) {
+  return std::string(" ") + name + "=\"" + numbers({v.x, v.y, v.z}) + "\"";
+}
 
 const char* type_of(JointKind kind) {
   return kind == JointKind::ball ? "ball" : kind == JointKind::prismatic ? "slide" : "hinge";
@@ -41,8 +43,7 @@ std::string inertial_text(const Joint& joint) {
 }
 
 std::string placed(const Rigid& at_rest) {
-  return at("pos", at_rest.p_m) + " quat=\"" +
-         numbers({at_rest.q.w, at_rest.q.x, at_rest.q.y, at_rest.q.z}) + "\"";
+  return at("pos", at_rest.p_m) + " quat=\"" + numbers({at_rest.q.w, at_rest.q.x, at_rest.q.y, at_rest.q.z}) + "\"";
 }
 
 struct ShapeText {
@@ -183,5 +184,5 @@ std::vector<double> MujocoModel::mass_matrix(const Multibody& body) {
   return rows;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures
 #endif

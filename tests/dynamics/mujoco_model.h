@@ -12,7 +12,7 @@
 
 #include "tests/dynamics/states.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 // Whether MuJoCo's bodies have shapes that touch: those of the colliders, in the pairs of bodies that are judged.
 enum class Shapes { none, colliders };
@@ -48,6 +48,6 @@ class MujocoModel {
 // The model as MJCF text.
 std::string mjcf_of(const Character& character, Shapes shapes = Shapes::none);
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures
 
 #endif

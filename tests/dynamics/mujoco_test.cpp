@@ -11,9 +11,9 @@
 namespace contort {
 namespace {
 
-using testing::any_state;
-using testing::DynamicsState;
-using testing::MujocoModel;
+using fixtures::any_state;
+using fixtures::DynamicsState;
+using fixtures::MujocoModel;
 
 constexpr int kStates = 1000;
 
@@ -122,12 +122,12 @@ void expect_equal(const char* name, const Character& character) {
 }
 
 TEST(Mujoco, AgreesOnMassBiasInverseAndForwardDynamics) {
-  expect_equal("human", testing::human());
-  expect_equal("human, backpack", testing::built({"human", {}, {{"backpack", "torso", "back"}}}));
-  expect_equal("mech", testing::built(testing::mech_choice()));
+  expect_equal("human", fixtures::human());
+  expect_equal("human, backpack", fixtures::built({"human", {}, {{"backpack", "torso", "back"}}}));
+  expect_equal("mech", fixtures::built(fixtures::mech_choice()));
   // Travels, and four balls one after another.
-  expect_equal("mech, extending", testing::built(testing::mech_choice({{"arm_left", "mech_arm_extend"}})));
-  expect_equal("quadruped", testing::built({"quadruped", {}, {}}));
+  expect_equal("mech, extending", fixtures::built(fixtures::mech_choice({{"arm_left", "mech_arm_extend"}})));
+  expect_equal("quadruped", fixtures::built({"quadruped", {}, {}}));
 }
 
 }  // namespace

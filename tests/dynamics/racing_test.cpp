@@ -46,8 +46,8 @@ TEST(Racing, BoundsSpeedsKeepsDirectionsAndLeavesAllElseAsItIs) {
     const Stage stage = standing(name);
     const DynamicFigure& figure = stage.dynamics->figure;
     for (int i = 0; i < 200; ++i) {
-      std::vector<double> before = testing::any_state(figure.body, random).velocity;
-      const double scale = std::pow(10.0, testing::between(random, -1.0, 2.0));
+      std::vector<double> before = fixtures::any_state(figure.body, random).velocity;
+      const double scale = std::pow(10.0, fixtures::between(random, -1.0, 2.0));
       for (double& rate : before) rate *= scale;
       std::vector<double> after = before;
       stop_racing(figure.body, figure.fastest, after);

@@ -8,7 +8,7 @@
 #include "tests/character/stock.h"
 #include "tests/dynamics/states.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 inline JointDesc random_joint(int index, std::mt19937_64& random) {
   JointDesc joint;
@@ -46,7 +46,7 @@ inline Character random_tree(std::uint64_t seed) {
   desc.slots = {{"base", "base", Side::center, "", "", {"base"}},
                 {"limb", "limb", Side::right, "base", "dock", {"limb"}}};
   library.characters["tree"] = desc;
-  return testing::built({"tree", {}, {}}, library);
+  return fixtures::built({"tree", {}, {}}, library);
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

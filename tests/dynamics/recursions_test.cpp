@@ -31,7 +31,7 @@ void expect_same_bits_by_all_sets(const Character& character, std::uint64_t seed
   const Multibody body = Multibody::of(character);
   const auto n = static_cast<std::size_t>(body.dof_count());
   std::mt19937_64 random(seed);
-  const testing::DynamicsState state = testing::any_state(body, random);
+  const fixtures::DynamicsState state = fixtures::any_state(body, random);
   DynamicsScratch scratch;
   std::vector<double> forces(n), matrix(n * n), product(n);
   place(body, state.root, state.coords, scratch);
@@ -56,9 +56,9 @@ void expect_same_bits_by_all_sets(const Character& character, std::uint64_t seed
 
 TEST(Recursions, OfAllSetsAreTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    expect_same_bits_by_all_sets(testing::human(), seed);
-    expect_same_bits_by_all_sets(testing::built({"quadruped", {}, {}}), seed);
-    expect_same_bits_by_all_sets(testing::random_tree(seed), seed);
+    expect_same_bits_by_all_sets(fixtures::human(), seed);
+    expect_same_bits_by_all_sets(fixtures::built({"quadruped", {}, {}}), seed);
+    expect_same_bits_by_all_sets(fixtures::random_tree(seed), seed);
     if (::testing::Test::HasFailure()) return;
   }
 }

@@ -13,8 +13,8 @@
 namespace contort {
 namespace {
 
-using testing::sequence;
-using testing::use;
+using fixtures::sequence;
+using fixtures::use;
 
 Spec standing(const std::string& name, Mode mode, int frames) {
   Spec spec;
@@ -45,19 +45,19 @@ bool has(const Motion& motion, Footing footing) {
 
 ImpactDesc any_blow(const Character& character, double most_N_s, std::mt19937_64& random) {
   ImpactDesc blow;
-  blow.frame = static_cast<int>(testing::between(random, 0, 20));
+  blow.frame = static_cast<int>(fixtures::between(random, 0, 20));
   const auto parts = character.parts();
   blow.slot =
-      parts[static_cast<std::size_t>(testing::between(random, 0, static_cast<double>(parts.size()) - 1e-9))].slot;
-  do blow.impulse_N_s = testing::any_vec(random, most_N_s);
-  while (testing::length(blow.impulse_N_s) > most_N_s);
+      parts[static_cast<std::size_t>(fixtures::between(random, 0, static_cast<double>(parts.size()) - 1e-9))].slot;
+  do blow.impulse_N_s = fixtures::any_vec(random, most_N_s);
+  while (length(blow.impulse_N_s) > most_N_s);
   return blow;
 }
 
 // How many of these end lying; every one must stay finite and within reach of where it was.
 int fallen_of(const std::string& name, int count, double most_N_s) {
   Spec spec = standing(name, Mode::dynamic, 60);
-  const auto character = std::make_shared<const Character>(testing::built(spec.character));
+  const auto character = std::make_shared<const Character>(fixtures::built(spec.character));
   std::mt19937_64 random(1);
   GenerateScratch scratch;
   Motion motion;
@@ -67,7 +67,7 @@ int fallen_of(const std::string& name, int count, double most_N_s) {
     generate(*build_stage(spec, character), scratch, motion);
     EXPECT_TRUE(is_finite(motion)) << name << " " << i;
     for (const Rigid& root : motion.root) {
-      EXPECT_LT(testing::length(root.p_m), 40.0) << name << " " << i;
+      EXPECT_LT(length(root.p_m), 40.0) << name << " " << i;
       EXPECT_GT(root.p_m.y, -0.2) << name << " " << i;
     }
     fallen += has(motion, Footing::fallen);
@@ -91,7 +91,7 @@ TEST(Simulate, AFigureThatStandsStaysWhereItIs) {
   for (const char* name : {"human", "mech", "quadruped"})
     for (const Mode mode : {Mode::tracking, Mode::dynamic}) {
       const Motion motion = played(standing(name, mode, 300));
-      for (const Rigid& root : motion.root) EXPECT_LT(testing::length(root.p_m - motion.root[0].p_m), 1e-4) << name;
+      for (const Rigid& root : motion.root) EXPECT_LT(length(root.p_m - motion.root[0].p_m), 1e-4) << name;
       for (const Stance& stance : motion.response.stances) EXPECT_GT(stance.margin_m, 0.0) << name;
       EXPECT_FALSE(has(motion, Footing::tipping) || has(motion, Footing::fallen));
     }
@@ -132,7 +132,7 @@ TEST(Simulate, TwoMinutesOfSquatsStayBounded) {
     ASSERT_EQ(motion.frame_count, 3601);
     for (int f = 0; f < motion.frame_count; ++f) {
       const auto at = static_cast<std::size_t>(f);
-      EXPECT_LT(testing::length(motion.root[at].p_m - motion.response.target_root[at].p_m), 0.03) << f;
+      EXPECT_LT(length(motion.root[at].p_m - motion.response.target_root[at].p_m), 0.03) << f;
     }
     EXPECT_TRUE(is_finite(motion));
     EXPECT_FALSE(has(motion, Footing::tipping));
@@ -233,7 +233,7 @@ TEST(Simulate, NamesThatAreNotThereAreErrorsWithPointers) {
 
 // A load is part of its link: forces with it are those without plus what it takes to move it along.
 TEST(Simulate, AMergedLoadWeighsWhatItTakesToMoveIt) {
-  const Character& character = testing::human();
+  const Character& character = fixtures::human();
   const Load load = box_load(character.find_joint("torso/lumbar_rot"), {axis_angle(Vec3(0, 1, 0), 0.4), {0, 0.2, -0.2}},
                              {0.3, 0.4, 0.15}, 8.0);
   Multibody with = Multibody::of(character);
@@ -242,7 +242,7 @@ TEST(Simulate, AMergedLoadWeighsWhatItTakesToMoveIt) {
   EXPECT_NEAR(with.mass_kg(), without.mass_kg() + 8.0, 1e-12);
   std::mt19937_64 random(3);
   for (int i = 0; i < 50; ++i) {
-    const testing::DynamicsState state = testing::any_state(with, random);
+    const fixtures::DynamicsState state = fixtures::any_state(with, random);
     DynamicsScratch scratch;
     std::vector<double> loaded(state.velocity.size()), plain(state.velocity.size());
     place(with, state.root, state.coords, scratch);

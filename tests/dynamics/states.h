@@ -6,7 +6,7 @@
 
 #include "generator/dynamics/dynamics.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 struct DynamicsState {
   Rigid root;
@@ -45,4 +45,4 @@ inline DynamicsState any_state(const Multibody& body, std::mt19937_64& random) {
   return state;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -16,15 +16,15 @@
 namespace contort {
 namespace {
 
-using testing::use;
+using fixtures::use;
 
 TEST(Support, ASymmetricSystemIsSolved) {
   std::mt19937_64 random(5);
   for (const int n : {1, 2, 6, 12, 24}) {
     const auto size = static_cast<std::size_t>(n);
     std::vector<double> root(size * size), matrix(size * size), x(size), b(size);
-    for (double& v : root) v = testing::between(random, -1, 1);
-    for (double& v : x) v = testing::between(random, -1, 1);
+    for (double& v : root) v = fixtures::between(random, -1, 1);
+    for (double& v : x) v = fixtures::between(random, -1, 1);
     for (std::size_t i = 0; i < size; ++i)
       for (std::size_t j = 0; j < size; ++j) {
         for (std::size_t k = 0; k < size; ++k) matrix[i * size + j] += root[i * size + k] * root[j * size + k];
@@ -54,12 +54,13 @@ std::vector<StandingFoot> feet_of(const Character& character, std::span<const Ri
 }
 
 TEST(Support, ProjectedAccelerationsKeepTheFeet) {
-  const std::pair<Character, double> standing[] = {{testing::human(), 1e-9}, {testing::built({"quadruped", {}, {}}), 1e-9}};
+  const std::pair<Character, double> standing[] = {{fixtures::human(), 1e-9},
+                                                   {fixtures::built({"quadruped", {}, {}}), 1e-9}};
   for (const auto& [character, gate] : standing) {
     const Multibody body = Multibody::of(character);
     std::mt19937_64 random(11);
     for (int i = 0; i < 50; ++i) {
-      const testing::DynamicsState state = testing::any_state(body, random);
+      const fixtures::DynamicsState state = fixtures::any_state(body, random);
       DynamicsScratch scratch;
       place(body, state.root, state.coords, scratch);
       std::vector<Rigid> world(character.joints().size());
@@ -90,7 +91,7 @@ Stage squat() {
   Spec spec;
   spec.rate_hz = 30.0;
   spec.hold_frames = 30;
-  spec.sequences = {testing::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}})})};
+  spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}})})};
   const Result<Stage> stage = build_stage(spec, stock_library());
   EXPECT_TRUE(stage.ok());
   return *stage;
@@ -147,13 +148,14 @@ class Squat {
     place_all();
     for (const StandingFoot& foot : feet_) {
       const Rigid now = world_[static_cast<std::size_t>(foot.link)] * foot.link_from_sole;
-      out.drift_m = std::max(out.drift_m, testing::length(now.p_m - foot.world_from_sole.p_m));
+      out.drift_m = std::max(out.drift_m, length(now.p_m - foot.world_from_sole.p_m));
     }
     for (const Link& link : body_.links().subspan(1)) {
       double goal[4], rates[3];
       target_.joint_at(link, frame, goal, rates);
       if (link.kind != JointKind::ball)
-        out.worst_rad = std::max(out.worst_rad, std::fabs(goal[0] - state_.coords[static_cast<std::size_t>(link.coord)]));
+        out.worst_rad =
+            std::max(out.worst_rad, std::fabs(goal[0] - state_.coords[static_cast<std::size_t>(link.coord)]));
     }
   }
 
@@ -172,7 +174,8 @@ class Squat {
 TEST(Support, ATrackedSquatStaysOnItsFeetAndNearItsTarget) {
   for (const int ticks : {1, 2, 4}) {
     const Tracked tracked = Squat(ticks).tracked();
-    std::printf("%d ticks a frame: %.2f deg from the target, soles drift %.2f mm\n", ticks, tracked.worst_rad / kRadPerDeg, 1e3 * tracked.drift_m);
+    std::printf("%d ticks a frame: %.2f deg from the target, soles drift %.2f mm\n", ticks,
+                tracked.worst_rad / kRadPerDeg, 1e3 * tracked.drift_m);
     EXPECT_LT(tracked.worst_rad, (ticks == 1 ? 7.0 : 4.0) * kRadPerDeg);
     EXPECT_LT(tracked.drift_m, 6e-3);
   }

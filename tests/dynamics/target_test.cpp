@@ -27,7 +27,8 @@ Sample sampled(const Multibody& body, const TargetMotion& target, double frame) 
   out.velocity.resize(static_cast<std::size_t>(body.dof_count()));
   target.root_at(frame, out.root, out.velocity.data());
   for (const Link& link : body.links().subspan(1))
-    target.joint_at(link, frame, &out.coords[static_cast<std::size_t>(link.coord)], &out.velocity[static_cast<std::size_t>(link.dof)]);
+    target.joint_at(link, frame, &out.coords[static_cast<std::size_t>(link.coord)],
+                    &out.velocity[static_cast<std::size_t>(link.dof)]);
   return out;
 }
 
@@ -59,14 +60,15 @@ TEST(Target, PassesThroughItsFramesAndItsRatesAreItsDerivatives) {
     for (int f = 1; f < motion.frame_count - 1; f += 7) {
       const Sample there = sampled(body, target, f);
       for (std::size_t c = 0; c < there.coords.size(); ++c) EXPECT_NEAR(there.coords[c], motion.row(f)[c], 1e-12);
-      EXPECT_LT(testing::length(there.root.p_m - motion.root[static_cast<std::size_t>(f)].p_m), 1e-12);
+      EXPECT_LT(length(there.root.p_m - motion.root[static_cast<std::size_t>(f)].p_m), 1e-12);
       for (const double share : {0.0, 0.3, 0.9}) {
         constexpr double kStep = 1e-4;  // frames
         const Sample now = sampled(body, target, f + share);
         const auto slope = differences(body, sampled(body, target, f + share - kStep),
                                        sampled(body, target, f + share + kStep), 2 * kStep / motion.rate_hz);
         for (std::size_t i = 0; i < slope.size(); ++i)
-          ASSERT_NEAR(now.velocity[i], slope[i], 2e-3 * (1.0 + std::fabs(slope[i]))) << name << " " << f + share << " " << i;
+          ASSERT_NEAR(now.velocity[i], slope[i], 2e-3 * (1.0 + std::fabs(slope[i])))
+              << name << " " << f + share << " " << i;
       }
     }
   }
@@ -90,7 +92,8 @@ TEST(Target, LegsOfOneChainShareTheirKnots) {
   const Motion motion = generate(*stage);
   const Multibody body = Multibody::of(*stage->character);
   TargetMotion target(body, motion);
-  const int left = stage->character->find_joint("leg_left/knee"), right = stage->character->find_joint("leg_right/knee");
+  const int left = stage->character->find_joint("leg_left/knee"),
+            right = stage->character->find_joint("leg_right/knee");
   EXPECT_NE(target.knots(left), target.knots(right));
   const std::vector<int> both = merged_knots(target.knots(left), target.knots(right));
   target.share_knots({left, right});
@@ -100,13 +103,15 @@ TEST(Target, LegsOfOneChainShareTheirKnots) {
 }
 
 TEST(RotationRates, UndoEachOtherAndAreDerivatives) {
-  for (const Vec3& rotation : {Vec3(0.0), Vec3(1e-5, 0.0, 2e-5), Vec3(9e-4, 1e-4, 0.0), Vec3(1.2e-3, 0.0, 0.0), Vec3(0.3, -1.0, 2.0), Vec3(0, 3.1, 0)}) {
+  for (const Vec3& rotation : {Vec3(0.0), Vec3(1e-5, 0.0, 2e-5), Vec3(9e-4, 1e-4, 0.0), Vec3(1.2e-3, 0.0, 0.0),
+                               Vec3(0.3, -1.0, 2.0), Vec3(0, 3.1, 0)}) {
     const Vec3 rate(0.7, -0.2, 0.4);
     const Vec3 angular = angular_velocity_of(rotation, rate);
-    EXPECT_LT(testing::length(rotation_vector_rate(rotation, angular) - rate), 1e-9);
+    EXPECT_LT(length(rotation_vector_rate(rotation, angular) - rate), 1e-9);
     constexpr double kStep = 1e-6;
-    const Quat before = from_rotation_vector(rotation - kStep * rate), after = from_rotation_vector(rotation + kStep * rate);
-    EXPECT_LT(testing::length(to_rotation_vector(glm::conjugate(before) * after) / (2 * kStep) - angular), 1e-8);
+    const Quat before = from_rotation_vector(rotation - kStep * rate),
+               after = from_rotation_vector(rotation + kStep * rate);
+    EXPECT_LT(length(to_rotation_vector(glm::conjugate(before) * after) / (2 * kStep) - angular), 1e-8);
   }
 }
 

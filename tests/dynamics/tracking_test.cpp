@@ -91,7 +91,8 @@ TEST(Tracking, StaysNearACosine) {
       worst = std::max(worst, std::fabs(q - 0.75 * (1.0 - det::cos(kPi * frame / 30.0))));
       const double ahead_s = horizon_s(knots, frame, 30.0, tick_s);
       const double then_s = frame / 30.0 + ahead_s;
-      v += tick_s * cubic_acceleration(q, v, 0.75 * (1.0 - det::cos(kPi * then_s)), 0.75 * kPi * det::sin(kPi * then_s), ahead_s);
+      v += tick_s * cubic_acceleration(q, v, 0.75 * (1.0 - det::cos(kPi * then_s)), 0.75 * kPi * det::sin(kPi * then_s),
+                                       ahead_s);
       q += tick_s * v;
     }
     std::printf("%d ticks a frame: %.2f deg off a cosine of 86 deg at worst\n", ticks, worst / kRadPerDeg);
@@ -115,8 +116,9 @@ RC_GTEST_PROP(Tracking, ABallAboutOneAxisIsAHinge, ()) {
   const Vec3 axis = unit_or(Vec3(drawn(-1, 1), drawn(-1, 1), drawn(-1, 1)), Vec3(0, 1, 0));
   const double from = drawn(-1, 1), to = drawn(-1, 1), v0 = drawn(-3, 3), v1 = drawn(-3, 3);
   const Quat base = axis_angle(Vec3(0.6, 0.0, 0.8), 0.7);
-  const Vec3 ball = cubic_acceleration(base * axis_angle(axis, from), v0 * axis, base * axis_angle(axis, to), v1 * axis, 0.4);
-  RC_ASSERT(testing::length(ball - cubic_acceleration(from, v0, to, v1, 0.4) * axis) < 1e-9);
+  const Vec3 ball =
+      cubic_acceleration(base * axis_angle(axis, from), v0 * axis, base * axis_angle(axis, to), v1 * axis, 0.4);
+  RC_ASSERT(length(ball - cubic_acceleration(from, v0, to, v1, 0.4) * axis) < 1e-9);
 }
 
 // A body on the cubic in its rotation vector stays on it: its acceleration by finite differences.
@@ -130,7 +132,7 @@ RC_GTEST_PROP(Tracking, ABallFollowsACubicOfItsRotationVector, ()) {
     return to_rotation_vector(glm::conjugate(turn(t - kStep)) * turn(t + kStep)) / (2 * kStep);
   };
   const Vec3 now = cubic_acceleration(turn(0.0), b, turn(end_s), rate(end_s), end_s);
-  RC_ASSERT(testing::length(now - 2.0 * c) < 1e-6);
+  RC_ASSERT(length(now - 2.0 * c) < 1e-6);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace contort {
 namespace {
 
-using testing::sequence;
-using testing::use;
+using fixtures::sequence;
+using fixtures::use;
 
 std::vector<std::string> labels_of_scene(std::vector<SequenceDesc> sequences) {
   Spec spec;
@@ -24,7 +24,7 @@ std::int64_t times(const std::vector<std::string>& labels, const std::string& la
   return std::ranges::count(labels, label);
 }
 
-ActionUse elbow(int start_frame, int duration_frames) { return testing::elbow(start_frame, duration_frames, 40.0); }
+ActionUse elbow(int start_frame, int duration_frames) { return fixtures::elbow(start_frame, duration_frames, 40.0); }
 
 TEST(Labels, AnActionCountsOnceForEachUseAndOnceForEachPhaseOfIt) {
   ActionUse look = use("look_at", "head", 0, 40, {{"target_m", Vec3(1, 1.5, 2)}});
@@ -47,7 +47,7 @@ TEST(Labels, ActionsThatOnlyTouchAreNoPair) {
 }
 
 TEST(Labels, WhatIsCountedIsAmongWhatIsPossible) {
-  const std::set<std::string> of_human = possible_labels(*testing::shared_human());
+  const std::set<std::string> of_human = possible_labels(*fixtures::shared_human());
   EXPECT_TRUE(of_human.contains("action pose (overwrite) on arm_left"));
   EXPECT_TRUE(of_human.contains("pair look_at + look_at on head"));
   EXPECT_FALSE(of_human.contains("action walk (ik) on head"));

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Spec drawn() {
+Spec drawn_at_random() {
   return draw_spec({{"human", "mech"}}, stock_library(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
 }
 
@@ -26,7 +26,7 @@ std::vector<SpecPlace> places(const Spec& spec) {
 }
 
 RC_GTEST_PROP(Places, PointersLeadToTheirValuesInTheFile, ()) {
-  const Spec spec = drawn();
+  const Spec spec = drawn_at_random();
   const Json file = Json::parse(print_spec(spec));
   for (const SpecPlace& place : places(spec)) {
     const Json& value = file.at(Json::json_pointer(place.pointer));
@@ -35,7 +35,7 @@ RC_GTEST_PROP(Places, PointersLeadToTheirValuesInTheFile, ()) {
 }
 
 RC_GTEST_PROP(Places, EveryNumberIsSetAlone, ()) {
-  const Spec spec = drawn();
+  const Spec spec = drawn_at_random();
   const std::vector<SpecPlace> all = places(spec);
   for (const SpecPlace& place : all) {
     if (!place.is_number || place.low == place.high) continue;
@@ -52,7 +52,7 @@ RC_GTEST_PROP(Places, EveryNumberIsSetAlone, ()) {
 }
 
 RC_GTEST_PROP(Places, AfterAResetOfAllThereIsNoneLeft, ()) {
-  Spec spec = drawn();
+  Spec spec = drawn_at_random();
   spec.rate_hz = 30;
   spec.recording.from_s = 2.0;
   spec.start.position_m = Vec3(1.0, 0.0, 2.0);
@@ -67,7 +67,7 @@ RC_GTEST_PROP(Places, AfterAResetOfAllThereIsNoneLeft, ()) {
 }
 
 RC_GTEST_PROP(Places, ResettingOneByOneIsResettingAtOnce, ()) {
-  const Spec spec = drawn();
+  const Spec spec = drawn_at_random();
   Spec at_once = spec, one_by_one = spec;
   const std::vector<SpecPlace> all = places(spec);
   reset_places(at_once, all);

@@ -158,7 +158,7 @@ class PlantedMotion final : public Trial {
   std::vector<Case> others_;
 };
 
-Case elbow_case() {
+Case preceded_elbow_case() {
   Case original;
   original.spec = spec_of({pose_use("arm_left", {{"elbow_deg", 90.0}}), pose_use("head", {})});
   original.expect = {"check", "elbow", "", 20, 20, 20, -1.0, 1.0, "0", "0", ""};
@@ -168,7 +168,7 @@ Case elbow_case() {
 
 TEST(ShrinkOnward, TellsThePrecursorAsTheOriginalShowsIt) {
   PlantedMotion trial({shown("wrist", 19, 20, 2.0)});
-  const Case original = elbow_case();
+  const Case original = preceded_elbow_case();
   ShrinkConfig config;
   config.onward = Onward{};
   const Shrunk result = shrink_with(trial, original, stock_library(), config);
@@ -183,19 +183,19 @@ TEST(ShrinkOnward, LooksCloserOnlyAtWhatHasNoPrecursor) {
   PlantedMotion crowded({shown("wrist", 19, 20, 2.0)}), alone({});
   ShrinkConfig alone_config, onward;
   onward.onward = Onward{};
-  const int looked = shrink_with(crowded, elbow_case(), stock_library(), alone_config).evaluations;
-  EXPECT_LT(shrink_with(crowded, elbow_case(), stock_library(), onward).evaluations, looked);
-  EXPECT_EQ(shrink_with(alone, elbow_case(), stock_library(), onward).evaluations, looked);
+  const int looked = shrink_with(crowded, preceded_elbow_case(), stock_library(), alone_config).evaluations;
+  EXPECT_LT(shrink_with(crowded, preceded_elbow_case(), stock_library(), onward).evaluations, looked);
+  EXPECT_EQ(shrink_with(alone, preceded_elbow_case(), stock_library(), onward).evaluations, looked);
 }
 
 TEST(ShrinkOnward, BeginsWithTheSpecThatTheOtherCameTo) {
   PlantedMotion trial({});
   ShrinkConfig config;
-  const Shrunk slow = shrink_with(trial, elbow_case(), stock_library(), config);
+  const Shrunk slow = shrink_with(trial, preceded_elbow_case(), stock_library(), config);
   config.onward = Onward{slow.minimal.spec, {}};
-  const Shrunk quick = shrink_with(trial, elbow_case(), stock_library(), config);
+  const Shrunk quick = shrink_with(trial, preceded_elbow_case(), stock_library(), config);
   EXPECT_EQ(quick.minimal.spec, slow.minimal.spec);
-  EXPECT_EQ(quick.minimal.provenance.shrunk_from, spec_id(elbow_case().spec));
+  EXPECT_EQ(quick.minimal.provenance.shrunk_from, spec_id(preceded_elbow_case().spec));
   EXPECT_LT(quick.evaluations, slow.evaluations);
 }
 

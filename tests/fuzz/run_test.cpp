@@ -232,8 +232,11 @@ RunResult run_disturbed(const RunConfig& config, const Corpus& corpus, int every
       });
 }
 
+// A suite, and so a process, of its own: this test kills children of its process.
+using DisturbedRuns = Runs;
+
 // From outside, for want of memory perhaps: it does not happen again, so it is no failure of the case.
-TEST_F(Runs, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
+TEST_F(DisturbedRuns, JudgeACaseWhoseWorkerWasKilledByItsSecondRun) {
   const Corpus quiet = create(folder_ / "quiet"), disturbed = create(folder_ / "disturbed");
   run(config_of(1000, 2), quiet);
   const RunResult result = run_disturbed(config_of(1000, 2), disturbed, 200);

@@ -46,7 +46,7 @@ Shrunk shrunk(const Spec& spec, std::function<double(const Spec&)> depth, double
   return shrink_with(trial, original, stock_library(), config);
 }
 
-int actions_of(const Spec& spec) {
+int staged_actions(const Spec& spec) {
   int count = 0;
   for (const SequenceDesc& sequence : spec.sequences)
     for (const ClipDesc& clip : sequence.clips) count += static_cast<int>(clip.actions.size());
@@ -61,9 +61,9 @@ double number(const Spec& spec, std::size_t action, const char* name) {
 TEST(ShrinkStages, TwoFieldsThatOnlyGoTogetherGo) {
   Spec spec = spec_of({pose_use("arm_left", {{"elbow_deg", 20.0}}), pose_use("arm_right", {{"elbow_deg", 20.0}})});
   const auto differ = [](const Spec& x) {
-    return actions_of(x) == 2 && number(x, 0, "elbow_deg") != number(x, 1, "elbow_deg");
+    return staged_actions(x) == 2 && number(x, 0, "elbow_deg") != number(x, 1, "elbow_deg");
   };
-  const Shrunk result = shrunk(spec, [&](const Spec& x) { return actions_of(x) == 2 && !differ(x) ? 1.0 : 0.0; });
+  const Shrunk result = shrunk(spec, [&](const Spec& x) { return staged_actions(x) == 2 && !differ(x) ? 1.0 : 0.0; });
   for (const ActionUse& use : result.minimal.spec.sequences[0].clips[0].actions) EXPECT_TRUE(use.params.empty());
 }
 
@@ -71,18 +71,18 @@ TEST(ShrinkStages, TwoActionsThatOnlyGoTogetherGo) {
   std::vector<ActionUse> uses;
   for (const char* slot : {"arm_left", "arm_right", "leg_left", "leg_right", "head"})
     uses.push_back(pose_use(slot, {}));
-  const Shrunk result = shrunk(spec_of(uses), [](const Spec& x) { return actions_of(x) % 2 == 1 ? 1.0 : 0.0; });
-  EXPECT_EQ(actions_of(result.minimal.spec), 1);
+  const Shrunk result = shrunk(spec_of(uses), [](const Spec& x) { return staged_actions(x) % 2 == 1 ? 1.0 : 0.0; });
+  EXPECT_EQ(staged_actions(result.minimal.spec), 1);
 }
 
 TEST(ShrinkStages, ClipsAndSequencesBecomeOne) {
   Spec spec = spec_of({pose_use("arm_left", {})});
   spec.sequences[0].clips.push_back({"", 12, 0, 1.0, {pose_use("arm_right", {})}});
   spec.sequences.push_back(spec.sequences[0]);
-  const Shrunk result = shrunk(spec, [](const Spec& x) { return actions_of(x) == 4 ? 1.0 : 0.0; });
+  const Shrunk result = shrunk(spec, [](const Spec& x) { return staged_actions(x) == 4 ? 1.0 : 0.0; });
   ASSERT_EQ(result.minimal.spec.sequences.size(), 1U);
   EXPECT_EQ(result.minimal.spec.sequences[0].clips.size(), 1U);
-  EXPECT_EQ(actions_of(result.minimal.spec), 4);
+  EXPECT_EQ(staged_actions(result.minimal.spec), 4);
 }
 
 // It does not matter whether a motion cuts in or is the next in the queue; where something must be cut, it does.
@@ -117,7 +117,7 @@ TEST(ShrinkStages, AClipThatIsThereForItsTimeNeedsNothingInIt) {
     return has_one && x.sequences[0].clips[0].start_frame > 1 ? 1.0 : 0.0;
   };
   const Spec least = shrunk(spec, waits).minimal.spec;
-  EXPECT_EQ(actions_of(least), 0);
+  EXPECT_EQ(staged_actions(least), 0);
   EXPECT_EQ(least.sequences[0].clips[0].start_frame, 2);
 }
 
@@ -130,7 +130,7 @@ TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
   spec.dynamics.impacts = {{3, "head", "", {}, {0, 20, 0}}, {9, "torso", "", {}, {3, 0, 0}}};
   spec.start.heading_deg = 90;
   spec.hold_frames = 5;
-  const Shrunk all = shrunk(spec, [](const Spec& x) { return actions_of(x) == 1 ? 1.0 : 0.0; });
+  const Shrunk all = shrunk(spec, [](const Spec& x) { return staged_actions(x) == 1 ? 1.0 : 0.0; });
   EXPECT_EQ(print_spec(all.minimal.spec), print_spec(spec_of({pose_use("arm_left", {})})));
   const auto needs = [](const Spec& x) {
     const bool struck = x.dynamics.impacts.size() == 1 && x.dynamics.impacts[0].impulse_N_s.y >= 7.0;
@@ -150,7 +150,8 @@ TEST(ShrinkStages, EverythingAroundGoesBackToStock) {
 TEST(ShrinkStages, NumbersEndAtTheSmallestOfTwoDigits) {
   const auto least = [](double from, double needed) {
     const auto rule = [=](const Spec& x) {
-      return actions_of(x) == 1 && number(x, 0, "elbow_deg") * (needed < 0 ? -1 : 1) >= std::abs(needed) ? 1.0 : 0.0;
+      return staged_actions(x) == 1 && number(x, 0, "elbow_deg") * (needed < 0 ? -1 : 1) >= std::abs(needed) ? 1.0
+                                                                                                             : 0.0;
     };
     return number(shrunk(bent_elbow(from), rule).minimal.spec, 0, "elbow_deg");
   };
@@ -166,7 +167,7 @@ TEST(ShrinkStages, NumbersEndAtTheSmallestOfTwoDigits) {
 TEST(ShrinkStages, AFieldThatMayHaveAnyValueIsFree) {
   const Spec spec = spec_of({pose_use("leg_left", {{"knee_deg", 90.0}, {"hip_flex_deg", 30.0}}, 60)});
   const auto rule = [](const Spec& x) {
-    if (actions_of(x) != 1 || number(x, 0, "knee_deg") < 60.0) return 0.0;
+    if (staged_actions(x) != 1 || number(x, 0, "knee_deg") < 60.0) return 0.0;
     return number(x, 0, "hip_flex_deg") == 0.0 ? 0.2 : 1.0;
   };
   const Shrunk result = shrunk(spec, rule, 0.5);
@@ -179,7 +180,7 @@ TEST(ShrinkStages, AFieldWhoseDefaultOrQuarterPassesIsNotFree) {
   const Spec spec = spec_of({pose_use("leg_left", {{"hip_flex_deg", 30.0}}, 60)});
   const auto free_fields = [&](const std::function<bool(double)>& fails) {
     const auto rule = [&](const Spec& x) {
-      if (actions_of(x) != 1) return 0.0;
+      if (staged_actions(x) != 1) return 0.0;
       const double hip = number(x, 0, "hip_flex_deg");
       return !fails(hip) ? 0.0 : hip == 0.0 ? 0.2 : 1.0;
     };
@@ -192,23 +193,25 @@ TEST(ShrinkStages, AFieldWhoseDefaultOrQuarterPassesIsNotFree) {
 
 TEST(ShrinkStages, TheWorstIsDeeperWithTheStructureOfTheMinimal) {
   const auto rule = [](const Spec& x) {
-    return actions_of(x) == 1 ? std::max(0.0, 100.0 - std::abs(number(x, 0, "elbow_deg") - 300.0)) : 0.0;
+    return staged_actions(x) == 1 ? std::max(0.0, 100.0 - std::abs(number(x, 0, "elbow_deg") - 300.0)) : 0.0;
   };
   const Shrunk result = shrunk(bent_elbow(240), rule, 0.5);
   EXPECT_EQ(number(result.minimal.spec, 0, "elbow_deg"), 220);
   EXPECT_GT(result.worst.expect.depth, 90.0);
   EXPECT_NEAR(number(result.worst.spec, 0, "elbow_deg"), 300, 10);
-  EXPECT_EQ(actions_of(result.worst.spec), 1);
+  EXPECT_EQ(staged_actions(result.worst.spec), 1);
 }
 
 // A margin that is no number is another fault, however deep: its minimal spec would explain nothing.
 TEST(ShrinkStages, AFailureWithANumberKeepsOne) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Spec two = spec_of({pose_use("arm_left", {}), pose_use("arm_right", {})});
-  EXPECT_EQ(actions_of(shrunk(two, [](const Spec& x) { return actions_of(x) == 2 ? 1.0 : kNone; }).minimal.spec), 2);
-  EXPECT_EQ(actions_of(shrunk(two, [](const Spec& x) { return actions_of(x) > 0 ? kNone : 1.0; }).minimal.spec), 1);
+  EXPECT_EQ(
+      staged_actions(shrunk(two, [](const Spec& x) { return staged_actions(x) == 2 ? 1.0 : kNone; }).minimal.spec), 2);
+  EXPECT_EQ(staged_actions(shrunk(two, [](const Spec& x) { return staged_actions(x) > 0 ? kNone : 1.0; }).minimal.spec),
+            1);
   const auto over_200 = [](const Spec& x) {
-    const double elbow_deg = actions_of(x) == 1 ? number(x, 0, "elbow_deg") : 0.0;
+    const double elbow_deg = staged_actions(x) == 1 ? number(x, 0, "elbow_deg") : 0.0;
     return elbow_deg > 260 ? kNone : elbow_deg - 200;
   };
   const double deepest = shrunk(bent_elbow(240), over_200, 0.5).worst.expect.depth;
@@ -305,7 +308,7 @@ TEST(ShrinkStages, NothingIsMadeReadyForATrialOnceTheBudgetIsSpent) {
   config.max_evaluations = 6;
   int ready = 0;
   config.allowed = [&](const Spec&) { return ++ready, false; };  // costs no evaluation
-  PlantedTrial trial([](const Spec& spec) { return actions_of(spec) >= 2 ? 1.0 : 0.0; });
+  PlantedTrial trial([](const Spec& spec) { return staged_actions(spec) >= 2 ? 1.0 : 0.0; });
   EXPECT_EQ(shrink_with(trial, holding(), stock_library(), config).stopped, "fixpoint");
   const int all = ready;
   ready = 0;
@@ -337,7 +340,7 @@ TEST(ShrinkEndings, ACrashIsShrunkToWhatCrashes) {
                        pose_use("head", {{"neck_flex_deg", 10.0}})});
   spec.hold_frames = 7;
   const auto work = [](const Spec& x) {
-    if (actions_of(x) > 0 && number(x, 0, "elbow_deg") > 50.0) ::raise(SIGSEGV);
+    if (staged_actions(x) > 0 && number(x, 0, "elbow_deg") > 50.0) ::raise(SIGSEGV);
   };
   const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
   EXPECT_EQ(result.stopped, "fixpoint");
@@ -347,9 +350,9 @@ TEST(ShrinkEndings, ACrashIsShrunkToWhatCrashes) {
 
 TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
   Spec spec = spec_of({pose_use("arm_left", {}), pose_use("head", {})});
-  const auto work = [](const Spec& x) { ::raise(actions_of(x) == 2 ? SIGSEGV : SIGFPE); };
+  const auto work = [](const Spec& x) { ::raise(staged_actions(x) == 2 ? SIGSEGV : SIGFPE); };
   const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
-  EXPECT_EQ(actions_of(result.minimal.spec), 2);
+  EXPECT_EQ(staged_actions(result.minimal.spec), 2);
   ASSERT_EQ(result.met.size(), 1U);
   EXPECT_EQ(family_of(result.met[0]), "crash|human|SIGFPE");
 }

@@ -58,7 +58,7 @@ TEST(ShrinkLawsSlow, TheResultFailsTheSameWayAndDeepEnough) {
     }
 }
 
-int actions_of(const Spec& spec) {
+int count_of_actions(const Spec& spec) {
   int count = 0;
   for (const SequenceDesc& sequence : spec.sequences)
     for (const ClipDesc& clip : sequence.clips) count += static_cast<int>(clip.actions.size());
@@ -84,15 +84,15 @@ TEST(ShrinkGuarded, GoesRoundWhatCrashesAndHandsItBack) {
   ShrinkConfig how = config(0.5);
   how.guarded = true;
   how.before_run = [](const Spec& candidate) {
-    if (actions_of(candidate) == 1) ::raise(SIGUSR1);
+    if (count_of_actions(candidate) == 1) ::raise(SIGUSR1);
   };
   const Shrunk result = shrink(original, stock_library(), how);
   EXPECT_EQ(result.stopped, "fixpoint");
   EXPECT_EQ(family_of(result.minimal), family_of(original));
-  EXPECT_EQ(actions_of(result.minimal.spec), 2);
+  EXPECT_EQ(count_of_actions(result.minimal.spec), 2);
   const auto met = std::ranges::find(result.met, "crash|human|SIGUSR1", [](const Case& c) { return family_of(c); });
   ASSERT_NE(met, result.met.end());
-  EXPECT_EQ(actions_of(met->spec), 1);
+  EXPECT_EQ(count_of_actions(met->spec), 1);
 }
 
 TEST(ShrinkLawsSlow, EqualInputGivesEqualOutput) {

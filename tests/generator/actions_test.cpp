@@ -11,8 +11,8 @@
 namespace contort {
 namespace {
 
-using testing::sequence;
-using testing::use;
+using fixtures::sequence;
+using fixtures::use;
 
 // A character, and a motion of it with the world transforms of one frame.
 class Played {
@@ -32,9 +32,7 @@ class Played {
     forward_kinematics(*character, motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world_);
     return world_from_socket(*character, world_, character->find_socket(name));
   }
-  double coord(const std::string& joint, int frame) const {
-    return testing::coord(motion, frame, *character, joint);
-  }
+  double coord(const std::string& joint, int frame) const { return fixtures::coord(motion, frame, *character, joint); }
   std::shared_ptr<const Character> character;
   Motion motion;
 
@@ -45,12 +43,12 @@ class Played {
 const CharacterChoice kRifleman{"human", {}, {{"rifle", "hand_right", "grip"}}};
 
 TEST(Actions, WeaponHoldKeepsTheHandOnTheObjectWhileItsCarrierMoves) {
-  Played played(kRifleman, {use("reach", "arm_right", 0, 40, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
-                            use("pose", "torso", 0, 60, {{"lumbar_rot_deg", 20.0}}),
-                            use("weapon_hold", "arm_left", 30, 60, {})});
+  Played played(kRifleman,
+                {use("reach", "arm_right", 0, 40, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
+                 use("pose", "torso", 0, 60, {{"lumbar_rot_deg", 20.0}}), use("weapon_hold", "arm_left", 30, 60, {})});
   for (int f = 31; f <= 90; ++f) {
     const Vec3 gap_m = played.socket("hand_left/grip", f).p_m - played.socket("object:rifle/foregrip", f).p_m;
-    EXPECT_LT(testing::length(gap_m), 1e-3) << f;
+    EXPECT_LT(length(gap_m), 1e-3) << f;
   }
 }
 
@@ -60,7 +58,7 @@ TEST(Actions, WeaponHoldFollowsAnArmThatComesLaterInTheOrderOfSlots) {
                             use("weapon_hold", "arm_left", 0, 60, {})});
   for (int f = 40; f <= 60; ++f) {
     const Vec3 gap_m = played.socket("hand_left/grip", f).p_m - played.socket("object:rifle/foregrip", f).p_m;
-    EXPECT_LT(testing::length(gap_m), 1e-3) << f;
+    EXPECT_LT(length(gap_m), 1e-3) << f;
   }
 }
 
@@ -93,8 +91,10 @@ TEST(Actions, HoldingInACircleIsRefused) {
 }
 
 TEST(Actions, RecoilLiftsTheArmAndLeavesNothing) {
-  Played played({}, {use("pose", "arm_left", 0, 10, {{"shoulder_deg", Vec3(-80, 0, 0)}, {"elbow_deg", 20.0}}),
-                     use("recoil", "arm_left", 20, 20, {{"rise_deg", 10.0}, {"bend_deg", 12.0}})}, 5);
+  Played played({},
+                {use("pose", "arm_left", 0, 10, {{"shoulder_deg", Vec3(-80, 0, 0)}, {"elbow_deg", 20.0}}),
+                 use("recoil", "arm_left", 20, 20, {{"rise_deg", 10.0}, {"bend_deg", 12.0}})},
+                5);
   const double before_m = played.socket("arm_left/wrist", 20).p_m.y;
   EXPECT_GT(played.socket("arm_left/wrist", 25).p_m.y, before_m + 0.05);
   EXPECT_NEAR(played.coord("arm_left/elbow", 25), 32 * kRadPerDeg, 1e-12);
@@ -104,7 +104,7 @@ TEST(Actions, RecoilLiftsTheArmAndLeavesNothing) {
 TEST(Actions, ExtendMovesTravelsAndNothingElse) {
   const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
   Played played(mech, {use("extend", "arm_left", 0, 20, {{"share", 0.5}})});
-  const Joint& travel = testing::joint(*played.character, "arm_left/extend");
+  const Joint& travel = fixtures::joint(*played.character, "arm_left/extend");
   EXPECT_DOUBLE_EQ(played.coord("arm_left/extend", 20), 0.5 * (travel.low + travel.high));
   EXPECT_EQ(played.coord("arm_left/elbow", 20), 0.0);
 }
@@ -113,8 +113,13 @@ TEST(Actions, LookAtFacesItsPointWhileTheBodyTurns) {
   const Vec3 point_m(0.8, 1.5, 1.0);
   Played played({}, {use("look_at", "head", 0, 60, {{"target_m", point_m}}),
                      use("pose", "torso", 0, 60, {{"lumbar_rot_deg", 30.0}, {"lumbar_flex_deg", 20.0}})});
-  const std::string eyes = played.character->sockets()[static_cast<std::size_t>(
-      played.character->parts()[static_cast<std::size_t>(played.character->find_part("head"))].facing.front().socket)].name;
+  const std::string eyes =
+      played.character
+          ->sockets()[static_cast<std::size_t>(
+              played.character->parts()[static_cast<std::size_t>(played.character->find_part("head"))]
+                  .facing.front()
+                  .socket)]
+          .name;
   for (int f = 1; f <= 60; ++f) {
     const Rigid world_from_eyes = played.socket(eyes, f);
     const Vec3 towards = unit_or(point_m - world_from_eyes.p_m, Vec3(0.0));
@@ -159,9 +164,10 @@ TEST(Actions, AWalkAfterALeanBeginsWhereTheFigureStands) {
 // The rifle points at a fixed place while the body walks and turns under it.
 TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
   const Vec3 target_m(-1.0, 1.4, 8.0);
-  Played played(kRifleman, {use("walk", "waist", 0, 200, {{"speed_m_s", 1.0}}),
-                            use("pose", "torso", 0, 200, {{"lumbar_rot_deg", 15.0}}),
-                            use("aim", "arm_right", 0, 200, {{"point", std::string("muzzle")}, {"target_m", target_m}})});
+  Played played(
+      kRifleman,
+      {use("walk", "waist", 0, 200, {{"speed_m_s", 1.0}}), use("pose", "torso", 0, 200, {{"lumbar_rot_deg", 15.0}}),
+       use("aim", "arm_right", 0, 200, {{"point", std::string("muzzle")}, {"target_m", target_m}})});
   const Part& arm = played.character->parts()[static_cast<std::size_t>(played.character->find_part("arm_right"))];
   ASSERT_GT(arm.joint_count, 0);
   for (int f = 1; f <= 200; ++f) {
@@ -178,7 +184,8 @@ TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
 TEST(Actions, TouchFindsTheWallWhileWalkingAndTellsOfTheContact) {
   Spec spec;
   spec.environment.obstacles = {{"wall", Box{Vec3(0.55, 1.0, 4.0), Vec3(0.1, 1.0, 3.0), Vec3(0.0)}}};
-  spec.sequences = {sequence({use("walk", "waist", 0, 300, {{"speed_m_s", 0.8}}), use("touch", "arm_left", 60, 200, {})})};
+  spec.sequences = {
+      sequence({use("walk", "waist", 0, 300, {{"speed_m_s", 0.8}}), use("touch", "arm_left", 60, 200, {})})};
   InterruptDesc on_contact;
   on_contact.when.event = Event::contact;
   on_contact.when.slot = "arm_left";

@@ -14,12 +14,12 @@
 namespace contort {
 namespace {
 
-using testing::coord;
-using testing::elbow;
-using testing::human;
-using testing::sequence;
-using testing::stage_of;
-using testing::use;
+using fixtures::coord;
+using fixtures::elbow;
+using fixtures::human;
+using fixtures::sequence;
+using fixtures::stage_of;
+using fixtures::use;
 
 constexpr double kDeg = kRadPerDeg;
 const char* const kElbow = "arm_left/elbow";
@@ -61,7 +61,7 @@ TEST(Generate, FrameZeroIsRest) {
 
 TEST(Generate, PartsWithoutActionsHold) {
   const Motion motion = generate(stage_of({sequence({elbow(5, 10, 90)})}, 20));
-  const auto own = static_cast<std::size_t>(testing::joint(human(), kElbow).coord);
+  const auto own = static_cast<std::size_t>(fixtures::joint(human(), kElbow).coord);
   for (int frame = 0; frame < motion.frame_count; ++frame)
     for (std::size_t i = 0; i < static_cast<std::size_t>(motion.coord_count); ++i)
       ASSERT_TRUE(i == own || motion.row(frame)[i] == human().rest_coords()[i]) << frame << " " << i;
@@ -103,7 +103,7 @@ TEST(Generate, ReachingWinsOverPosingEvenIfThePoseStartedLater) {
   std::vector<Rigid> world(human().joints().size());
   forward_kinematics(human(), motion.root[30], motion.row(30), world);
   const Vec3 wrist_m = world_from_socket(human(), world, human().find_socket("arm_left/wrist")).p_m;
-  EXPECT_LT(testing::length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
+  EXPECT_LT(length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
 }
 
 TEST(Generate, ATargetIsReachedWhileTheCarrierMoves) {
@@ -113,7 +113,7 @@ TEST(Generate, ATargetIsReachedWhileTheCarrierMoves) {
   std::vector<Rigid> world(human().joints().size());
   forward_kinematics(human(), motion.root[30], motion.row(30), world);
   const Vec3 wrist_m = world_from_socket(human(), world, human().find_socket("arm_left/wrist")).p_m;
-  EXPECT_LT(testing::length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
+  EXPECT_LT(length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
 }
 
 // A hinge below the shoulder, in the same part: the chain hangs on a joint of its own part.
@@ -125,7 +125,7 @@ std::shared_ptr<const Character> with_clavicle() {
   arm.joints.insert(arm.joints.begin(), clavicle);
   arm.joints[1].parent = "clavicle";
   arm.joints[1].position_m = Vec3(0.1, 0, 0);
-  return std::make_shared<const Character>(testing::built({}, library));
+  return std::make_shared<const Character>(fixtures::built({}, library));
 }
 
 TEST(Generate, ChainsMayHangOnAJointOfTheirOwnPart) {
@@ -136,7 +136,7 @@ TEST(Generate, ChainsMayHangOnAJointOfTheirOwnPart) {
   std::vector<Rigid> world(character->joints().size());
   forward_kinematics(*character, motion.root[20], motion.row(20), world);
   const Vec3 wrist_m = world_from_socket(*character, world, character->find_socket("arm_left/wrist")).p_m;
-  EXPECT_LT(testing::length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
+  EXPECT_LT(length(wrist_m - Vec3(0.2, 1.2, 0.3)), 1e-9);
   EXPECT_NEAR(coord(motion, 20, *character, "arm_left/clavicle"), 40 * kDeg, 1e-15);
 }
 
@@ -192,7 +192,8 @@ void expect_spans_fit(const Stage& stage) {
       const int own = offset[static_cast<std::size_t>(a.sequence)];
       bool has = a.first_frame + own <= frame && frame <= a.last_frame + own;
       for (const PlannedAction& b : stage.timeline.actions)  // one that has moved already and came later
-        if (a.def->layer != Layer::additive && &a != &b && a.part == b.part && a.def->layer == b.def->layer && starts(b) < frame)
+        if (a.def->layer != Layer::additive && &a != &b && a.part == b.part && a.def->layer == b.def->layer &&
+            starts(b) < frame)
           has = has && (starts(a) > starts(b) || (starts(a) == starts(b) && &a > &b)) && starts(a) < frame;
       int covered = 0;
       for (const ActionSpan& span : motion.spans)

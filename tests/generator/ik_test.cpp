@@ -15,14 +15,13 @@
 namespace contort {
 namespace {
 
-using testing::any_quat;
-using testing::any_rigid;
-using testing::any_unit;
-using testing::built;
-using testing::human;
-using testing::lattice_number;
-using testing::length;
-using testing::mech_choice;
+using fixtures::any_quat;
+using fixtures::any_rigid;
+using fixtures::any_unit;
+using fixtures::built;
+using fixtures::human;
+using fixtures::lattice_number;
+using fixtures::mech_choice;
 
 Character limbed(const std::string& name) {
   if (name == "human") return built({});
@@ -115,7 +114,7 @@ TEST(Ik, ReachWorksOppositeToRest) {
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());
   limb.place();
   limb.reach(limb.upper_m() + Vec3(0.5, 0, 0), 0.0);
-  double* shoulder = limb.row.data() + testing::joint(human(), "arm_left/shoulder").coord;
+  double* shoulder = limb.row.data() + fixtures::joint(human(), "arm_left/shoulder").coord;
   shoulder[0] = 1, shoulder[1] = shoulder[2] = shoulder[3] = 0;
   limb.place();
   const Vec3 opposite = limb.upper_m() - limb.tip_m();
@@ -166,7 +165,7 @@ TEST(Ik, ReachDoesNotStopAtLimits) {
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());
   limb.place();
   limb.reach(limb.upper_m() + Vec3(0, 0.05, 0), 0.0);  // 5 cm: an elbow of more than 150 degrees
-  EXPECT_GT(middle_of(limb), testing::joint(human(), "arm_left/elbow").high + 0.05);
+  EXPECT_GT(middle_of(limb), fixtures::joint(human(), "arm_left/elbow").high + 0.05);
 }
 
 Quat composed(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& angles) {
@@ -186,7 +185,7 @@ RC_GTEST_PROP(Ik, HingeAnglesRecomposeAnyRotation, ()) {
   const Quat wanted = locked ? composed(x, y, z, {lattice_number(-4, 4), middle, lattice_number(-4, 4)}) : any_quat();
   const Vec3 angles = hinge_angles(x, y, z, wanted);
   RC_ASSERT(std::fabs(angles.y) <= kPi / 2 + 1e-12);
-  RC_ASSERT(testing::difference(composed(x, y, z, angles), wanted) < 1e-9);
+  RC_ASSERT(fixtures::difference(composed(x, y, z, angles), wanted) < 1e-9);
 }
 
 // Any two hinges, not only those at right angles.

@@ -10,18 +10,20 @@
 namespace contort {
 namespace {
 
-using testing::coord;
-using testing::elbow;
-using testing::human;
-using testing::sequence;
-using testing::stage_of;
-using testing::use;
+using fixtures::coord;
+using fixtures::elbow;
+using fixtures::human;
+using fixtures::sequence;
+using fixtures::stage_of;
+using fixtures::use;
 
-constexpr double kDeg = kRadPerDeg;
-const char* const kElbow = "arm_left/elbow";
+constexpr double kDegree = kRadPerDeg;
+const char* const kLayeredElbow = "arm_left/elbow";
 const Vec3 kTarget_m(0.3, 1.2, 0.35);
 
-ActionUse reach(int start, int duration) { return use("reach", "arm_left", start, duration, {{"target_m", kTarget_m}}); }
+ActionUse reach(int start, int duration) {
+  return use("reach", "arm_left", start, duration, {{"target_m", kTarget_m}});
+}
 ActionUse nudge(int start, int duration, double strength_deg) {
   return use("hit_reaction", "arm_left", start, duration, {{"strength_deg", strength_deg}});
 }
@@ -29,13 +31,13 @@ ActionUse nudge(int start, int duration, double strength_deg) {
 Motion play(std::vector<ActionUse> actions, int hold = 0) {
   return generate(stage_of({sequence(std::move(actions))}, hold));
 }
-double elbow_at(const Motion& motion, int frame) { return coord(motion, frame, human(), kElbow); }
+double elbow_at(const Motion& motion, int frame) { return coord(motion, frame, human(), kLayeredElbow); }
 
 // How far the wrist is from where `reach` should bring it.
 double miss_m(const Motion& motion, int frame) {
   std::vector<Rigid> world(human().joints().size());
   forward_kinematics(human(), motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);
-  return testing::length(world_from_socket(human(), world, human().find_socket("arm_left/wrist")).p_m - kTarget_m);
+  return length(world_from_socket(human(), world, human().find_socket("arm_left/wrist")).p_m - kTarget_m);
 }
 
 // The largest difference of any coordinate between two motions in one frame.
@@ -56,23 +58,23 @@ double largest_step(const Motion& motion, int first = 1) {
 
 TEST(Layers, OverwriteIsReplacedByOverwriteForGood) {
   const Motion motion = play({elbow(0, 60, 90), elbow(10, 20, 20)});
-  EXPECT_EQ(elbow_at(motion, 30), 20 * kDeg);
-  EXPECT_EQ(elbow_at(motion, 60), 20 * kDeg);
-  EXPECT_LT(largest_step(motion), 5 * kDeg);
+  EXPECT_EQ(elbow_at(motion, 30), 20 * kDegree);
+  EXPECT_EQ(elbow_at(motion, 60), 20 * kDegree);
+  EXPECT_LT(largest_step(motion), 5 * kDegree);
 }
 
 TEST(Layers, IkIsSeenOverOverwriteWhichGoesOnBeneath) {
   const Motion motion = play({elbow(0, 60, 90), reach(10, 20)});
   EXPECT_LT(miss_m(motion, 30), 1e-9);
-  EXPECT_EQ(elbow_at(motion, 60), 90 * kDeg);  // from the posture that was reached, in the time that was left
-  EXPECT_LT(largest_step(motion), 8 * kDeg);
+  EXPECT_EQ(elbow_at(motion, 60), 90 * kDegree);  // from the posture that was reached, in the time that was left
+  EXPECT_LT(largest_step(motion), 8 * kDegree);
 }
 
 TEST(Layers, IkIsSeenOverOverwriteThatStartsLater) {
   const Motion motion = play({reach(0, 40), elbow(10, 60, 90)});
   EXPECT_LT(miss_m(motion, 40), 1e-9);
-  EXPECT_EQ(elbow_at(motion, 70), 90 * kDeg);
-  EXPECT_LT(largest_step(motion), 8 * kDeg);
+  EXPECT_EQ(elbow_at(motion, 70), 90 * kDegree);
+  EXPECT_LT(largest_step(motion), 8 * kDegree);
 }
 
 TEST(Layers, IkIsReplacedByIkForGood) {
@@ -98,7 +100,7 @@ TEST(Layers, AnIkThatFadedOutLeavesTheBase) {
   const Motion without = play({elbow(0, 10, 60)}, 60);
   EXPECT_LT(miss_m(with, 34), 1e-9);
   for (int f = 50; f < with.frame_count; ++f) EXPECT_EQ(difference(with, without, f), 0.0) << f;
-  const double faded = std::fabs(elbow_at(with, 34) - 60 * kDeg);
+  const double faded = std::fabs(elbow_at(with, 34) - 60 * kDegree);
   EXPECT_LE(largest_step(with, 35), 1.875 / 15 * faded) << "steeper than the minimum-jerk curve";
 }
 
@@ -126,7 +128,7 @@ TEST(Layers, AnAdditiveAddsOnWhateverIsBeneathAndLeavesNothing) {
         most = std::max(most, difference(with, without, f));
       }
     }
-    EXPECT_GT(most, 1 * kDeg) << "the additive did nothing";
+    EXPECT_GT(most, 1 * kDegree) << "the additive did nothing";
   }
 }
 
@@ -148,7 +150,7 @@ TEST(Layers, ThreeOnOnePartAreAllThereAtOnce) {
   const Motion all = play({elbow(0, 40, 90), reach(5, 30), nudge(10, 20, 20)}, 20);
   const Motion two = play({elbow(0, 40, 90), reach(5, 30)}, 20);
   const Motion last = play({elbow(0, 40, 90)}, 20);
-  EXPECT_GT(difference(all, two, 20), 1 * kDeg);
+  EXPECT_GT(difference(all, two, 20), 1 * kDegree);
   EXPECT_EQ(difference(all, two, 30), 0.0);
   EXPECT_LT(miss_m(all, 35), 1e-9);
   EXPECT_EQ(elbow_at(all, 60), elbow_at(last, 60));
@@ -157,8 +159,8 @@ TEST(Layers, ThreeOnOnePartAreAllThereAtOnce) {
 TEST(Layers, ActionsWithoutLengthAreThereOneFrameAfterTheirStart) {
   const Motion pose = play({elbow(5, 0, 90)}, 3);
   EXPECT_EQ(elbow_at(pose, 5), 0.0);
-  EXPECT_EQ(elbow_at(pose, 6), 90 * kDeg);
-  EXPECT_EQ(elbow_at(pose, 9), 90 * kDeg);
+  EXPECT_EQ(elbow_at(pose, 6), 90 * kDegree);
+  EXPECT_EQ(elbow_at(pose, 9), 90 * kDegree);
   const Motion ik = play({reach(5, 0)}, 3);
   EXPECT_EQ(elbow_at(ik, 5), 0.0);
   EXPECT_LT(miss_m(ik, 6), 1e-9);
@@ -168,8 +170,8 @@ TEST(Layers, ActionsWithoutLengthAreThereOneFrameAfterTheirStart) {
 }
 
 TEST(Layers, OfTwoThatStartInOneFrameTheLaterInTheSpecWins) {
-  EXPECT_EQ(elbow_at(play({elbow(0, 20, 90), elbow(0, 20, 30)}), 20), 30 * kDeg);
-  EXPECT_EQ(elbow_at(play({elbow(0, 20, 30), elbow(0, 20, 90)}), 20), 90 * kDeg);
+  EXPECT_EQ(elbow_at(play({elbow(0, 20, 90), elbow(0, 20, 30)}), 20), 30 * kDegree);
+  EXPECT_EQ(elbow_at(play({elbow(0, 20, 30), elbow(0, 20, 90)}), 20), 90 * kDegree);
 }
 
 // Half a turn and more between two postures of a ball joint: the shorter way, at an even axis, without a flip.
@@ -178,11 +180,11 @@ TEST(Blending, BallsTakeTheShorterArc) {
     return use("pose", "arm_left", start, 40, {{"shoulder_deg", Vec3(0, 0, z_deg)}});
   };
   const Motion motion = play({shoulder(0, 170), shoulder(40, -170)});
-  const Joint& joint = testing::joint(human(), "arm_left/shoulder");
+  const Joint& joint = fixtures::joint(human(), "arm_left/shoulder");
   for (int f = 41; f <= 80; ++f) {
     const double* q = motion.row(f).data() + joint.coord;
     const double angle = rotation_angle(Quat(q[0], q[1], q[2], q[3]));
-    EXPECT_GE(angle, 170 * kDeg - 1e-12) << f;  // through 180, not back through 0
+    EXPECT_GE(angle, 170 * kDegree - 1e-12) << f;  // through 180, not back through 0
   }
 }
 
@@ -219,10 +221,10 @@ TEST(Interrupts, CutWhatRunsAndItGoesOnFromWhereItStood) {
   const Motion motion = play_interrupted({elbow(0, 40, 90)}, interrupt(20, {elbow(0, 10, 10)}));
   EXPECT_EQ(motion.frame_count, 51);
   EXPECT_EQ(motion.queue, (std::vector<QueueSpan>{{0, 20, 0, 0}, {20, 30, 1, 0}, {30, 50, 0, 20}}));
-  EXPECT_NEAR(elbow_at(motion, 20), 45 * kDeg, 1e-12);
-  EXPECT_EQ(elbow_at(motion, 30), 10 * kDeg);
-  EXPECT_EQ(elbow_at(motion, 50), 90 * kDeg);
-  EXPECT_LT(largest_step(motion), 10 * kDeg);
+  EXPECT_NEAR(elbow_at(motion, 20), 45 * kDegree, 1e-12);
+  EXPECT_EQ(elbow_at(motion, 30), 10 * kDegree);
+  EXPECT_EQ(elbow_at(motion, 50), 90 * kDegree);
+  EXPECT_LT(largest_step(motion), 10 * kDegree);
 }
 
 TEST(Interrupts, DropTheRestIfTheyAreToldTo) {
@@ -230,10 +232,11 @@ TEST(Interrupts, DropTheRestIfTheyAreToldTo) {
   by.resume = false;
   const Motion motion = play_interrupted({elbow(0, 40, 90)}, by);
   EXPECT_EQ(motion.frame_count, 31);
-  EXPECT_EQ(elbow_at(motion, 30), 10 * kDeg);
+  EXPECT_EQ(elbow_at(motion, 30), 10 * kDegree);
 }
 
-// A blow on the torso, cut at its height: 40 degrees that would be gone in one frame. What remains in the end is nothing.
+// A blow on the torso, cut at its height: 40 degrees that would be gone in one frame. What remains in the end is
+// nothing.
 TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
   const std::vector<ActionUse> blow = {
       use("hit_reaction", "torso", 0, 60, {{"strength_deg", 40.0}, {"azimuth_deg", 0.0}})};
@@ -247,13 +250,14 @@ TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
       fastest = std::max(fastest, std::fabs(now - last));
       least = std::min(least, now), last = now;
     }
-    EXPECT_LT(least, -8 * kDeg) << resume;     // it was in full swing
-    EXPECT_LT(fastest, 4 * kDeg) << resume;    // 2.8; it was 12.6 when it was gone at once
-    EXPECT_NEAR(last, 0.0, 1e-9) << resume;    // and leaves nothing
+    EXPECT_LT(least, -8 * kDegree) << resume;   // it was in full swing
+    EXPECT_LT(fastest, 4 * kDegree) << resume;  // 2.8; it was 12.6 when it was gone at once
+    EXPECT_NEAR(last, 0.0, 1e-9) << resume;     // and leaves nothing
   }
 }
 
-// What fades out hands nothing over at its end, but here it has not faded: the head was back at rest one frame after the cut.
+// What fades out hands nothing over at its end, but here it has not faded: the head was back at rest one frame after
+// the cut.
 TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
   ActionUse look = use("look_at", "head", 0, 60, {{"target_m", Vec3(1.0, 1.5, 2.0)}});
   look.blend_in_frames = look.blend_out_frames = 20;
@@ -262,7 +266,7 @@ TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
     by.resume = false;
     const Motion cut = play_interrupted({look}, by);
     const double held = coord(cut, frame, human(), "head/neck_rot");
-    EXPECT_GT(std::fabs(held), 10 * kDeg) << frame;
+    EXPECT_GT(std::fabs(held), 10 * kDegree) << frame;
     for (int f = frame; f < cut.frame_count; ++f) ASSERT_EQ(coord(cut, f, human(), "head/neck_rot"), held) << f;
   }
 }

@@ -9,11 +9,11 @@
 namespace contort {
 namespace {
 
-using testing::coord;
-using testing::elbow;
-using testing::human;
-using testing::sequence;
-using testing::use;
+using fixtures::coord;
+using fixtures::elbow;
+using fixtures::human;
+using fixtures::sequence;
+using fixtures::use;
 
 Spec two_sequences() {
   Spec spec;
@@ -61,7 +61,8 @@ TEST(Levels, APartMovesAsInTheWholeAndAllElseStays) {
 }
 
 TEST(Levels, WhatIsNotThereIsRefused) {
-  for (const char* bad : {"", "sequence", "sequence:", "sequence:0", "sequence:1/1", "clip:1", "clip:1/x", "part:", "whole:1"})
+  for (const char* bad :
+       {"", "sequence", "sequence:", "sequence:0", "sequence:1/1", "clip:1", "clip:1/x", "part:", "whole:1"})
     EXPECT_EQ(refusal(bad), "level.bad_name") << bad;
   EXPECT_EQ(refusal("sequence:3"), "level.no_sequence");
   EXPECT_EQ(refusal("clip:1/2"), "level.no_clip");

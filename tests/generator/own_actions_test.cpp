@@ -9,8 +9,8 @@
 namespace contort {
 namespace {
 
-using testing::coord;
-using testing::use;
+using fixtures::coord;
+using fixtures::use;
 
 Library with(const std::vector<std::string>& files) {
   Library library = stock_library();
@@ -23,11 +23,11 @@ Library with(const std::vector<std::string>& files) {
 }
 
 std::shared_ptr<const Character> human_of(const Library& library) {
-  return std::make_shared<const Character>(testing::built({}, library));
+  return std::make_shared<const Character>(fixtures::built({}, library));
 }
 
 // The code that loading gives for one action.
-std::string refusal(const std::string& file) {
+std::string refusal_of_library(const std::string& file) {
   const Result<Done> done = check_actions(with({file}));
   return done ? "" : done.issue().code + " " + done.issue().pointer;
 }
@@ -42,7 +42,7 @@ double elbow_deg(const Motion& motion, int frame, const Character& character) {
 
 TEST(OwnActions, KeyPosesAreReachedOneAfterAnother) {
   const auto human = human_of(with({kNod}));
-  const Stage stage = testing::stage_of({testing::sequence({use("nod", "arm_left", 0, 40, {})})}, 5, human);
+  const Stage stage = fixtures::stage_of({fixtures::sequence({use("nod", "arm_left", 0, 40, {})})}, 5, human);
   const Motion motion = generate(stage);
   EXPECT_NEAR(elbow_deg(motion, 10, *human), 40.0, 1e-9);
   EXPECT_NEAR(elbow_deg(motion, 15, *human), 60.0, 1e-9);  // linear, half of the way
@@ -57,9 +57,10 @@ TEST(OwnActions, KeyPosesAreReachedOneAfterAnother) {
 
 TEST(OwnActions, AJointThatAKeyDoesNotNameGoesOnToTheNextOneThatDoes) {
   const auto human = human_of(with({kNod}));
-  const Motion motion = generate(testing::stage_of({testing::sequence({use("nod", "arm_left", 0, 40, {})})}, 0, human));
+  const Motion motion =
+      generate(fixtures::stage_of({fixtures::sequence({use("nod", "arm_left", 0, 40, {})})}, 0, human));
   const auto shoulder_deg = [&](int frame) {
-    const double* q = motion.row(frame).data() + testing::joint(*human, "arm_left/shoulder").coord;
+    const double* q = motion.row(frame).data() + fixtures::joint(*human, "arm_left/shoulder").coord;
     return rotation_angle(Quat(q[0], q[1], q[2], q[3])) / kRadPerDeg;
   };
   EXPECT_NEAR(shoulder_deg(10), 25.0, 1e-9);  // linear from rest to the second key
@@ -69,8 +70,8 @@ TEST(OwnActions, AJointThatAKeyDoesNotNameGoesOnToTheNextOneThatDoes) {
 
 TEST(OwnActions, KeyPosesStartFromWhereTheyFindThePart) {
   const auto human = human_of(with({kNod}));
-  const Motion motion = generate(testing::stage_of(
-      {testing::sequence({testing::elbow(0, 20, 100.0), use("nod", "arm_left", 20, 40, {})})}, 0, human));
+  const Motion motion = generate(fixtures::stage_of(
+      {fixtures::sequence({fixtures::elbow(0, 20, 100.0), use("nod", "arm_left", 20, 40, {})})}, 0, human));
   EXPECT_NEAR(elbow_deg(motion, 20, *human), 100.0, 1e-9);
   EXPECT_NEAR(elbow_deg(motion, 25, *human), 70.0, 1e-9);
   EXPECT_NEAR(elbow_deg(motion, 30, *human), 40.0, 1e-9);
@@ -80,11 +81,11 @@ TEST(OwnActions, KeyPosesStartFromWhereTheyFindThePart) {
 TEST(OwnActions, KeyPosesThatWereCutGoOnFromWhereTheArmIs) {
   const auto human = human_of(with({kNod}));
   Spec spec;
-  spec.sequences = {testing::sequence({use("nod", "arm_left", 0, 80, {})})};
+  spec.sequences = {fixtures::sequence({use("nod", "arm_left", 0, 80, {})})};
   InterruptDesc interrupt;
   interrupt.when.event = Event::frame, interrupt.when.frame = 30;
   interrupt.enter = Enter::front;
-  interrupt.sequence = testing::sequence({testing::elbow(0, 30, 5.0)});
+  interrupt.sequence = fixtures::sequence({fixtures::elbow(0, 30, 5.0)});
   spec.interrupts = {interrupt};
   const Result<Stage> stage = build_stage(spec, human);
   ASSERT_TRUE(stage.ok()) << to_line(stage.issue());
@@ -94,13 +95,14 @@ TEST(OwnActions, KeyPosesThatWereCutGoOnFromWhereTheArmIs) {
     fastest = std::max(fastest, std::fabs(elbow_deg(motion, f, *human) - elbow_deg(motion, f - 1, *human)));
   EXPECT_NEAR(elbow_deg(motion, 60, *human), 5.0, 0.5);
   EXPECT_NEAR(elbow_deg(motion, 70, *human), 80.0, 1e-6);  // the second key, ten frames of content later
-  EXPECT_LT(fastest, 8.0);  // 75 degrees in 10 frames, linear: 7.5 a frame
+  EXPECT_LT(fastest, 8.0);                                 // 75 degrees in 10 frames, linear: 7.5 a frame
   EXPECT_NEAR(elbow_deg(motion, 110, *human), 20.0, 1e-9);
 }
 
 TEST(OwnActions, WithoutLengthTheLastKeyIsThereAtOnce) {
   const auto human = human_of(with({kNod}));
-  const Motion motion = generate(testing::stage_of({testing::sequence({use("nod", "arm_left", 5, 0, {})})}, 3, human));
+  const Motion motion =
+      generate(fixtures::stage_of({fixtures::sequence({use("nod", "arm_left", 5, 0, {})})}, 3, human));
   EXPECT_NEAR(elbow_deg(motion, 5, *human), 20.0, 60.0);
   EXPECT_NEAR(elbow_deg(motion, motion.frame_count - 1, *human), 20.0, 1e-9);
 }
@@ -111,7 +113,7 @@ const std::string kPoint = R"({"format": "contort.action/1", "name": "point", "k
 TEST(OwnActions, AVariantIsItsRuleWithOtherValues) {
   const auto human = human_of(with({kPoint}));
   const auto play = [&](const ActionUse& action) {
-    return generate(testing::stage_of({testing::sequence({action})}, 0, human));
+    return generate(fixtures::stage_of({fixtures::sequence({action})}, 0, human));
   };
   const Vec3 target(0.3, 1.4, 0.5);
   EXPECT_EQ(motion_hash(play(use("point", "arm_left", 0, 30, {}))),
@@ -128,8 +130,10 @@ const std::string kShieldNod = R"({"format": "contort.action/1", "name": "nod", 
 TEST(OwnActions, APartBringsItsOwnVersion) {
   const Library library = with({kNod, kShieldNod});
   const auto end_deg = [&](const std::string& part) {
-    const auto mech = std::make_shared<const Character>(testing::built(testing::mech_choice({{"arm_left", part}}), library));
-    const Motion motion = generate(testing::stage_of({testing::sequence({use("nod", "arm_left", 0, 40, {})})}, 0, mech));
+    const auto mech =
+        std::make_shared<const Character>(fixtures::built(fixtures::mech_choice({{"arm_left", part}}), library));
+    const Motion motion =
+        generate(fixtures::stage_of({fixtures::sequence({use("nod", "arm_left", 0, 40, {})})}, 0, mech));
     return elbow_deg(motion, 40, *mech);
   };
   EXPECT_NEAR(end_deg("mech_arm_slim"), 20.0, 1e-9);
@@ -138,12 +142,12 @@ TEST(OwnActions, APartBringsItsOwnVersion) {
 
 TEST(OwnActions, TheRightSideMirrorsTheLeft) {
   const auto human = human_of(with({kNod}));
-  const Motion motion = generate(testing::stage_of(
-      {testing::sequence({use("nod", "arm_left", 0, 40, {}), use("nod", "arm_right", 0, 40, {})})}, 0, human));
+  const Motion motion = generate(fixtures::stage_of(
+      {fixtures::sequence({use("nod", "arm_left", 0, 40, {}), use("nod", "arm_right", 0, 40, {})})}, 0, human));
   for (int f = 0; f <= 40; ++f) {
     EXPECT_EQ(coord(motion, f, *human, "arm_left/elbow"), coord(motion, f, *human, "arm_right/elbow"));
-    const double* l = motion.row(f).data() + testing::joint(*human, "arm_left/shoulder").coord;
-    const double* r = motion.row(f).data() + testing::joint(*human, "arm_right/shoulder").coord;
+    const double* l = motion.row(f).data() + fixtures::joint(*human, "arm_left/shoulder").coord;
+    const double* r = motion.row(f).data() + fixtures::joint(*human, "arm_right/shoulder").coord;
     EXPECT_NEAR(l[0], r[0], 1e-12);
     EXPECT_NEAR(l[3], -r[3], 1e-12) << f;
   }
@@ -152,7 +156,7 @@ TEST(OwnActions, TheRightSideMirrorsTheLeft) {
 TEST(OwnActions, AVariantOnTheRightMirrorsItsPoints) {
   const auto human = human_of(with({kPoint}));
   const auto play = [&](const ActionUse& action) {
-    return motion_hash(generate(testing::stage_of({testing::sequence({action})}, 0, human)));
+    return motion_hash(generate(fixtures::stage_of({fixtures::sequence({action})}, 0, human)));
   };
   EXPECT_EQ(play(use("point", "arm_right", 0, 30, {})),
             play(use("reach", "arm_right", 0, 30, {{"target_m", Vec3(-0.3, 1.4, 0.5)}, {"swivel_deg", -15.0}})));
@@ -165,22 +169,24 @@ TEST(OwnActions, AreRefusedWithACodeAndAPlace) {
   const auto file = [](const std::string& rest) {
     return R"({"format": "contort.action/1", "name": "x", )" + rest + "}";
   };
-  EXPECT_EQ(refusal(file(R"("kinds": ["arm"], "of": "fly")")), "action.unknown_action /of");
-  EXPECT_EQ(refusal(file(R"("kinds": ["arm"], "of": "walk")")), "action.unsupported /of");
-  EXPECT_EQ(refusal(file(R"("kinds": ["wing"], "of": "pose")")), "action.fits_nothing /kinds");
-  EXPECT_EQ(refusal(file(R"("parts": ["human_wing"], "of": "pose")")), "action.unknown_part /parts/0");
-  EXPECT_EQ(refusal(file(R"("parts": ["human_arm"], "of": "reach", "params": {"speed_m_s": 1})")),
+  EXPECT_EQ(refusal_of_library(file(R"("kinds": ["arm"], "of": "fly")")), "action.unknown_action /of");
+  EXPECT_EQ(refusal_of_library(file(R"("kinds": ["arm"], "of": "walk")")), "action.unsupported /of");
+  EXPECT_EQ(refusal_of_library(file(R"("kinds": ["wing"], "of": "pose")")), "action.fits_nothing /kinds");
+  EXPECT_EQ(refusal_of_library(file(R"("parts": ["human_wing"], "of": "pose")")), "action.unknown_part /parts/0");
+  EXPECT_EQ(refusal_of_library(file(R"("parts": ["human_arm"], "of": "reach", "params": {"speed_m_s": 1})")),
             "action.unknown_param /params/speed_m_s");
-  EXPECT_EQ(refusal(file(R"("parts": ["human_arm"], "of": "reach", "params": {"swivel_deg": 1000})")),
+  EXPECT_EQ(refusal_of_library(file(R"("parts": ["human_arm"], "of": "reach", "params": {"swivel_deg": 1000})")),
             "action.out_of_range /params/swivel_deg");
-  EXPECT_EQ(refusal(file(R"("parts": ["human_arm"], "keys": [{"at": 1, "pose": {"knee_deg": 3}}])")),
+  EXPECT_EQ(refusal_of_library(file(R"("parts": ["human_arm"], "keys": [{"at": 1, "pose": {"knee_deg": 3}}])")),
             "action.unknown_param /keys/0/pose/knee_deg");
-  EXPECT_EQ(refusal(file(R"("parts": ["human_arm"], "keys": [{"at": 1, "pose": {"elbow_deg": [1, 2, 3]}}])")),
-            "action.wrong_type /keys/0/pose/elbow_deg");
-  EXPECT_EQ(refusal(R"({"format": "contort.action/1", "name": "recoil", "kinds": ["arm"], "of": "recoil"})"),
+  EXPECT_EQ(
+      refusal_of_library(file(R"("parts": ["human_arm"], "keys": [{"at": 1, "pose": {"elbow_deg": [1, 2, 3]}}])")),
+      "action.wrong_type /keys/0/pose/elbow_deg");
+  EXPECT_EQ(refusal_of_library(R"({"format": "contort.action/1", "name": "recoil", "kinds": ["arm"], "of": "recoil"})"),
             "action.duplicate_name /name");
-  EXPECT_EQ(refusal(R"({"format": "contort.action/1", "name": "recoil", "parts": ["human_arm"], "of": "recoil"})"),
-            "action.stock_part /parts/0");
+  EXPECT_EQ(
+      refusal_of_library(R"({"format": "contort.action/1", "name": "recoil", "parts": ["human_arm"], "of": "recoil"})"),
+      "action.stock_part /parts/0");
 }
 
 // By kind: parts of another build cannot do it, and the spec that asks for it says so.
@@ -189,19 +195,19 @@ TEST(OwnActions, PartsOfAKindThatLackAJointCannotDoIt) {
     "keys": [{"at": 1, "pose": {"wrist_rot_deg": 30}}]})"});
   ASSERT_TRUE(check_actions(library).ok());
   Spec spec;
-  spec.character = testing::mech_choice({{"arm_left", "mech_arm_shield"}});
-  spec.sequences = {testing::sequence({use("twist", "arm_left", 0, 10, {})})};
+  spec.character = fixtures::mech_choice({{"arm_left", "mech_arm_shield"}});
+  spec.sequences = {fixtures::sequence({use("twist", "arm_left", 0, 10, {})})};
   EXPECT_EQ(build_stage(spec, library).issue().code, "spec.unsupported_action");
-  spec.character = testing::mech_choice({{"arm_left", "mech_arm_slim"}});
+  spec.character = fixtures::mech_choice({{"arm_left", "mech_arm_slim"}});
   EXPECT_TRUE(build_stage(spec, library).ok());
 }
 
 // A case is judged against the actions that it was found with.
 TEST(OwnActions, CountAsAPartOfTheCharacter) {
-  const Character plain = testing::built({});
-  EXPECT_NE(testing::built({}, with({kNod})).hash(), plain.hash());
-  EXPECT_NE(testing::built({}, with({kNod})).hash(), testing::built({}, with({kPoint})).hash());
-  EXPECT_EQ(testing::built({}, with({kShieldNod})).hash(), plain.hash());  // for a part that a human has not
+  const Character plain = fixtures::built({});
+  EXPECT_NE(fixtures::built({}, with({kNod})).hash(), plain.hash());
+  EXPECT_NE(fixtures::built({}, with({kNod})).hash(), fixtures::built({}, with({kPoint})).hash());
+  EXPECT_EQ(fixtures::built({}, with({kShieldNod})).hash(), plain.hash());  // for a part that a human has not
 }
 
 TEST(OwnActions, TheFuzzerDrawsThem) {

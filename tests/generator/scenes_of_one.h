@@ -11,7 +11,7 @@
 #include "generator/generate.h"
 #include "tests/character/stock.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 inline ActionUse use(const std::string& action, const std::string& slot, int start_frame, int duration_frames,
                      std::map<std::string, ParamValue> params) {
@@ -53,4 +53,4 @@ inline double coord(const Motion& motion, int frame, const Character& character,
   return motion.row(frame)[static_cast<std::size_t>(joint(character, joint_name).coord)];
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

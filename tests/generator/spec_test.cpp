@@ -19,8 +19,8 @@ namespace contort {
 namespace {
 
 using Json = nlohmann::json;
-using testing::elbow;
-using testing::sequence;
+using fixtures::elbow;
+using fixtures::sequence;
 
 std::string any_name() {
   return *rc::gen::resize(10, rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::element('a', 'z', '0', '_'))));
@@ -45,7 +45,7 @@ ActionUse any_action() {
   use.action = any_name(), use.slot = any_name();
   use.start_frame = *rc::gen::inRange(0, 36001);
   use.duration_frames = *rc::gen::inRange(1, 36001);
-  use.speed = testing::lattice_number(0.1, 10);
+  use.speed = fixtures::lattice_number(0.1, 10);
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) use.params[any_name()] = any_param();
   return use;
 }
@@ -60,7 +60,7 @@ ClipDesc any_clip() {
   clip.name = any_label();
   clip.start_frame = *rc::gen::inRange(0, 36001);
   clip.duration_frames = *rc::gen::inRange(0, 36001);
-  clip.speed = testing::lattice_number(0.1, 10);
+  clip.speed = fixtures::lattice_number(0.1, 10);
   for (int i = *rc::gen::inRange(0, 3); i > 0; --i) clip.actions.push_back(any_action());
   return clip;
 }
@@ -70,7 +70,7 @@ Spec any_spec() {
   spec.character.name = any_name();
   for (int i = *rc::gen::inRange(0, 3); i > 0; --i) spec.character.parts[any_name()] = any_name();
   if (*rc::gen::arbitrary<bool>()) spec.character.attachments.push_back({any_name(), any_name(), any_name()});
-  spec.rate_hz = testing::lattice_number(1, 1000);
+  spec.rate_hz = fixtures::lattice_number(1, 1000);
   spec.hold_frames = *rc::gen::inRange(0, 6001);
   for (int i = *rc::gen::inRange(0, 3); i > 0; --i) {
     SequenceDesc made;

@@ -30,7 +30,8 @@ void remove(Spec& spec, const std::vector<std::string>& actions) {
   });
 }
 
-// Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is below.
+// Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is
+// below.
 Spec drawn(std::int64_t index) {
   Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 21, index);
   spec.dynamics = {};  // laws of what actions make; control decides by thresholds
@@ -46,7 +47,7 @@ Motion play(const Spec& spec) {
 
 void expect_near(const Rigid& a, const Rigid& b, const std::string& where) {
   EXPECT_LT(rotation_angle(glm::conjugate(a.q) * b.q), kLaw) << where;
-  EXPECT_LT(testing::length(a.p_m - b.p_m), kLaw) << where;
+  EXPECT_LT(length(a.p_m - b.p_m), kLaw) << where;
 }
 
 TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
@@ -122,20 +123,23 @@ TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
 
 std::string other_side(std::string slot) {
   for (const auto& [from, to] : {std::pair("_left", "_right"), std::pair("_right", "_left")})
-    if (const std::size_t at = slot.rfind(from); at != std::string::npos && at + std::string(from).size() == slot.size())
+    if (const std::size_t at = slot.rfind(from);
+        at != std::string::npos && at + std::string(from).size() == slot.size())
       return slot.substr(0, at) + to;
   return slot;
 }
 
 // A parameter as it must be for the mirrored action. Parts on the right are mirrored already, so hinges keep their
 // angles on the other side; in the middle what turns about y or z changes its sign.
-ParamValue mirrored(const Character& character, const ActionUse& use, const std::string& name, const ParamValue& value) {
+ParamValue mirrored(const Character& character, const ActionUse& use, const std::string& name,
+                    const ParamValue& value) {
   if (use.action == "pose") {
     const Part& part = character.parts()[static_cast<std::size_t>(character.find_part(use.slot))];
     const std::string joint_name = name.substr(0, name.rfind('_'));
-    const Joint& joint = testing::joint(character, use.slot + "/" + joint_name);
+    const Joint& joint = fixtures::joint(character, use.slot + "/" + joint_name);
     if (const auto* v = std::get_if<Vec3>(&value)) return Vec3(v->x, -v->y, -v->z);
-    const bool turns_over = part.side == Side::center && joint.kind == JointKind::hinge && std::fabs(joint.axis.x) < 0.5;
+    const bool turns_over =
+        part.side == Side::center && joint.kind == JointKind::hinge && std::fabs(joint.axis.x) < 0.5;
     return turns_over ? ParamValue(-std::get<double>(value)) : value;
   }
   if (name == "lead") return std::string(std::get<std::string>(value) == "left" ? "right" : "left");
@@ -155,7 +159,7 @@ EnvironmentDesc mirrored(EnvironmentDesc environment) {
 }
 
 Spec mirrored(const Spec& spec) {
-  const Character character = testing::built(spec.character);
+  const Character character = fixtures::built(spec.character);
   Spec out = spec;
   out.environment = mirrored(spec.environment);
   out.character.parts.clear();
@@ -178,7 +182,7 @@ void expect_mirrored(const Character& a, const Motion& motion, const Character& 
   for (const Joint& joint : a.joints()) {
     if (joint.kind == JointKind::root) continue;
     const Part& part = a.parts()[static_cast<std::size_t>(joint.part)];
-    const Joint& twin = testing::joint(b, other_side(part.slot) + "/" + joint.local_name);
+    const Joint& twin = fixtures::joint(b, other_side(part.slot) + "/" + joint.local_name);
     const double* q = motion.row(f).data() + joint.coord;
     const double* r = other.row(f).data() + twin.coord;
     const std::string where = joint.name + " in frame " + std::to_string(f);
@@ -199,7 +203,7 @@ TEST(Symmetry, AMirroredSpecGivesTheMirroredMotion) {
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     const Spec spec = drawn(i);
     const Spec twin = mirrored(spec);
-    const Character a = testing::built(spec.character), b = testing::built(twin.character);
+    const Character a = fixtures::built(spec.character), b = fixtures::built(twin.character);
     const Motion motion = play(spec), other = play(twin);
     ASSERT_EQ(motion.frame_count, other.frame_count);
     for (int f = 0; f < motion.frame_count; ++f) {
@@ -215,15 +219,15 @@ double aim_error_rad(const StartDesc& start, const std::string& side, const Vec3
   Spec spec;
   spec.start = start;
   spec.character.attachments = {{"rifle", "hand_" + side, "grip"}};
-  spec.sequences = {testing::sequence({testing::use("aim", "arm_" + side, 0, 30, {{"target_m", target_m}})})};
+  spec.sequences = {fixtures::sequence({fixtures::use("aim", "arm_" + side, 0, 30, {{"target_m", target_m}})})};
   const Motion motion = play(spec);
-  const Character character = testing::built(spec.character);
+  const Character character = fixtures::built(spec.character);
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, motion.root.back(), motion.row(motion.frame_count - 1), world);
   const Rigid muzzle = world_from_socket(character, world, character.find_socket("object:rifle/muzzle"));
   const Rigid world_from_start{axis_angle(Vec3(0, 1, 0), start.heading_deg * kRadPerDeg), start.position_m};
   const Vec3 towards = unit_or(world_from_start * target_m - muzzle.p_m, Vec3(0.0));
-  return testing::length(muzzle.q * Vec3(0, 0, 1) - towards);
+  return length(muzzle.q * Vec3(0, 0, 1) - towards);
 }
 
 TEST(Symmetry, AimHitsTheMovedAndTheMirroredTargetAsWell) {

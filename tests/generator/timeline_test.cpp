@@ -12,10 +12,10 @@
 namespace contort {
 namespace {
 
-using testing::elbow;
-using testing::human;
-using testing::lattice_number;
-using testing::sequence;
+using fixtures::elbow;
+using fixtures::human;
+using fixtures::lattice_number;
+using fixtures::sequence;
 
 Timeline timeline_of(const std::vector<SequenceDesc>& sequences) {
   const Result<Timeline> timeline = lay_out({sequences, {}, human()});

@@ -9,11 +9,11 @@
 namespace contort {
 namespace {
 
-using testing::append_u32;
-using testing::ByteList;
-using testing::pack_glb;
-using testing::small_arm;
-using testing::to_bytes;
+using fixtures::append_u32;
+using fixtures::ByteList;
+using fixtures::pack_glb;
+using fixtures::small_arm;
+using fixtures::to_bytes;
 
 void set_u32(ByteList& bytes, std::size_t offset, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) bytes[offset + i] = static_cast<std::byte>(value >> (8 * i));

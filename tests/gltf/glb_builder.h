@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 using Json = nlohmann::json;
 using ByteList = std::vector<std::byte>;
@@ -115,4 +115,4 @@ inline GlbBuilder small_arm() {
   return b;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

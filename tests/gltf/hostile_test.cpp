@@ -13,11 +13,11 @@
 namespace contort {
 namespace {
 
-using testing::ByteList;
-using testing::GlbBuilder;
-using testing::Json;
-using testing::pack_glb;
-using testing::small_arm;
+using fixtures::ByteList;
+using fixtures::GlbBuilder;
+using fixtures::Json;
+using fixtures::pack_glb;
+using fixtures::small_arm;
 
 struct Hostile {
   const char* name;

@@ -15,7 +15,7 @@
 namespace contort {
 namespace {
 
-const std::string kAssets = std::string(CONTORT_SOURCE_DIR) + "/../shared/assets";
+const std::string kTableFolder = std::string(CONTORT_SOURCE_DIR) + "/../shared/assets";
 constexpr double kMostSeconds = 1.0;  // of CPU; the machine may be busy
 constexpr double kMost_MB = 512.0;
 
@@ -51,13 +51,13 @@ Expected of_facts(const std::string& facts) {
 // By the path below shared/assets/gltf.
 std::map<std::string, Expected> malformed_files() {
   std::map<std::string, Expected> out;
-  std::ifstream manifest(kAssets + "/MANIFEST.tsv");
+  std::ifstream manifest(kTableFolder + "/MANIFEST.tsv");
   for (std::string line; std::getline(manifest, line);) {
     std::vector<std::string> fields;
     std::istringstream stream(line);
     for (std::string field; std::getline(stream, field, '\t');) fields.push_back(field);
     if (fields.size() < 11 || fields[1] != "gltf-malformed" || fields[2] != "main") continue;
-    const std::string report = kAssets + "/" + fields[0] + ".report.json";
+    const std::string report = kTableFolder + "/" + fields[0] + ".report.json";
     out[fields[0].substr(5)] = std::filesystem::exists(report) ? of_report(report) : of_facts(fields[10]);
   }
   return out;
@@ -91,14 +91,14 @@ std::vector<std::string> differences(const std::string& file, const Expected& ex
 }
 
 TEST(MalformedAssets, EachGetsACleanAnswerWithinItsLimitsAndDifferencesAreExplained) {
-  if (!std::filesystem::exists(kAssets + "/MANIFEST.tsv")) GTEST_SKIP() << "no folder " << kAssets;
+  if (!std::filesystem::exists(kTableFolder + "/MANIFEST.tsv")) GTEST_SKIP() << "no folder " << kTableFolder;
   const std::map<std::string, std::string> reasons = known_reasons();
   std::set<std::string> used;
   const auto files = malformed_files();
   EXPECT_EQ(files.size(), 138U);
   std::printf("%-110s %-10s %-18s %6s %5s  %s\n", "file", "validator", "contort", "ms", "MB", "why they differ");
   for (const auto& [file, expected] : files) {
-    const Ran ran = contort_program({"check", kAssets + "/gltf/" + file});
+    const Ran ran = contort_program({"check", kTableFolder + "/gltf/" + file});
     const std::string ours = answer(ran);
     EXPECT_TRUE(ours == "accepted" || ours.starts_with("gltf.")) << file << ": " << ours;
     EXPECT_EQ(ran.err.find("ERROR: "), std::string::npos) << ran.err;  // a sanitizer's

@@ -13,10 +13,10 @@
 namespace contort {
 namespace {
 
-using testing::GlbBuilder;
-using testing::Json;
-using testing::pack_glb;
-using testing::small_arm;
+using fixtures::GlbBuilder;
+using fixtures::Json;
+using fixtures::pack_glb;
+using fixtures::small_arm;
 
 Asset read(const GlbBuilder& builder) {
   const auto result = parse_glb(builder.glb());

@@ -17,9 +17,9 @@
 namespace contort {
 namespace {
 
-using testing::Json;
+using fixtures::Json;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 Character stock(const std::string& name) {
   CharacterChoice choice;
@@ -199,10 +199,10 @@ Issue issue_of(const Character& character, const Motion& motion, const GltfExtra
 TEST(WriteGlb, NamesTheFirstFrameAndJointThatIsNotFinite) {
   const std::size_t hinge = moving_joint(human(), JointKind::hinge);
   const Joint& joint = human().joints()[hinge];
-  for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {kNotANumber, std::numeric_limits<double>::infinity()}) {
     Motion motion = swinging(human(), 6);
     motion.row(3)[static_cast<std::size_t>(joint.coord)] = bad;
-    motion.row(5)[0] = kNan;
+    motion.row(5)[0] = kNotANumber;
     const Issue issue = issue_of(human(), motion);
     EXPECT_EQ(issue.code, "gltf.not_finite");
     EXPECT_EQ(issue.pointer, "/coords/" + std::to_string(3 * motion.coord_count + joint.coord));
@@ -211,7 +211,7 @@ TEST(WriteGlb, NamesTheFirstFrameAndJointThatIsNotFinite) {
 }
 
 TEST(WriteGlb, RefusesRootsThatAreNotFiniteOrTooFarAway) {
-  for (const double bad : {kNan, -std::numeric_limits<double>::infinity(), 1e39}) {
+  for (const double bad : {kNotANumber, -std::numeric_limits<double>::infinity(), 1e39}) {
     Motion motion = swinging(human(), 4);
     motion.root[2].p_m.y = bad;
     const Issue issue = issue_of(human(), motion);
@@ -240,7 +240,7 @@ TEST(WriteGlb, RefusesMotionsOfAnotherCharacter) {
 }
 
 TEST(WriteGlb, RefusesRatesThatAreNoRates) {
-  for (const double rate : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+  for (const double rate : {0.0, -1.0, kNotANumber, std::numeric_limits<double>::infinity()}) {
     Motion motion = swinging(human(), 2);
     motion.rate_hz = rate;
     EXPECT_EQ(issue_of(human(), motion).code, "gltf.bad_rate") << rate;

@@ -81,7 +81,7 @@ void print_recursions(const char* which, const RecursionSet& set) {
     std::mt19937_64 engine(5);
     std::vector<double> forces(n), matrix(n * n), product(n);
     for (int i = 0; i < 20; ++i) {
-      const testing::DynamicsState state = testing::any_state(body, engine);
+      const fixtures::DynamicsState state = fixtures::any_state(body, engine);
       DynamicsScratch scratch;
       place(body, state.root, state.coords, scratch);
       inverse_dynamics(body, state.velocity, state.acceleration, kGravity_m_s2, scratch, forces);

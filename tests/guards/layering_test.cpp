@@ -168,13 +168,13 @@ TEST(Layering, OneFileOpensOSMesa) {
   EXPECT_EQ(doors.size(), 1U) << testing::PrintToString(doors);
 }
 
-struct Example {
+struct LayerExample {
   const char* path;
   const char* text;
 };
 
 TEST(Layering, RefusesPlantedViolations) {
-  constexpr Example kBad[] = {
+  constexpr LayerExample kBad[] = {
       {"generator/core/math.h", "#include \"generator/character/character.h\"\n"},
       {"generator/motion/ik.cpp", "#include \"generator/actions/registry.h\"\n"},
       {"generator/actions/walk.cpp", "#include \"generator/timeline/queue.h\"\n"},
@@ -217,13 +217,13 @@ TEST(Layering, RefusesPlantedViolations) {
       {"fuzz/run.h", "#include <unistd.h>\n"},
       {"fuzz/run.cpp", "/* not here */ #include <Python.h>\n"},
   };
-  for (const Example& bad : kBad) {
+  for (const LayerExample& bad : kBad) {
     EXPECT_EQ(layering_violations(bad.path, bad.text).size(), 1U) << bad.path << " with " << bad.text;
   }
 }
 
 TEST(Layering, AllowsWhatIsRight) {
-  constexpr Example kGood[] = {
+  constexpr LayerExample kGood[] = {
       {"generator/core/math.h", "#include <glm/vec3.hpp>\n#include <vector>\n"},
       {"generator/core/json_fields.h", "#include <nlohmann/json.hpp>\n"},
       {"generator/core/hash.cpp", "#include <xxhash.h>\n"},
@@ -240,7 +240,7 @@ TEST(Layering, AllowsWhatIsRight) {
       {"bench/generate_bench.cpp", "#include <benchmark/benchmark.h>\n#include \"tests/scenes.h\"\n"},
       {"checks/fold.cpp", "// #include \"cli/options.h\"\nconst char* s = R\"(\n#include \"cli/options.h\"\n)\";\n"},
   };
-  for (const Example& good : kGood) {
+  for (const LayerExample& good : kGood) {
     const std::vector<Violation> violations = layering_violations(good.path, good.text);
     EXPECT_TRUE(violations.empty()) << to_text(violations);
   }

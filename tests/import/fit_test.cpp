@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "generator/core/math.h"
+
 namespace contort {
 namespace {
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 double drawn(double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 1001) / 1000.0; }
 Vec3 drawn_vector(double most) {

@@ -12,9 +12,9 @@ TEST(ImportedFuzz, EverySpecOfAGiantBuilds) {
   ImportOptions options;
   options.name = "figure";
   options.height_m = 25.0;  // arms of 10 m, 200 tonnes
-  const Result<Imported> in = testing::imported(testing::rigged(testing::person()), options);
+  const Result<Imported> in = fixtures::imported(fixtures::rigged(fixtures::person()), options);
   ASSERT_TRUE(in.ok()) << to_line(in.issue());
-  const Library library = testing::library_of(*in);
+  const Library library = fixtures::library_of(*in);
   int moved_by_forces = 0;
   for (int index = 0; index < 400; ++index) {
     const Spec spec = draw_spec({{"figure"}}, library, 3, index);

@@ -14,11 +14,11 @@
 namespace contort {
 namespace {
 
-using testing::character_of;
-using testing::imported;
-using testing::part_in;
-using testing::person;
-using testing::rigged;
+using fixtures::character_of;
+using fixtures::imported;
+using fixtures::part_in;
+using fixtures::person;
+using fixtures::rigged;
 
 Imported must(const Result<Imported>& result) {
   EXPECT_TRUE(result.ok()) << to_line(result.issue());
@@ -66,7 +66,7 @@ TEST(Import, JointsStandWhereTheModelHasThem) {
   ASSERT_TRUE(character.ok());
   std::vector<Rigid> world(character->joints().size());
   forward_kinematics(*character, character->rest_root(), character->rest_coords(), world);
-  for (const testing::RiggedBone& bone : person()) {
+  for (const fixtures::RiggedBone& bone : person()) {
     if (bone.parent < 0) continue;
     const int joint = character->find_joint(in.cut.joint_of_node.at(bone.name));
     ASSERT_GE(joint, 0) << bone.name;
@@ -76,12 +76,12 @@ TEST(Import, JointsStandWhereTheModelHasThem) {
 }
 
 TEST(Import, RestPoseViolatesNothing) {
-  for (const auto& bones : {person(), testing::worm(6)}) {
+  for (const auto& bones : {person(), fixtures::worm(6)}) {
     const Imported in = must(imported(rigged(bones)));
     Spec spec;
     spec.character.name = "figure";
     spec.hold_frames = 5;
-    const Result<Stage> stage = build_stage(spec, testing::library_of(in));
+    const Result<Stage> stage = build_stage(spec, fixtures::library_of(in));
     ASSERT_TRUE(stage.ok()) << to_line(stage.issue());
     Evaluator evaluator;
     EXPECT_EQ(evaluator.run(*stage).findings, std::vector<Finding>{});
@@ -97,7 +97,7 @@ TEST(Import, APersonWeighsWhatDeLevaSays) {
 }
 
 TEST(Import, AnythingElseWeighsWhatItsCollidersHold) {
-  const Imported in = must(imported(rigged(testing::worm(3))));
+  const Imported in = must(imported(rigged(fixtures::worm(3))));
   const auto& shape = std::get<Capsule>(part_in(in, "body")->colliders.front().shape);
   EXPECT_NEAR(shape.radius_m, 0.1, 0.01);
   const double half = 0.15;  // of the straight part of a box of 0.5 m
@@ -167,17 +167,17 @@ TEST(Import, HeavyCustomersAreRefusedByName) {
     options.name = name;
     EXPECT_EQ(code_of(imported(rigged(person()), options)), "import.bad_name") << name;
   }
-  EXPECT_EQ(code_of(imported(testing::small_arm())), "import.no_vertices");
-  testing::GlbBuilder bare;
+  EXPECT_EQ(code_of(imported(fixtures::small_arm())), "import.no_vertices");
+  fixtures::GlbBuilder bare;
   bare.root["nodes"] = {{{"name", "a"}}};
   EXPECT_EQ(code_of(imported(bare)), "import.no_skin");
   EXPECT_EQ(code_of(imported(rigged({{"dot", -1, Vec3(0.0), Vec3(0.0), Vec3(0.0)}}))), "import.flat");
-  EXPECT_EQ(code_of(imported(rigged(testing::worm(3), {1e7, kNoRotation}))), "import.too_large");
+  EXPECT_EQ(code_of(imported(rigged(fixtures::worm(3), {1e7, kNoRotation}))), "import.too_large");
 }
 
 TEST(Import, JointsAreCounted) {
-  EXPECT_EQ(code_of(imported(rigged(testing::worm(60)))), "");
-  std::vector<testing::RiggedBone> star = {{"hub", -1, Vec3(0.0), Vec3(-0.1), Vec3(0.1)}};
+  EXPECT_EQ(code_of(imported(rigged(fixtures::worm(60)))), "");
+  std::vector<fixtures::RiggedBone> star = {{"hub", -1, Vec3(0.0), Vec3(-0.1), Vec3(0.1)}};
   for (int i = 0; i < 130; ++i) {  // a hub of 260 joints in 130 branches
     const Vec3 place(0.0, 0.01 * i, 0.0);
     star.push_back({"in", 0, place, Vec3(-0.1), Vec3(0.1)});
@@ -192,8 +192,8 @@ TEST(Import, JointsAreCounted) {
 }
 
 TEST(Import, VrmBonesGoBeforeNames) {
-  std::vector<testing::RiggedBone> bones = person();
-  testing::Json version_1, version_0 = testing::Json::array();
+  std::vector<fixtures::RiggedBone> bones = person();
+  fixtures::Json version_1, version_0 = fixtures::Json::array();
   const char* names[] = {"hips",      "spine",         "neck",          "head",     "leftUpperArm",  "leftLowerArm",
                          "leftHand",  "leftUpperLeg",  "leftLowerLeg",  "leftFoot", "rightUpperArm", "rightLowerArm",
                          "rightHand", "rightUpperLeg", "rightLowerLeg", "rightFoot"};
@@ -202,7 +202,7 @@ TEST(Import, VrmBonesGoBeforeNames) {
     version_1[names[i]] = {{"node", i + 1}};
     version_0.push_back({{"bone", names[i]}, {"node", i + 1}});
   }
-  testing::GlbBuilder b = rigged(bones);
+  fixtures::GlbBuilder b = rigged(bones);
   EXPECT_FALSE(must(imported(b)).figure.is_humanoid);
   b.root["extensions"] = {{"VRMC_vrm", {{"humanoid", {{"humanBones", version_1}}}}}};
   EXPECT_TRUE(must(imported(b)).figure.is_humanoid);
@@ -216,8 +216,8 @@ TEST(Import, VrmBonesGoBeforeNames) {
 
 // Rigs move feet by handles that hang on nothing; here they belong to a leg.
 TEST(Import, LooseFeetGoToTheNearestLegOfTheirSide) {
-  std::vector<testing::RiggedBone> bones = person();
-  for (testing::RiggedBone& bone : bones)
+  std::vector<fixtures::RiggedBone> bones = person();
+  for (fixtures::RiggedBone& bone : bones)
     if (bone.name.ends_with("Foot")) bone.parent = 0;
   const Imported in = must(imported(rigged(bones)));
   EXPECT_EQ(in.cut.joint_of_node.at("LeftFoot"), "foot_left/ankle_flex");
@@ -228,7 +228,7 @@ TEST(Import, LooseFeetGoToTheNearestLegOfTheirSide) {
 }
 
 TEST(Import, JointsThatMoveNoSkinAreLeftOut) {
-  testing::GlbBuilder b = rigged(person());
+  fixtures::GlbBuilder b = rigged(person());
   b.root["nodes"].push_back({{"name", "kneePole.l"}});
   const std::size_t pole = b.root["nodes"].size() - 1;
   b.root["nodes"][0]["children"].push_back(pole);
@@ -248,7 +248,7 @@ TEST(Import, EqualFilesGiveEqualBytes) {
 }
 
 TEST(Import, NamesOfStrangersStayOutOfTheReportsMarkup) {
-  std::vector<testing::RiggedBone> bones = testing::worm(3);
+  std::vector<fixtures::RiggedBone> bones = fixtures::worm(3);
   bones[1].name = "a|b`<script>\n../..";
   const Imported in = must(imported(rigged(bones)));
   const std::string& report = in.files.back().text;
@@ -258,7 +258,7 @@ TEST(Import, NamesOfStrangersStayOutOfTheReportsMarkup) {
 }
 
 TEST(Import, ContactsOfTheRestPoseAreAllowedAndSaidSo) {
-  std::vector<testing::RiggedBone> bones = person();
+  std::vector<fixtures::RiggedBone> bones = person();
   bones[6].low.x = -0.6, bones[6].high.x = -0.4;  // the left hand's skin lies in the chest
   const Imported in = must(imported(rigged(bones)));
   ASSERT_FALSE(in.contacts.pairs.empty());
@@ -269,12 +269,12 @@ TEST(Import, ContactsOfTheRestPoseAreAllowedAndSaidSo) {
 
 // Found groups of control have eight handles at most, however many limbs a model has.
 TEST(Import, ManyArmedFiguresCanBeSimulated) {
-  std::vector<testing::RiggedBone> bones = person();
+  std::vector<fixtures::RiggedBone> bones = person();
   for (int pair = 1; pair < 4; ++pair)
     for (const int arm : {4, 10}) {
       const int first = static_cast<int>(bones.size());
       for (int k = 0; k < 2; ++k) {
-        testing::RiggedBone bone = bones[static_cast<std::size_t>(arm + k)];
+        fixtures::RiggedBone bone = bones[static_cast<std::size_t>(arm + k)];
         bone.name += std::to_string(pair);
         bone.parent = k == 0 ? 1 : first;
         bone.place.y -= 0.12 * pair;
@@ -288,7 +288,7 @@ TEST(Import, ManyArmedFiguresCanBeSimulated) {
   spec.hold_frames = 60;
   spec.dynamics.mode = Mode::dynamic;
   spec.dynamics.impacts = {{5, "torso", "", Vec3(0.0), Vec3(0.0, 0.0, 40.0)}};
-  const Result<Stage> stage = build_stage(spec, testing::library_of(in));
+  const Result<Stage> stage = build_stage(spec, fixtures::library_of(in));
   ASSERT_TRUE(stage.ok()) << to_line(stage.issue());
   ASSERT_NE(stage->dynamics, nullptr);
   for (const ControlGroup& group : stage->dynamics->figure.groups) EXPECT_LE(group.handles.size(), 8U) << group.name;

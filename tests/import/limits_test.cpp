@@ -10,12 +10,12 @@
 namespace contort {
 namespace {
 
-using testing::imported;
-using testing::part_in;
+using fixtures::imported;
+using fixtures::part_in;
 
 // A worm's second joint in those poses, once a second.
 Imported worm_that_turns(const std::vector<Quat>& poses) {
-  testing::GlbBuilder b = testing::rigged(testing::worm(3));
+  fixtures::GlbBuilder b = fixtures::rigged(fixtures::worm(3));
   std::vector<float> times, values;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     times.push_back(static_cast<float>(i));
@@ -29,7 +29,7 @@ Imported worm_that_turns(const std::vector<Quat>& poses) {
 }
 
 std::vector<Finding> judged(const Imported& in, const std::vector<Quat>& poses) {
-  const Result<Character> character = testing::character_of(in);
+  const Result<Character> character = fixtures::character_of(in);
   Motion motion;
   motion.coord_count = character->coord_count();
   const Joint& joint = character->joints()[static_cast<std::size_t>(character->find_joint("body/x1"))];
@@ -69,7 +69,7 @@ TEST(ImportedLimits, AreNotMuchWiderThanTheClips) {
 }
 
 TEST(ImportedLimits, WithoutClipsAreGeneric) {
-  const Result<Imported> in = imported(testing::rigged(testing::worm(3)));
+  const Result<Imported> in = imported(fixtures::rigged(fixtures::worm(3)));
   ASSERT_TRUE(in.ok());
   const JointDesc& joint = part_in(*in, "body")->joints[0];
   EXPECT_EQ(joint.type, JointType::ball);
@@ -79,9 +79,9 @@ TEST(ImportedLimits, WithoutClipsAreGeneric) {
 
 // Spread arms hang down, swing forward and back as the stock human's do.
 TEST(ImportedLimits, ShouldersTakeThePosesOfPeopleFromAnyRestPose) {
-  const Result<Imported> in = imported(testing::rigged(testing::person()));
+  const Result<Imported> in = imported(fixtures::rigged(fixtures::person()));
   ASSERT_TRUE(in.ok());
-  const Result<Character> character = testing::character_of(*in);
+  const Result<Character> character = fixtures::character_of(*in);
   const Joint& shoulder = character->joints()[static_cast<std::size_t>(character->find_joint("arm_left/shoulder"))];
   const auto judge = [&](const Quat& q) {
     Motion motion;

@@ -9,7 +9,7 @@
 #include "import/import.h"
 #include "tests/gltf/glb_builder.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 struct RiggedBone {
   std::string name;
@@ -128,4 +128,4 @@ inline const PartDesc* part_in(const Imported& imported, const std::string& slot
   return nullptr;
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -7,16 +7,16 @@
 namespace contort {
 namespace {
 
-using testing::GlbBuilder;
-using testing::rigged;
-using testing::worm;
+using fixtures::GlbBuilder;
+using fixtures::rigged;
+using fixtures::worm;
 
 std::string code_of(const GlbBuilder& b) {
   const Result<SkinnedAsset> read = parse_skinned_glb(b.glb());
   return read.ok() ? "" : read.issue().code;
 }
 
-testing::Json& attributes(GlbBuilder& b) { return b.root["meshes"][0]["primitives"][0]["attributes"]; }
+fixtures::Json& attributes(GlbBuilder& b) { return b.root["meshes"][0]["primitives"][0]["attributes"]; }
 
 TEST(SkinnedGltf, VerticesComeWithJointsWeightsAndTriangles) {
   const Result<SkinnedAsset> read = parse_skinned_glb(rigged(worm(2)).glb());
@@ -88,7 +88,7 @@ TEST(SkinnedGltf, BadMeshesHinderNobodyElse) {
 
 // Whatever changes, the answer is a figure or an issue.
 RC_GTEST_PROP(SkinnedGltf, ChangedBytesNeverCrashAnImport, ()) {
-  testing::ByteList glb = rigged(worm(3)).glb();
+  fixtures::ByteList glb = rigged(worm(3)).glb();
   const auto changes = *rc::gen::container<std::vector<std::pair<std::uint16_t, std::uint8_t>>>(
       rc::gen::arbitrary<std::pair<std::uint16_t, std::uint8_t>>());
   for (const auto& [place, value] : changes) glb[20 + place % (glb.size() - 20)] = static_cast<std::byte>(value);
@@ -106,7 +106,7 @@ RC_GTEST_PROP(SkinnedGltf, OddNumbersNeverBreakAFigure, ()) {
   const std::size_t node = *rc::gen::inRange<std::size_t>(0, 4);
   const std::string field = *rc::gen::element<std::string>("translation", "scale");
   b.root["nodes"][node][field] = {*odd, *odd, *odd};
-  const Result<Imported> in = testing::imported(b);
+  const Result<Imported> in = fixtures::imported(b);
   if (!in.ok()) RC_ASSERT(in.issue().code.starts_with("import.") || in.issue().code.starts_with("gltf."));
 }
 

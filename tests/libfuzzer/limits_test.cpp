@@ -122,7 +122,7 @@ TEST(LargeInput, BonesThatStayCostNoTimeInEachFrame) {
 // Each buffer wants one byte of a file, all of which is read for it.
 TEST(LargeInput, BuffersAreReadUpToALimitAndNotOnceForEachThatNamesAFile) {
   const TempFolder folder;
-  testing::Json root = testing::small_arm().document();
+  fixtures::Json root = fixtures::small_arm().document();
   for (int i = 0; i < 1000; ++i) root["buffers"].push_back({{"byteLength", 1}, {"uri", "large.bin"}});
   root["buffers"][0]["uri"] = "large.bin";
   spill(folder / "arm.gltf", root.dump());

@@ -74,19 +74,19 @@ Texts description_seeds() {
   return out;
 }
 
-std::string text_of(const testing::ByteList& bytes) {
+std::string text_of(const fixtures::ByteList& bytes) {
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 // A channel of each interpolation; the text has its buffer from the target.
 Texts gltf_seeds() {
-  testing::GlbBuilder arm = testing::small_arm();
+  fixtures::GlbBuilder arm = fixtures::small_arm();
   Texts out = {text_of(arm.glb())};
-  testing::GlbBuilder text = arm;
+  fixtures::GlbBuilder text = arm;
   text.root["buffers"] = {{{"byteLength", 512}}};
   text.root["bufferViews"] = {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 128}},
                               {{"buffer", 0}, {"byteOffset", 128}, {"byteLength", 384}}};
-  for (testing::Json& accessor : text.root["accessors"]) accessor["bufferView"] = accessor["type"] == "SCALAR" ? 0 : 1;
+  for (fixtures::Json& accessor : text.root["accessors"]) accessor["bufferView"] = accessor["type"] == "SCALAR" ? 0 : 1;
   out.push_back(text.document().dump());
   const int times = arm.add_scalars({0.0F, 0.5F});
   const int spline = arm.add_vec4({0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0});

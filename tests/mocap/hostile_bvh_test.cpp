@@ -10,7 +10,7 @@
 namespace contort {
 namespace {
 
-struct Hostile {
+struct HostileBvhText {
   const char* name;
   std::string text;
   const char* code;
@@ -32,8 +32,8 @@ std::string wide(int joints) {
   return text + "}\nMOTION\nFrames: 0\nFrame Time: 1\n";
 }
 
-const std::vector<Hostile>& hostile_texts() {
-  static const std::vector<Hostile> all = {
+const std::vector<HostileBvhText>& hostile_texts() {
+  static const std::vector<HostileBvhText> all = {
       {"nothing", "", "bvh.truncated", "line 1"},
       {"something else", "glTF\x02", "bvh.bad_syntax", "line 1"},
       {"no root", "HIERARCHY\nMOTION\n", "bvh.bad_syntax", "line 2"},
@@ -83,7 +83,7 @@ const std::vector<Hostile>& hostile_texts() {
 }
 
 TEST(HostileBvh, IsRefusedByNameWithALine) {
-  for (const Hostile& hostile : hostile_texts()) {
+  for (const HostileBvhText& hostile : hostile_texts()) {
     const auto result = parse_bvh(hostile.text, "");
     ASSERT_FALSE(result.ok()) << hostile.name;
     EXPECT_EQ(result.issue().code, hostile.code) << hostile.name << ": " << to_line(result.issue());

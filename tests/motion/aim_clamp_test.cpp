@@ -15,11 +15,11 @@ namespace {
 // Anything at all: hinges up to two turns away, travels up to a metre, balls anywhere.
 void draw_any(const Joint& joint, std::mt19937_64& random, double* q) {
   if (joint.kind == JointKind::ball) {
-    const Quat any = glm::normalize(Quat(testing::uniform(random, -1, 1), testing::uniform(random, -1, 1),
-                                         testing::uniform(random, -1, 1), testing::uniform(random, -1, 1)));
+    const Quat any = glm::normalize(Quat(fixtures::uniform(random, -1, 1), fixtures::uniform(random, -1, 1),
+                                         fixtures::uniform(random, -1, 1), fixtures::uniform(random, -1, 1)));
     q[0] = any.w, q[1] = any.x, q[2] = any.y, q[3] = any.z;
   } else if (joint.kind != JointKind::root) {
-    q[0] = testing::uniform(random, -12, 12);
+    q[0] = fixtures::uniform(random, -12, 12);
   }
 }
 
@@ -53,18 +53,18 @@ void expect_clamped(const Character& character) {
 }
 
 TEST(AimClamp, IsInRangeAndIdempotent) {
-  expect_clamped(testing::human());
+  expect_clamped(fixtures::human());
   for (const char* arm : {"mech_arm_slim", "mech_arm_shield", "mech_arm_extend"})
-    expect_clamped(testing::built(testing::mech_choice({{"arm_left", arm}, {"arm_right", arm}})));
+    expect_clamped(fixtures::built(fixtures::mech_choice({{"arm_left", arm}, {"arm_right", arm}})));
 }
 
 TEST(AimClamp, LeavesWhatIsInRangeAsItIs) {
   std::mt19937_64 random(4);
-  for (const Joint& joint : testing::human().joints()) {
+  for (const Joint& joint : fixtures::human().joints()) {
     if (joint.kind == JointKind::root) continue;
     for (int i = 0; i < 1000; ++i) {
       double q[4];
-      testing::draw_joint(joint, random, q);
+      fixtures::draw_joint(joint, random, q);
       const std::vector<double> before(q, q + coord_size(joint.kind));
       clamp_to_range(joint, q);
       EXPECT_TRUE(std::equal(before.begin(), before.end(), q)) << joint.name;
@@ -108,7 +108,7 @@ TEST(AimClamp, SwingTwistRoundTrip) {
   const Joint joint = ball(2.8, 2.5, -3.0, 3.0);
   for (int i = 0; i < 3000; ++i) {
     double q[4];
-    testing::draw_joint(joint, random, q);
+    fixtures::draw_joint(joint, random, q);
     double again[4];
     set_swing_twist(joint, swing_twist_of(joint, q), again);
     EXPECT_LT(

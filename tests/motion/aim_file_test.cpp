@@ -13,7 +13,7 @@ namespace {
 const AimTableOptions kSmall{5.0, 300, 1};
 
 AimGeometry geometry_at(std::size_t row) {
-  const testing::AimScene scene = testing::aim_scene(testing::kAimScenes[row]);
+  const fixtures::AimScene scene = fixtures::aim_scene(fixtures::kAimScenes[row]);
   return aim_geometry(scene.character, scene.chain);
 }
 

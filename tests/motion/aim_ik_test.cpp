@@ -14,10 +14,10 @@
 namespace contort {
 namespace {
 
-using testing::aim_scene;
-using testing::AimPose;
-using testing::AimScene;
-using testing::world_from_base;
+using fixtures::aim_scene;
+using fixtures::AimPose;
+using fixtures::AimScene;
+using fixtures::world_from_base;
 
 // Facing against the way to the target, by forward kinematics from scratch.
 double true_error_rad(const AimScene& scene, const AimTarget& target, std::span<const double> row) {
@@ -81,10 +81,10 @@ Outcome aim_all(const AimScene& scene, const AimTable& table, Targets targets, i
   Outcome outcome;
   std::vector<double> rows;
   std::mt19937_64 random(5);
-  for (const Rigid& base_from_aim : testing::reachable_aims(table.geometry(), count, 1)) {
+  for (const Rigid& base_from_aim : fixtures::reachable_aims(table.geometry(), count, 1)) {
     AimPose pose(scene.character);
     const Rigid aim_world = world_from_base(scene, pose) * base_from_aim;
-    const AimTarget target = target_of(targets, aim_world, testing::uniform(random, 0, 1));
+    const AimTarget target = target_of(targets, aim_world, fixtures::uniform(random, 0, 1));
     const AimResult result = aim(scene.character, scene.chain, table, pose.world, target, pose.row);
     const double error_rad = true_error_rad(scene, target, pose.row);
     EXPECT_NEAR(result.error_rad, error_rad, 1e-9);
@@ -105,7 +105,7 @@ void report(const std::string& name, const char* targets, const Outcome& o) {
               o.iterations / o.count, o.margin);
 }
 
-class AimIk : public ::testing::TestWithParam<testing::AimSceneRow> {};
+class AimIk : public ::testing::TestWithParam<fixtures::AimSceneRow> {};
 
 TEST_P(AimIk, ReachesWhatItsJointsCanReach) {
   const AimScene scene = aim_scene(GetParam());
@@ -165,24 +165,24 @@ TEST_P(AimIk, FollowsAMovingTarget) {
   EXPECT_LT(followed.fastest_rad, 4.0 * kRadPerDeg);
 }
 
-std::string parameter_name(const ::testing::TestParamInfo<testing::AimSceneRow>& row) { return row.param.name; }
+std::string parameter_name(const ::testing::TestParamInfo<fixtures::AimSceneRow>& row) { return row.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Chains, AimIk, ::testing::ValuesIn(testing::kAimScenes), parameter_name);
+INSTANTIATE_TEST_SUITE_P(Chains, AimIk, ::testing::ValuesIn(fixtures::kAimScenes), parameter_name);
 
 // Behind the head: three hinges cannot turn that far. What is left is what the nearest of 200,000 postures leaves.
 TEST(AimIkEnds, OutOfReachComesAsNearAsItCan) {
-  const AimScene scene = aim_scene(testing::kAimScenes[13]);
+  const AimScene scene = aim_scene(fixtures::kAimScenes[13]);
   const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));
   std::mt19937_64 random(12);
   std::vector<Vec3> facings;
   for (int i = 0; i < 200000; ++i)
-    facings.push_back(base_from_socket(table.geometry(), testing::draw_posture(table.geometry(), random)).q *
+    facings.push_back(base_from_socket(table.geometry(), fixtures::draw_posture(table.geometry(), random)).q *
                       Vec3(0, 0, 1));
   int unreached = 0;
   double worst_excess_rad = 0.0;
   for (int i = 0; i < 300; ++i) {
-    const det::SinCos around = det::sincos(testing::uniform(random, 0, 2 * kPi));
-    const double up = testing::uniform(random, -1, 1);
+    const det::SinCos around = det::sincos(fixtures::uniform(random, 0, 2 * kPi));
+    const double up = fixtures::uniform(random, -1, 1);
     const Vec3 in_base = Vec3(std::sqrt(1 - up * up) * around.sin, up, std::sqrt(1 - up * up) * around.cos);
     AimPose pose(scene.character);
     const AimTarget target{AimTarget::Kind::direction, world_from_base(scene, pose).q * in_base};
@@ -201,7 +201,7 @@ TEST(AimIkEnds, OutOfReachComesAsNearAsItCan) {
 }
 
 TEST(AimIkEnds, ATargetWithoutDirectionIsNotReachedAndBreaksNothing) {
-  const AimScene scene = aim_scene(testing::kAimScenes[2]);
+  const AimScene scene = aim_scene(fixtures::kAimScenes[2]);
   const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));
   const double nan = std::nan("");
   for (const Vec3& v : {Vec3(0), Vec3(nan), Vec3(nan, 0, 1)})
@@ -217,7 +217,7 @@ TEST(AimIkEnds, ATargetWithoutDirectionIsNotReachedAndBreaksNothing) {
 
 // Travels stay; so does everything that is not in the chain.
 TEST(AimIkEnds, OnlyTheChainTurns) {
-  const AimScene scene = aim_scene(testing::kAimScenes[11]);
+  const AimScene scene = aim_scene(fixtures::kAimScenes[11]);
   const AimTable table = AimTable::build(aim_geometry(scene.character, scene.chain));
   AimPose pose(scene.character);
   const int extend = scene.character.find_joint("arm_right/extend");

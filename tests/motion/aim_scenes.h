@@ -13,7 +13,7 @@
 #include "generator/motion/joint_clamp.h"
 #include "generator/motion/kinematics.h"
 
-namespace contort::testing {
+namespace contort::fixtures {
 
 struct AimScene {
   std::string name;
@@ -133,4 +133,4 @@ inline const Rigid& world_from_base(const AimScene& scene, const AimPose& pose) 
   return pose.world[static_cast<std::size_t>(first.parent)];
 }
 
-}  // namespace contort::testing
+}  // namespace contort::fixtures

@@ -15,9 +15,9 @@
 namespace contort {
 namespace {
 
-using testing::aim_scene;
-using testing::AimScene;
-using testing::kAimScenes;
+using fixtures::aim_scene;
+using fixtures::AimScene;
+using fixtures::kAimScenes;
 
 AimGeometry geometry_of(const AimScene& scene) { return aim_geometry(scene.character, scene.chain); }
 
@@ -28,7 +28,7 @@ AimGeometry geometry_of(const char* name) {
 
 Vec3 any_direction(std::mt19937_64& random) {
   for (;;) {
-    const Vec3 v(testing::uniform(random, -1, 1), testing::uniform(random, -1, 1), testing::uniform(random, -1, 1));
+    const Vec3 v(fixtures::uniform(random, -1, 1), fixtures::uniform(random, -1, 1), fixtures::uniform(random, -1, 1));
     if (glm::dot(v, v) <= 1.0 && glm::dot(v, v) > 1e-3) return unit_or(v, v);
   }
 }
@@ -51,8 +51,8 @@ TEST(AimChain, GeometryPlacesTheSocketAsTheCharacterDoes) {
     ASSERT_FALSE(scene.chain.joints.empty()) << scene.name;
     const AimGeometry geometry = geometry_of(scene);
     std::mt19937_64 random(8);
-    const std::vector<double> coords = testing::draw_posture(geometry, random);
-    testing::AimPose pose(scene.character);
+    const std::vector<double> coords = fixtures::draw_posture(geometry, random);
+    fixtures::AimPose pose(scene.character);
     std::size_t local = 0;
     for (const int j : scene.chain.joints) {
       const Joint& joint = scene.character.joints()[static_cast<std::size_t>(j)];
@@ -61,7 +61,7 @@ TEST(AimChain, GeometryPlacesTheSocketAsTheCharacterDoes) {
     }
     forward_kinematics(scene.character, scene.character.rest_root(), pose.row, pose.world);
     const Rigid expected = world_from_socket(scene.character, pose.world, scene.chain.socket);
-    const Rigid got = testing::world_from_base(scene, pose) * base_from_socket(geometry, coords);
+    const Rigid got = fixtures::world_from_base(scene, pose) * base_from_socket(geometry, coords);
     EXPECT_LT(squared(got.p_m - expected.p_m), 1e-24) << scene.name;
     EXPECT_LT(squared(got.q * Vec3(0, 0, 1) - expected.q * Vec3(0, 0, 1)), 1e-24) << scene.name;
   }
@@ -139,7 +139,7 @@ TEST(AimTable, InterpolationIsNoWorseThanTheNearest) {
   for (const char* name : {"human_muzzle", "mech_slim_grip", "human_head"}) {
     const AimTable table = AimTable::build(geometry_of(name));
     std::vector<double> coords(static_cast<std::size_t>(table.geometry().coord_count));
-    for (const Rigid& at : testing::reachable_aims(table.geometry(), 1000, 2)) {
+    for (const Rigid& at : fixtures::reachable_aims(table.geometry(), 1000, 2)) {
       const Vec3 wanted = at.q * Vec3(0, 0, 1);
       std::array<AimHit, 1> best;
       table.nearest(wanted, best);
@@ -167,7 +167,7 @@ TEST(AimTable, TheOrderOfPosturesDoesNotShow) {
 
 TEST(AimTables, ShareTablesOfEqualGeometry) {
   const AimScene one = aim_scene(kAimScenes[5]);
-  CharacterChoice other_legs = testing::aim_choice(kAimScenes[5]);
+  CharacterChoice other_legs = fixtures::aim_choice(kAimScenes[5]);
   other_legs.parts["leg_left"] = "mech_leg_reverse";
   const Character other = build_character(other_legs, stock_library()).value();
   AimTables tables;

@@ -24,7 +24,7 @@ std::vector<double> placed_level(const Character& character, const Rigid& world_
 TEST(PlaceFoot, OfALegThatLiesLevelIsTheSameWhereverItStands) {
   const Rigid there{axis_angle(Vec3(0, 1, 0), 2.4), Vec3(3.7, 0.0, -12.4)};
   for (const char* name : {"human", "mech", "quadruped"}) {
-    const Character character = testing::built({name, {}, {}});
+    const Character character = fixtures::built({name, {}, {}});
     for (const double drop_m : {0.2, 0.02, 2e-3, 2e-4, 2e-5, -2e-5, -2e-4, -2e-3, -0.02, -0.2}) {
       const std::vector<double> here = placed_level(character, {}, drop_m);
       const std::vector<double> moved = placed_level(character, there, drop_m);

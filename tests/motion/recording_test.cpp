@@ -12,8 +12,8 @@
 namespace contort {
 namespace {
 
-using testing::human;
-using testing::joint;
+using fixtures::human;
+using fixtures::joint;
 
 // A library with the motion of a spec as the animation "taken", and a spec that plays it.
 struct Taken {

@@ -10,15 +10,15 @@
 namespace contort {
 namespace {
 
-using testing::sequence;
-using testing::use;
+using fixtures::sequence;
+using fixtures::use;
 
 struct Stood {
   Motion motion;
   std::shared_ptr<const Character> character;
 
   Rigid root(int frame) const { return motion.root[static_cast<std::size_t>(frame)]; }
-  double knee_deg(int frame) const { return testing::coord(motion, frame, *character, "leg_left/knee") * kDegPerRad; }
+  double knee_deg(int frame) const { return fixtures::coord(motion, frame, *character, "leg_left/knee") * kDegPerRad; }
   Rigid sole(int frame) const {
     std::vector<Rigid> world(character->joints().size());
     forward_kinematics(*character, root(frame), motion.row(frame), world);
@@ -53,7 +53,7 @@ TEST(Stand, ASquatLeansAndSitsBackWhileTheFeetStay) {
   EXPECT_NEAR(up.z, std::sin(40.0 * kRadPerDeg), 1e-9);
   EXPECT_NEAR(at.root(45).p_m.z - at.root(0).p_m.z, -0.2, 1e-9);
   for (int f = 0; f <= 90; ++f) {
-    EXPECT_LT(testing::length(at.sole(f).p_m - at.sole(0).p_m), 1e-6) << f;
+    EXPECT_LT(length(at.sole(f).p_m - at.sole(0).p_m), 1e-6) << f;
     EXPECT_NEAR((at.sole(f).q * Vec3(0, 1, 0)).y, 1.0, 1e-9) << f;
   }
 }

@@ -12,13 +12,13 @@
 namespace contort {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json data_of(std::vector<ShownCase> shown) {
+Json data_of(std::vector<ShownCase> shown) {
   const Result<std::string> text = case_data("joint_range-0123", shown, stock_library(), {});
   if (!text) throw std::logic_error(to_line(text.issue()));
   EXPECT_EQ(text->find('<'), std::string::npos);
-  return json::parse(*text);
+  return Json::parse(*text);
 }
 
 // A case that expects what its spec may not show.
@@ -30,9 +30,9 @@ Case made_up(const Spec& spec, const std::string& check, const std::string& subj
 
 TEST(CaseData, TheFailuresCurveIsFirstAndAsDeepAsItsFinding) {
   const Case stored = failing_case(bent_elbow(158), "joint_range", kElbow);
-  const json data = data_of({{"minimal", stored}});
-  const json& motion = data["motions"][0];
-  const json& curve = motion["curves"][0];
+  const Json data = data_of({{"minimal", stored}});
+  const Json& motion = data["motions"][0];
+  const Json& curve = motion["curves"][0];
   EXPECT_EQ(curve["subject"], kElbow);
   EXPECT_EQ(curve["unit"], "rad");
   const std::vector<double> margins = curve["margins"];
@@ -47,13 +47,13 @@ TEST(CaseData, TheFailuresCurveIsFirstAndAsDeepAsItsFinding) {
 
 // In units of their checks: an elbow 5 degrees inside its range is farther from its limit than solids 1 mm apart.
 TEST(CaseData, OtherCurvesFollowByHowNearTheyCame) {
-  const json data = data_of({{"minimal", failing_case(bent_elbow(158), "joint_range", kElbow)}});
-  const json& curves = data["motions"][0]["curves"];
+  const Json data = data_of({{"minimal", failing_case(bent_elbow(158), "joint_range", kElbow)}});
+  const Json& curves = data["motions"][0]["curves"];
   ASSERT_EQ(curves.size(), kMostCurves);
   double before = -1e9;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     double smallest = 1e9;
-    for (const json& margin : curves[i]["margins"])
+    for (const Json& margin : curves[i]["margins"])
       if (!margin.is_null()) smallest = std::min(smallest, margin.get<double>());
     const double nearness = smallest / curves[i]["scale"].get<double>();
     EXPECT_GE(nearness, before - 1e-5) << curves[i]["subject"];
@@ -63,11 +63,11 @@ TEST(CaseData, OtherCurvesFollowByHowNearTheyCame) {
 }
 
 TEST(CaseData, HoldsTheMotionAndWhatItIsAbout) {
-  const json motion = data_of({{"minimal", failing_case(bent_elbow(158), "joint_range", kElbow)}})["motions"][0];
+  const Json motion = data_of({{"minimal", failing_case(bent_elbow(158), "joint_range", kElbow)}})["motions"][0];
   EXPECT_TRUE(motion["glb"].get<std::string>().starts_with("H4sI")) << "gzip in base64";
   EXPECT_EQ(motion["ghost_glb"], "");
-  EXPECT_EQ(motion["highlight"]["joints"], json({"arm_left/elbow"}));
-  EXPECT_EQ(motion["ground"], json({{"level", 0.0}}));
+  EXPECT_EQ(motion["highlight"]["joints"], Json({"arm_left/elbow"}));
+  EXPECT_EQ(motion["ground"], Json({{"level", 0.0}}));
   EXPECT_EQ(motion["spans"][0]["name"], "pose");
   EXPECT_EQ(motion["spans"][0]["slot"], "arm_left");
   EXPECT_EQ(parse_spec(motion["spec"].dump()).value(), bent_elbow(158));
@@ -78,33 +78,33 @@ TEST(CaseData, HoldsTheMotionAndWhatItIsAbout) {
 TEST(CaseData, ShowsTheOthersBesideTheMinimalOne) {
   const Case minimal = failing_case(bent_elbow(158), "joint_range", kElbow);
   const Case worst = failing_case(bent_elbow(170), "joint_range", kElbow);
-  const json data = data_of({{"minimal", minimal}, {"worst", worst}});
+  const Json data = data_of({{"minimal", minimal}, {"worst", worst}});
   EXPECT_EQ(data["motions"][1]["role"], "worst");
   EXPECT_EQ(data["worst_frame"], minimal.expect.worst_frame) << "told by the first";
   EXPECT_NE(data["motions"][0]["glb"], data["motions"][1]["glb"]);
 }
 
 TEST(CaseData, TellsWhatDynamicsDid) {
-  const json motion = data_of({{"minimal", made_up(scene("human_dynamic"), "balance", "human")}})["motions"][0];
+  const Json motion = data_of({{"minimal", made_up(scene("human_dynamic"), "balance", "human")}})["motions"][0];
   EXPECT_EQ(motion["first_frame"], -1) << "this one does not fail";
   EXPECT_EQ(motion["balance"].size(), motion["frame_count"]);
   EXPECT_EQ(motion["balance"][0]["zmp"].size(), 3U);
   EXPECT_TRUE(motion["ghost_glb"].get<std::string>().starts_with("H4sI"));
   EXPECT_NE(motion["ghost_glb"], motion["glb"]);
-  const auto is_blow = [](const json& mark) { return mark["kind"] == "impact" && mark["frame"] == 10; };
+  const auto is_blow = [](const Json& mark) { return mark["kind"] == "impact" && mark["frame"] == 10; };
   EXPECT_EQ(std::ranges::count_if(motion["marks"], is_blow), 1);
 }
 
 TEST(CaseData, GroundThatIsNotLevelIsAMesh) {
-  const json motion = data_of({{"minimal", made_up(scene("mech_falls"), "balance", "mech")}})["motions"][0];
-  const json& ground = motion["ground"];
+  const Json motion = data_of({{"minimal", made_up(scene("mech_falls"), "balance", "mech")}})["motions"][0];
+  const Json& ground = motion["ground"];
   EXPECT_EQ(ground["positions"].size() % 3, 0U);
   EXPECT_GE(ground["indices"].size(), 6U);
-  for (const json& index : ground["indices"]) EXPECT_LT(index.get<std::size_t>() * 3, ground["positions"].size());
+  for (const Json& index : ground["indices"]) EXPECT_LT(index.get<std::size_t>() * 3, ground["positions"].size());
 }
 
 TEST(CaseData, SaysWhyWhereACaseCannotBeShown) {
-  EXPECT_EQ(json::parse(case_problem("k", "no </script>"))["problem"], "no </script>");
+  EXPECT_EQ(Json::parse(case_problem("k", "no </script>"))["problem"], "no </script>");
   EXPECT_EQ(case_problem("k", "no </script>").find('<'), std::string::npos);
   Case unknown = failing_case(bent_elbow(158), "joint_range", kElbow);
   unknown.expect.check = "of_tomorrow";

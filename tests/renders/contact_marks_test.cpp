@@ -33,14 +33,14 @@ std::vector<Rigid> rest_world() {
 
 Finding finding_of(const char* check, const char* subject) { return {check, subject, "m", 0, 0, 0, -0.01, 0.5}; }
 
-Highlight highlight_of(const char* subject) { return highlighted(human(), finding_of("self_collision", subject)); }
+Highlight contact_highlight_of(const char* subject) { return highlighted(human(), finding_of("self_collision", subject)); }
 
 std::ptrdiff_t count_on_top(const DrawList& list) {
   return std::ranges::count_if(list.instances, [](const DrawInstance& i) { return i.on_top; });
 }
 
 TEST(ContactMark, JoinsTheNearestColliders) {
-  const Highlight pair = highlight_of("arm_left/forearm ~ torso/trunk");
+  const Highlight pair = contact_highlight_of("arm_left/forearm ~ torso/trunk");
   ASSERT_EQ(pair.solids.size(), 2U);
   const std::vector<Rigid> world = rest_world();
   const std::optional<NearestPoints> contact = contact_of_pair(human(), pair, world);
@@ -61,14 +61,14 @@ TEST(ContactMark, JoinsTheNearestColliders) {
 
 TEST(ContactMark, IsNotThereWithoutAPair) {
   EXPECT_FALSE(contact_of_pair(human(), {}, rest_world()).has_value());
-  EXPECT_FALSE(contact_of_pair(human(), highlight_of("arm_left/forearm"), rest_world()).has_value());
-  EXPECT_FALSE(contact_with_obstacle(human(), Environment(), highlight_of("arm_left/forearm"), rest_world()));
+  EXPECT_FALSE(contact_of_pair(human(), contact_highlight_of("arm_left/forearm"), rest_world()).has_value());
+  EXPECT_FALSE(contact_with_obstacle(human(), Environment(), contact_highlight_of("arm_left/forearm"), rest_world()));
 }
 
 TEST(ContactMark, IsNotThereWhereTheSolidsHaveNoPlace) {
   std::vector<Rigid> world = rest_world();
   for (Rigid& place : world) place.p_m.x = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(contact_of_pair(human(), highlight_of("arm_left/forearm ~ torso/trunk"), world).has_value());
+  EXPECT_FALSE(contact_of_pair(human(), contact_highlight_of("arm_left/forearm ~ torso/trunk"), world).has_value());
 }
 
 TEST(ContactMark, GoesToTheObstacle) {
@@ -76,7 +76,7 @@ TEST(ContactMark, GoesToTheObstacle) {
       build_environment(
           {.ground = PlaneGround{}, .obstacles = {{"far", Sphere{{9, 1, 0}, 0.1}}, {"near", Sphere{{2, 1, 0}, 0.1}}}})
           .value();
-  const Highlight hand = highlight_of("hand_left/hand");
+  const Highlight hand = contact_highlight_of("hand_left/hand");
   ASSERT_EQ(hand.solids.size(), 1U);
   const auto contact = contact_with_obstacle(human(), environment, hand, rest_world());
   ASSERT_TRUE(contact.has_value());

@@ -10,7 +10,7 @@
 namespace contort {
 namespace {
 
-const Character& human() {
+const Character& diverging_human() {
   static const Character character = build_character(CharacterChoice{}, stock_library()).value();
   return character;
 }
@@ -31,26 +31,27 @@ Motion resting(const Character& character, int frames) {
 }
 
 void turn(Motion& motion, int frame, const char* joint, double by_rad) {
-  const int index = human().find_joint(joint);
+  const int index = diverging_human().find_joint(joint);
   ASSERT_GE(index, 0);
-  motion.row(frame)[static_cast<std::size_t>(human().joints()[static_cast<std::size_t>(index)].coord)] += by_rad;
+  motion.row(frame)[static_cast<std::size_t>(diverging_human().joints()[static_cast<std::size_t>(index)].coord)] +=
+      by_rad;
 }
 
 Divergence between(const Motion& a, const Motion& b, double tolerance_m = kSamePlace_m) {
-  return find_divergence({human(), a}, {human(), b}, tolerance_m).value();
+  return find_divergence({diverging_human(), a}, {diverging_human(), b}, tolerance_m).value();
 }
 
 TEST(Divergence, IsNoneOfAMotionAndItself) {
-  const Motion motion = resting(human(), 9);
+  const Motion motion = resting(diverging_human(), 9);
   const Divergence divergence = between(motion, motion, 0.0);
   EXPECT_TRUE(divergence.none());
   EXPECT_EQ(divergence.frames, 9);
-  EXPECT_EQ(divergence.joints, static_cast<int>(human().joints().size()));
+  EXPECT_EQ(divergence.joints, static_cast<int>(diverging_human().joints().size()));
   EXPECT_NE(divergence_text(divergence, 0.0, 60.0).find("no difference"), std::string::npos);
 }
 
 TEST(Divergence, IsTheFirstFrameAndTheJointFarthestOut) {
-  const Motion a = resting(human(), 9);
+  const Motion a = resting(diverging_human(), 9);
   Motion b = a;
   turn(b, 3, "arm_left/elbow", 0.1);
   turn(b, 4, "arm_left/elbow", 0.5);
@@ -69,7 +70,7 @@ TEST(Divergence, IsTheFirstFrameAndTheJointFarthestOut) {
 }
 
 TEST(Divergence, IsThereOnlyBeyondTheTolerance) {
-  const Motion a = resting(human(), 2);
+  const Motion a = resting(diverging_human(), 2);
   Motion b = a;
   b.root[1].p_m.x += 0.004;
   EXPECT_TRUE(between(a, b, 0.0041).none());
@@ -78,8 +79,8 @@ TEST(Divergence, IsThereOnlyBeyondTheTolerance) {
 
 // The joint stays where it is; what hangs on it does not.
 TEST(Divergence, SeesWhatOnlyTurns) {
-  const Motion a = resting(human(), 2);
-  for (const Joint& joint : human().joints()) {
+  const Motion a = resting(diverging_human(), 2);
+  for (const Joint& joint : diverging_human().joints()) {
     if (joint.kind != JointKind::hinge || joint.name.rfind("hand_left/", 0) != 0) continue;
     Motion b = a;
     turn(b, 1, joint.name.c_str(), 0.5);
@@ -88,7 +89,7 @@ TEST(Divergence, SeesWhatOnlyTurns) {
 }
 
 TEST(Divergence, SeesThatOnlyOneHasAPlace) {
-  const Motion a = resting(human(), 3);
+  const Motion a = resting(diverging_human(), 3);
   Motion b = a;
   b.root[2].p_m.y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(between(a, b).first.frame, 2);
@@ -100,26 +101,27 @@ TEST(Divergence, SeesThatOnlyOneHasAPlace) {
 }
 
 TEST(Divergence, IsALengthToo) {
-  const Divergence divergence = between(resting(human(), 5), resting(human(), 7));
+  const Divergence divergence = between(resting(diverging_human(), 5), resting(diverging_human(), 7));
   EXPECT_FALSE(divergence.none());
   EXPECT_EQ(divergence.first.frame, -1);
   EXPECT_NE(divergence_text(divergence, kSamePlace_m, 60.0).find("one has 5 frames, the other 7"), std::string::npos);
 }
 
 TEST(Divergence, OfOtherFiguresIsOfTheJointsThatBothHave) {
-  const Motion a = resting(human(), 2), b = resting(mech(), 2);
-  const Divergence divergence = find_divergence({human(), a}, {mech(), b}, kSamePlace_m).value();
+  const Motion a = resting(diverging_human(), 2), b = resting(mech(), 2);
+  const Divergence divergence = find_divergence({diverging_human(), a}, {mech(), b}, kSamePlace_m).value();
   EXPECT_EQ(divergence.first.frame, 0);
   EXPECT_FALSE(divergence.only_a.empty());
-  EXPECT_EQ(divergence.joints + static_cast<int>(divergence.only_a.size()), static_cast<int>(human().joints().size()));
+  EXPECT_EQ(divergence.joints + static_cast<int>(divergence.only_a.size()),
+            static_cast<int>(diverging_human().joints().size()));
   EXPECT_EQ(divergence.joints + static_cast<int>(divergence.only_b.size()), static_cast<int>(mech().joints().size()));
 }
 
 TEST(Divergence, IsNotFoundAtDifferentTimes) {
-  const Motion a = resting(human(), 2);
+  const Motion a = resting(diverging_human(), 2);
   Motion b = a;
   b.rate_hz = 30.0;
-  const Result<Divergence> divergence = find_divergence({human(), a}, {human(), b}, kSamePlace_m);
+  const Result<Divergence> divergence = find_divergence({diverging_human(), a}, {diverging_human(), b}, kSamePlace_m);
   ASSERT_FALSE(divergence.ok());
   EXPECT_EQ(divergence.issue().code, "compare.other_rate");
 }

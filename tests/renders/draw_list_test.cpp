@@ -11,7 +11,7 @@
 namespace contort {
 namespace {
 
-const Character& mech() {
+const Character& drawn_mech() {
   static const Character character = [] {
     CharacterChoice choice;
     choice.name = "mech";
@@ -20,13 +20,15 @@ const Character& mech() {
   return character;
 }
 
-std::vector<Rigid> rest_world() {
-  std::vector<Rigid> world(mech().joints().size());
-  forward_kinematics(mech(), mech().rest_root(), mech().rest_coords(), world);
+std::vector<Rigid> resting_world() {
+  std::vector<Rigid> world(drawn_mech().joints().size());
+  forward_kinematics(drawn_mech(), drawn_mech().rest_root(), drawn_mech().rest_coords(), world);
   return world;
 }
 
-Highlight pair_of(const char* a, const char* b) { return {{{mech().find_collider(a)}, {mech().find_collider(b)}}, {}}; }
+Highlight pair_of(const char* a, const char* b) {
+  return {{{drawn_mech().find_collider(a)}, {drawn_mech().find_collider(b)}}, {}};
+}
 
 std::ptrdiff_t highlighted_count(const Figure& figure) {
   return std::count_if(figure.pieces.begin(), figure.pieces.end(),
@@ -34,14 +36,15 @@ std::ptrdiff_t highlighted_count(const Figure& figure) {
 }
 
 TEST(Figure, HasTheMeshInItsOwnColoursWithoutHighlight) {
-  const Figure figure = make_figure(mech(), {});
-  ASSERT_EQ(figure.pieces.size(), mech().mesh().size());
-  for (std::size_t i = 0; i < figure.pieces.size(); ++i) EXPECT_EQ(figure.pieces[i].color, mech().mesh()[i].color);
+  const Figure figure = make_figure(drawn_mech(), {});
+  ASSERT_EQ(figure.pieces.size(), drawn_mech().mesh().size());
+  for (std::size_t i = 0; i < figure.pieces.size(); ++i)
+    EXPECT_EQ(figure.pieces[i].color, drawn_mech().mesh()[i].color);
   EXPECT_EQ(highlighted_count(figure), 0);
 }
 
 TEST(Figure, IsRedNowhereButWhereItIsHighlighted) {
-  const Figure figure = make_figure(mech(), pair_of("arm_left/forearm", "torso/chest"));
+  const Figure figure = make_figure(drawn_mech(), pair_of("arm_left/forearm", "torso/chest"));
   EXPECT_GE(highlighted_count(figure), 2);
   for (const FigurePiece& piece : figure.pieces) {
     const bool red = piece.color.x > 0.5 && piece.color.y <= 0.2 && piece.color.z < 0.2;
@@ -50,7 +53,7 @@ TEST(Figure, IsRedNowhereButWhereItIsHighlighted) {
 }
 
 TEST(Figure, HasBothGroupsOfAPair) {
-  const Figure figure = make_figure(mech(), pair_of("arm_left/forearm", "torso/chest"));
+  const Figure figure = make_figure(drawn_mech(), pair_of("arm_left/forearm", "torso/chest"));
   for (const int group : {1, 2})
     EXPECT_TRUE(std::any_of(figure.pieces.begin(), figure.pieces.end(), [&](const FigurePiece& p) {
       return p.highlight == group && !p.ghost;
@@ -58,17 +61,17 @@ TEST(Figure, HasBothGroupsOfAPair) {
 }
 
 TEST(Figure, MarksAHighlightedJoint) {
-  const int elbow = mech().find_joint("arm_left/elbow");
+  const int elbow = drawn_mech().find_joint("arm_left/elbow");
   ASSERT_GE(elbow, 0);
-  const Figure figure = make_figure(mech(), {{}, {elbow}});
-  EXPECT_EQ(figure.pieces.size(), mech().mesh().size() + 1);
+  const Figure figure = make_figure(drawn_mech(), {{}, {elbow}});
+  EXPECT_EQ(figure.pieces.size(), drawn_mech().mesh().size() + 1);
   EXPECT_EQ(figure.pieces.back().joint, elbow);
   EXPECT_GE(highlighted_count(figure), 2);
 }
 
 TEST(AddFigure, PlacesEveryPieceWithItsJoint) {
-  const Figure figure = make_figure(mech(), {});
-  const std::vector<Rigid> world = rest_world();
+  const Figure figure = make_figure(drawn_mech(), {});
+  const std::vector<Rigid> world = resting_world();
   DrawList list;
   add_figure(list, figure, world);
   ASSERT_EQ(list.instances.size(), figure.pieces.size());
@@ -78,10 +81,10 @@ TEST(AddFigure, PlacesEveryPieceWithItsJoint) {
 }
 
 TEST(AddFigure, LeavesOutWhatIsNowhere) {
-  const Figure figure = make_figure(mech(), {});
+  const Figure figure = make_figure(drawn_mech(), {});
   using Limits = std::numeric_limits<double>;
   for (const double nowhere : {Limits::quiet_NaN(), Limits::infinity(), 1e12}) {
-    std::vector<Rigid> world = rest_world();
+    std::vector<Rigid> world = resting_world();
     world[0].p_m.x = nowhere;
     DrawList list;
     add_figure(list, figure, world);
@@ -93,7 +96,7 @@ TEST(AddFigure, LeavesOutWhatIsNowhere) {
 
 TEST(AddFigure, MakesGhostsPaleAndWithoutHighlight) {
   DrawList list;
-  add_figure(list, make_figure(mech(), pair_of("arm_left/forearm", "torso/chest")), rest_world(), Look::ghost);
+  add_figure(list, make_figure(drawn_mech(), pair_of("arm_left/forearm", "torso/chest")), resting_world(), Look::ghost);
   for (const DrawInstance& instance : list.instances) {
     EXPECT_TRUE(instance.ghost);
     EXPECT_EQ(instance.highlight, 0);
@@ -101,9 +104,9 @@ TEST(AddFigure, MakesGhostsPaleAndWithoutHighlight) {
 }
 
 TEST(Outline, HoldsEveryVertex) {
-  const Figure figure = make_figure(mech(), {});
+  const Figure figure = make_figure(drawn_mech(), {});
   DrawList list;
-  add_figure(list, figure, rest_world());
+  add_figure(list, figure, resting_world());
   Vec3 low(1e9), high(-1e9);
   for (const Vec3& corner : outline(list, figure.meshes)) low = glm::min(low, corner), high = glm::max(high, corner);
   for (const DrawInstance& instance : list.instances)

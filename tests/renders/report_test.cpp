@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,7 @@
 namespace contort {
 namespace {
 
-constexpr char kHostile[] = "\"><script>alert(1)</script>' onerror=alert(2) x='<!--";
+constexpr char kMarkup[] = "\"><script>alert(1)</script>' onerror=alert(2) x='<!--";
 
 ReportRow row_of(const std::string& check, const std::string& subject, const std::string& state, bool gating) {
   ReportRow row;
@@ -37,7 +36,7 @@ ReportRow row_of(const std::string& check, const std::string& subject, const std
   return row;
 }
 
-ReportModel model_of(std::vector<ReportRow> rows) {
+ReportModel page(std::vector<ReportRow> rows) {
   ReportModel model;
   model.title = "nightly";
   model.cases = 2048;
@@ -72,16 +71,16 @@ TEST(Html, KeepsUrlsBelowThePage) {
 }
 
 TEST(Report, NamesNewFailuresFirst) {
-  const std::string html = report_html(model_of({row_of("joint_range", "a", "new", true)}));
+  const std::string html = report_html(page({row_of("joint_range", "a", "new", true)}));
   EXPECT_TRUE(contains(html, "<h1>1 new failure</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict bad'"));
   EXPECT_TRUE(contains(html, "In 1 family"));
 }
 
 TEST(Report, SaysHowFarTheSearchGot) {
-  ReportModel model = model_of({});
+  ReportModel model = page({});
   EXPECT_FALSE(contains(report_html(model), "How far the search got")) << "nothing ran";
-  model.search.cases = 3000, model.search.arms = {{kHostile, 3000, 0, 0}};
+  model.search.cases = 3000, model.search.arms = {{kMarkup, 3000, 0, 0}};
   EXPECT_TRUE(contains(report_html(model), "No case failed. With 95 % confidence, fewer than 1 in 1\u202F000 of"));
   EXPECT_FALSE(contains(body_of(report_html(model)), "<script>"));
   model.search.discovered = {10, 1500}, model.search.failing = 2;
@@ -100,13 +99,13 @@ TEST(Report, SaysHowFarTheSearchGot) {
 
 TEST(Report, CountsWhatGatesByState) {
   const std::string html = report_html(
-      model_of({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true), row_of("c", "d", "open", false)}));
+      page({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true), row_of("c", "d", "open", false)}));
   EXPECT_TRUE(contains(html, "<h1>2 gating failures</h1>"));
   EXPECT_TRUE(contains(html, "In 2 families: 1 new, 1 regressed. Known, not gating: 1 open."));
 }
 
 TEST(Report, SaysWhenNothingGates) {
-  const std::string html = report_html(model_of({row_of("c", "d", "open", false)}));
+  const std::string html = report_html(page({row_of("c", "d", "open", false)}));
   EXPECT_TRUE(contains(html, "<h1>Nothing gating</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict good'"));
 }
@@ -120,35 +119,49 @@ TEST(Report, IsNotGreenWithoutWork) {
 TEST(Report, ShowsEverythingOfARow) {
   ReportRow row = row_of("self_collision", "arm_left/forearm ~ torso/chest", "new", true);
   row.clip = "strips/moving.webp";
-  const std::string html = report_html(model_of({row}));
-  for (const char* wanted :
-       {"self_collision</span>", "arm_left/forearm ~ torso/chest</span>", "-0.0234 m (-23.4 mm)", "frame 55, 0.917 s",
-        "frames 40\u201380", "1\u202F280 cases", "reach", "self_collision-5f0c9a17", "<details>", "Minimal spec",
-        "&quot;character&quot;: &quot;human&quot;", "contort replay corpus/self_collision-5f0c9a17/min.json</code>",
-        "src='strips/self_collision-5f0c9a17.png'", "href='strips/moving.webp'", "data-case='self_collision-5f0c9a17'",
-        "class='open'>Look closer",
-        "data-character='human'", "data-parts='arm_left torso'", "loading='lazy'", "alt='Film strip",
-        "data-missing='picture missing: contort replay", "class='copy'"})
+  const std::string html = report_html(page({row}));
+  for (const char* wanted : {"self_collision</span>",
+                             "arm_left/forearm ~ torso/chest</span>",
+                             "-0.0234 m (-23.4 mm)",
+                             "frame 55, 0.917 s",
+                             "frames 40\u201380",
+                             "1\u202F280 cases",
+                             "reach",
+                             "self_collision-5f0c9a17",
+                             "<details>",
+                             "Minimal spec",
+                             "&quot;character&quot;: &quot;human&quot;",
+                             "contort replay corpus/self_collision-5f0c9a17/min.json</code>",
+                             "src='strips/self_collision-5f0c9a17.png'",
+                             "href='strips/moving.webp'",
+                             "data-case='self_collision-5f0c9a17'",
+                             "class='open'>Look closer",
+                             "data-character='human'",
+                             "data-parts='arm_left torso'",
+                             "loading='lazy'",
+                             "alt='Film strip",
+                             "data-missing='picture missing: contort replay",
+                             "class='copy'"})
     EXPECT_TRUE(contains(html, wanted)) << wanted;
 }
 
 TEST(Report, NamesWhatComesWithAFailure) {
   ReportRow row = row_of("pop", "human: head/neck", "new", true);
-  EXPECT_FALSE(contains(report_html(model_of({row})), "<dt>comes with</dt><dd>pop"));
+  EXPECT_FALSE(contains(report_html(page({row})), "<dt>comes with</dt><dd>pop"));
   row.also = {"pop|human|torso/lumbar_flex", "self_collision|human|a/b ~ c/d"};
-  EXPECT_TRUE(contains(report_html(model_of({row})),
+  EXPECT_TRUE(contains(report_html(page({row})),
                        "<dt>comes with</dt><dd>pop torso/lumbar_flex, self_collision a/b ~ c/d</dd>"));
   row.also = {"a|h|1", "a|h|2", "a|h|3", "a|h|4", "a|h|5", "a|h|6", "a|h|7"};
-  EXPECT_TRUE(contains(report_html(model_of({row})), "<dd>a 1, a 2, a 3, a 4, a 5, and 2 more</dd>"));
-  row.also = {kHostile, "one|two"};
-  EXPECT_FALSE(contains(body_of(report_html(model_of({row}))), kHostile));
+  EXPECT_TRUE(contains(report_html(page({row})), "<dd>a 1, a 2, a 3, a 4, a 5, and 2 more</dd>"));
+  row.also = {kMarkup, "one|two"};
+  EXPECT_FALSE(contains(body_of(report_html(page({row}))), kMarkup));
 }
 
 TEST(Report, SaysWhereAPictureIsMissing) {
   ReportRow row = row_of("c", "a", "new", true);
   for (const char* none : {"", "../outside.png"}) {
     row.strip = none;
-    const std::string html = report_html(model_of({row}));
+    const std::string html = report_html(page({row}));
     EXPECT_FALSE(contains(html, "<img"));
     EXPECT_TRUE(contains(html, "picture missing: contort replay"));
   }
@@ -158,7 +171,7 @@ TEST(Report, HasOneCardForAFamilyAndGatingOnesFirst) {
   std::vector<ReportRow> rows = {row_of("c", "known", "open", false), row_of("c", "both", "open", false),
                                  row_of("c", "known", "open", false), row_of("c", "both", "new", true)};
   rows[3].cases_seen = 2000;
-  const std::string html = report_html(model_of(rows));
+  const std::string html = report_html(page(rows));
   EXPECT_EQ(count(html, "<article"), 2u);
   EXPECT_EQ(count(html, "<section class='bucket'"), 4u);
   EXPECT_EQ(count(html, "1 more bucket</summary>"), 2u);
@@ -181,7 +194,7 @@ ReportModel large_model(int count, int family_size = 1) {
     row.spec_json = std::string(11'000, 'x');  // of a failure that was not shrunk
     rows.push_back(std::move(row));
   }
-  return model_of(std::move(rows));
+  return page(std::move(rows));
 }
 
 nlohmann::json rows_of(const std::string& script) {
@@ -263,24 +276,25 @@ TEST(Report, TellsThePhase) {
   row.phase = "interrupt";
   ReportRow other = row;
   other.phase = "mid_clip", other.key = "c-0";
-  const std::string html = report_html(model_of({row, other}));
+  const std::string html = report_html(page({row, other}));
   EXPECT_TRUE(contains(html, "data-phase='interrupt mid_clip'"));
   EXPECT_TRUE(contains(html, "<dd>interrupt: just after an interrupt</dd>"));
   EXPECT_TRUE(contains(html, "<select id='phase'>"));
   row.phase = "";
-  EXPECT_FALSE(contains(report_html(model_of({row})), "<div><dt>phase</dt><dd>interrupt"));
+  EXPECT_FALSE(contains(report_html(page({row})), "<div><dt>phase</dt><dd>interrupt"));
 }
 
 ReportModel hostile_model() {
   ReportRow row;
-  for (std::string* text : {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json,
-                            &row.replay_command, &row.strip, &row.clip, &row.features, &row.key, &row.character, &row.meaning, &row.phase})
-    *text = kHostile;
+  for (std::string* text :
+       {&row.family, &row.check, &row.subject, &row.unit, &row.bucket, &row.state, &row.spec_json, &row.replay_command,
+        &row.strip, &row.clip, &row.features, &row.key, &row.character, &row.meaning, &row.phase})
+    *text = kMarkup;
   row.worst_margin = std::nan("");
   row.rate_hz = std::nan("");
-  ReportModel model = model_of({row, row});
-  model.title = model.elapsed = kHostile;
-  model.tested = {{kHostile, 1}, {"\xff\xfe\x01", -5}};
+  ReportModel model = page({row, row});
+  model.title = model.elapsed = kMarkup;
+  model.tested = {{kMarkup, 1}, {"\xff\xfe\x01", -5}};
   return model;
 }
 
@@ -298,7 +312,7 @@ TEST(Report, EscapesEveryText) {
 TEST(Report, KeepsAScriptEndInASpecAsText) {
   ReportRow row = row_of("c", "a", "new", true);
   row.spec_json = "{\"name\": \"</script><script>alert(3)</script>\"}";
-  const std::string html = report_html(model_of({row}));
+  const std::string html = report_html(page({row}));
   EXPECT_TRUE(contains(html, "&lt;/script&gt;&lt;script&gt;alert(3)"));
   EXPECT_EQ(count(html, "</script"), 1u);
 }
@@ -316,7 +330,7 @@ TEST(Report, AllowsNoScriptButItsOwnAndNoNetwork) {
 TEST(Report, IsTheSameForTheSameModel) { EXPECT_EQ(report_html(hostile_model()), report_html(hostile_model())); }
 
 TEST(ReportJson, HoldsTheModel) {
-  ReportModel model = model_of({row_of("c", "a", "new", true)});
+  ReportModel model = page({row_of("c", "a", "new", true)});
   model.tested = {{"action walk", 7}};
   const auto json = nlohmann::json::parse(report_json(model));
   EXPECT_EQ(json["format"], "contort.report/1");
@@ -331,13 +345,13 @@ TEST(ReportJson, HoldsTheModel) {
 TEST(ReportJson, IsJsonForAnyText) {
   const auto json = nlohmann::json::parse(report_json(hostile_model()));
   EXPECT_TRUE(json["rows"][0]["worst_margin"].is_null());
-  EXPECT_EQ(json["rows"][0]["spec"], kHostile);
+  EXPECT_EQ(json["rows"][0]["spec"], kMarkup);
 }
 
 TEST(WriteReport, WritesBothFilesAndNothingElse) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "contort_report" / "deep";
   std::filesystem::remove_all(folder);
-  const ReportModel model = model_of({row_of("c", "a", "new", true)});
+  const ReportModel model = page({row_of("c", "a", "new", true)});
   for (int again = 0; again < 2; ++again) ASSERT_TRUE(write_report(model, folder.string()).ok());
   EXPECT_EQ(read_file((folder / "index.html").string()).value(), report_html(model));
   EXPECT_EQ(read_file((folder / "report.json").string()).value(), report_json(model));
@@ -366,11 +380,11 @@ TEST(Report, TheRestIsEscapedToo) {
   std::vector<ReportRow> rows = large_model(1500).rows;
   rows.push_back(hostile_model().rows.front());
   rows.back().gating = true;
-  const ReportModel model = model_of(rows);
+  const ReportModel model = page(rows);
   const PageFiles pages = report_pages(model);
   EXPECT_FALSE(contains(pages.at("more.html"), "<script"));
   EXPECT_FALSE(contains(pages.at("more.html"), "' onerror"));
-  EXPECT_EQ(rows_of(pages.at("rows/part-2.js")).back()["subject"], kHostile);
+  EXPECT_EQ(rows_of(pages.at("rows/part-2.js")).back()["subject"], kMarkup);
 }
 
 TEST(WriteReport, RefusesAFolderThatCannotBe) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "generator/core/index.h"
 #include "generator/dynamics/dynamics.h"
 #include "generator/motion/kinematics.h"
 #include "renders/arrow.h"
@@ -13,8 +14,6 @@
 
 namespace contort {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Character stock(const char* name) {
   CharacterChoice choice;

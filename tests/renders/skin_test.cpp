@@ -14,8 +14,8 @@ namespace contort {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::person;
-using testing::RigOptions;
+using fixtures::person;
+using fixtures::RigOptions;
 
 // A person of boxes, imported into a folder, as `contort import` does it.
 class SkinTest : public ::testing::Test {
@@ -30,13 +30,13 @@ class SkinTest : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   void import_person(const RigOptions& rig) {
-    const testing::GlbBuilder model = testing::rigged(person(), rig);
+    const fixtures::GlbBuilder model = fixtures::rigged(person(), rig);
     const std::vector<std::byte> bytes = model.glb();
     asset_ = parse_skinned_glb(bytes).value();
     ImportOptions options;
     options.name = "figure", options.wears_model = true;
     const Imported imported = import_model(asset_, options).value();
-    character_ = std::make_shared<Character>(testing::character_of(imported).value());
+    character_ = std::make_shared<Character>(fixtures::character_of(imported).value());
     for (const ImportFile& file : imported.files)
       if (file.name == "skins/figure.json") skin_json_ = file.text;
     desc_ = parse_skin(skin_json_).value();

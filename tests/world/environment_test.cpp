@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "generator/core/math.h"
 #include "generator/spec.h"
 #include "tests/character/stock.h"
 
@@ -24,8 +25,6 @@ EnvironmentDesc with_ground(const Ground& ground) {
   desc.ground = ground;
   return desc;
 }
-
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 TEST(Environment, SlopesRiseAlongTheirHeading) {
   const Environment east = built(with_ground(SlopeGround{45.0, 90.0}));
