@@ -85,16 +85,19 @@ install_packages() {
   fi
 }
 
-# Configures build/PRESET unless that is done already, for this folder and these presets; then builds the targets.
+# Configures build/PRESET unless that is done already, for this folder, these presets and the option in
+# CONTORT_CONFIGURE (such as -DCONTORT_TESTS=ON); then builds the targets.
 build_preset() {
-  local preset=$1 cache="$root/build/$1/CMakeCache.txt" targets=() fresh=()
+  local preset=$1 cache="$root/build/$1/CMakeCache.txt" targets=() fresh=() option=${CONTORT_CONFIGURE:-}
   shift
   if [ "$#" -gt 0 ]; then targets=(--target "$@"); fi
   if [ -f "$cache" ]; then fresh=(--fresh); fi
   if [ ! -f "$root/build/$preset/build.ninja" ] ||
     [ "$root/CMakePresets.json" -nt "$root/build/$preset/build.ninja" ] ||
     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
-    (cd "$root" && show_and_run cmake --preset "$preset" "${fresh[@]}") || return
+    (cd "$root" && show_and_run cmake --preset "$preset" ${option:+"$option"} "${fresh[@]}") || return
+  elif [ -n "$option" ] && ! grep -qxF "$(sed -E 's/^-D([^=]*)=/\1:BOOL=/' <<<"$option")" "$cache"; then
+    (cd "$root" && show_and_run cmake --preset "$preset" "$option") || return
   fi
   (cd "$root" && show_and_run cmake --build "build/$preset" --parallel "$(nproc)" "${targets[@]}")
 }

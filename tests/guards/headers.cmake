@@ -20,7 +20,7 @@ target_compile_definitions(contort_headers PRIVATE
 
 add_test(NAME Guards.HeadersCompileAlone
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_headers)
-set_tests_properties(Guards.HeadersCompileAlone PROPERTIES TIMEOUT 600 RUN_SERIAL ON)
+set_tests_properties(Guards.HeadersCompileAlone PROPERTIES TIMEOUT 1200 RUN_SERIAL ON LABELS slow)
 
 # Benches compile: nobody runs them every day, and what they measure changes under them.
 file(GLOB BENCHES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/bench/*.cpp)
@@ -48,4 +48,4 @@ endif()
 
 add_test(NAME Guards.BenchesCompile
   COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target contort_bench_objects)
-set_tests_properties(Guards.BenchesCompile PROPERTIES TIMEOUT 600 RUN_SERIAL ON)
+set_tests_properties(Guards.BenchesCompile PROPERTIES TIMEOUT 1200 RUN_SERIAL ON LABELS slow)

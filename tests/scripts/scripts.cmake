@@ -10,7 +10,7 @@ set_tests_properties(Scripts.Packages Scripts.Run Scripts.Test Scripts.ReadmeExt
 set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600 COST 300)
 add_test(NAME Page.Browser
   COMMAND bash ${CMAKE_SOURCE_DIR}/tests/page/page_test.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
-set_tests_properties(Page.Browser PROPERTIES TIMEOUT 1800 SKIP_RETURN_CODE 77 COST 1000)
+set_tests_properties(Page.Browser PROPERTIES TIMEOUT 1800 SKIP_RETURN_CODE 77 COST 1000 LABELS slow)
 add_test(NAME Scripts.Mutants COMMAND ${CMAKE_SOURCE_DIR}/bench/mutants/run.py --check)
 set_tests_properties(Scripts.Mutants PROPERTIES TIMEOUT 180)
 add_test(NAME Scripts.Slurm
