@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "generator/core/inside_folder.h"
 #include "generator/gltf/read.h"
 #include "generator/mocap/bvh.h"
 
@@ -29,6 +30,9 @@ Result<Animation> read_take(const std::string& path, const AnimationOptions& opt
   const Result<std::string> asf =
       options.skeleton.empty() ? find_skeleton(path) : Result<std::string>(options.skeleton);
   if (!asf) return asf.issue();
+  if (options.skeleton.empty())  // nobody named it: it may be a link that came with the take
+    if (const Result<Done> inside = check_inside(fs::path(*asf).parent_path().string(), *asf); !inside)
+      return inside.issue();
   Result<AsfSkeleton> skeleton = read_asf(*asf);
   if (!skeleton) return Issue{skeleton.issue().code, skeleton.issue().pointer, *asf + ": " + skeleton.issue().text};
   Result<AmcMotion> motion = read_amc(path, *skeleton);

@@ -15,6 +15,8 @@
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
+#include "generator/core/json_fields.h"
 #include "renders/case_data.h"
 #include "renders/page_call.h"
 
@@ -32,7 +34,7 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
   for (const auto& [role, file] :
        {std::pair("minimal", page.minimal), std::pair("original", page.original), std::pair("worst", page.worst)}) {
     if (file.empty()) continue;
-    Result<Case> stored = read_case(page.folder + "/" + file);
+    Result<Case> stored = read_case_of(page.folder, file);
     if (!stored && cases.empty()) return stored.issue();
     const auto is_there = [&](const auto& other) { return other.second.spec == stored->spec; };
     if (stored && !is_ending(stored->expect) && std::ranges::none_of(cases, is_there))
@@ -48,7 +50,8 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
 std::string stamp_of(const CasePage& page, const std::string& surroundings) {
   std::string made_of = surroundings + "\n" + page.key + "\n" + page.strip;
   for (const std::string& file : {page.minimal, page.original, page.worst}) {
-    const Result<std::string> text = file.empty() ? std::string() : read_file(page.folder + "/" + file);
+    const Result<std::string> text =
+        file.empty() ? std::string() : read_inside(page.folder, file, json_fields::kMaxDocumentBytes);
     made_of += "\n" + (text ? content_id(*text) : std::string("missing"));
   }
   return content_id(made_of).substr(0, 16);

@@ -17,6 +17,7 @@
 #include "cli/print.h"
 #include "generator/character/character.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -40,13 +41,15 @@ Issue map_issue(const std::string& node, std::string_view code, std::string text
 }
 
 // The map that `import` left beside the character, or "".
-std::string own_map(const std::string& character, const Context& context) {
+Result<std::string> own_map(const std::string& character, const Context& context) {
   std::error_code error;
   for (const std::string& folder : context.library_folders)
     if (const std::string path = folder + "/maps/" + character + ".json";
-        !character.empty() && character.find('/') == std::string::npos && std::filesystem::exists(path, error))
-      return path;
-  return "";
+        is_file_name(character) && std::filesystem::exists(path, error)) {
+      const Result<Done> inside = check_inside(folder, path);
+      return inside ? Result<std::string>(path) : inside.issue();
+    }
+  return std::string();
 }
 
 Result<JointMap> read_map(const std::string& path) {
@@ -186,7 +189,9 @@ void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) 
 
 void check_clips(const ClipCheckOptions& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<JointMap> map = read_map(options.map.empty() ? own_map(options.character, context) : options.map);
+  const Result<std::string> map_file = options.map.empty() ? own_map(options.character, context) : options.map;
+  if (!map_file) return context.fail(map_file.issue());
+  const Result<JointMap> map = read_map(*map_file);
   if (!map) return context.fail(map.issue());
   const Result<SpeedLimits> limits = limits_of(options, *map, context);
   if (!limits) return context.fail(limits.issue());

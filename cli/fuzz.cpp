@@ -26,6 +26,7 @@
 #include "fuzz/run.h"
 #include "fuzz/run_state.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "renders/search_html.h"
 
@@ -253,7 +254,8 @@ Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Opti
 }
 
 int exit_code_of(const RunResult& result, bool gates) {
-  if (result.issue.code == "run.busy" || result.issue.code == "state.other_plan") return kBadInput;
+  const bool is_refused = result.issue.code == "run.busy" || result.issue.code.starts_with("state.");
+  if (is_refused || is_untrusted(result.issue)) return kBadInput;
   if (!result.issue.code.empty()) return kInternal;
   if (result.interrupted) return kInterrupted;
   if (!result.unconfirmed.empty() || result.record.discarded > 0) return kInconclusive;
@@ -294,7 +296,7 @@ void run(const Options& options, Context& context) {
   RunConfig config = std::move(configured).value();
   config.surroundings = surroundings_id(context);
   const Result<Corpus> corpus = Corpus::create(options.corpus);
-  if (!corpus) return context.fail(corpus.issue(), kInternal);
+  if (!corpus) return context.fail(corpus.issue(), is_outside(corpus.issue()) ? kBadInput : kInternal);
   warn_of_other_rules(*corpus);
   warn_of_other_states(config, *corpus);
   Result<CaseLog> opened = CaseLog::open(options.log, options.resume);

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "generator/gltf/read.h"
 
@@ -37,11 +38,14 @@ Result<Done> refuse_existing(const Options& options, const Imported& imported) {
 }
 
 Result<Done> write_files(const Options& options, const Imported& imported) {
-  for (const char* folder : {"/maps", "/skins"})
-    if (folder != std::string("/skins") || options.import.wears_model)
-      if (const Result<Done> made = make_folder(options.folder + folder); !made) return made;
+  for (const char* name : {"/maps", "/skins"}) {
+    const std::string folder = options.folder + name;
+    if (name == std::string("/skins") && !options.import.wears_model) continue;
+    if (const Result<Done> inside = check_inside(options.folder, folder); !inside) return inside;
+    if (const Result<Done> made = make_folder(folder); !made) return made;
+  }
   for (const ImportFile& file : imported.files)
-    if (const Result<Done> written = write_file(options.folder + "/" + file.name, file.text); !written) return written;
+    if (const Result<Done> written = write_inside(options.folder, file.name, file.text); !written) return written;
   return Done{};
 }
 
@@ -107,7 +111,7 @@ void run(Options options, Context& context) {
   if (const Result<Done> added = add_model(options, imported); !added) return context.fail(added.issue());
   if (const Result<Done> free = refuse_existing(options, imported); !free) return context.fail(free.issue());
   if (const Result<Done> written = write_files(options, imported); !written)
-    return context.fail(written.issue(), kInternal);
+    return context.fail(written.issue(), is_outside(written.issue()) ? kBadInput : kInternal);
   if (options.json) return print_json(options, imported);
   print_text(options, imported);
 }

@@ -8,6 +8,7 @@
 #include "corpus/corpus.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
@@ -30,6 +31,7 @@ Result<Library> load_libraries(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (const Result<Done> loaded = load_folder(folder, library); !loaded) return loaded.issue();
     if (const Result<Done> loaded = load_recordings(folder, library); !loaded) return loaded.issue();
+    if (const Result<Done> inside = check_inside(folder, folder + "/aim"); !inside) return inside.issue();
     shared_aim_tables().read_from(folder + "/aim");
   }
   if (const Result<Done> fit = check_actions(library); !fit) return fit.issue();

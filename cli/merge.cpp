@@ -1,10 +1,12 @@
 // contort merge: corpora of shards, nights and machines become one.
+#include "corpus/merge.h"
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "cli/commands.h"
 #include "cli/print.h"
-#include "corpus/merge.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort::cli {
@@ -36,7 +38,7 @@ void run(const Options& options, Context& context) {
     sources.push_back(std::move(corpus).value());
   }
   const Result<Corpus> into = Corpus::create(options.output);
-  if (!into) return context.fail(into.issue(), kInternal);
+  if (!into) return context.fail(into.issue(), is_outside(into.issue()) ? kBadInput : kInternal);
   const Result<Merged> merged = merge(sources, *into);
   if (!merged) return context.fail(merged.issue(), kInternal);
   std::vector<Issue> damaged = merged->damaged;

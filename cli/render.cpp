@@ -56,7 +56,7 @@ Result<std::vector<std::string>> cases_of(const std::string& folder) {
   std::vector<std::pair<double, std::string>> cases;
   for (const Bucket& bucket : corpus->buckets(damaged)) {
     const std::string path = corpus->folder_of(bucket) + "/" + bucket.min;
-    const Result<Case> stored = read_case(path);
+    const Result<Case> stored = read_case_of(corpus->folder_of(bucket), bucket.min);
     if (!stored) damaged.push_back(stored.issue());
     if (stored && !is_ending(stored->expect)) cases.emplace_back(-stored->expect.depth, path);
   }

@@ -27,6 +27,7 @@
 #include "generator/actions/action.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "renders/needs.h"
 #include "renders/report.h"
@@ -264,7 +265,7 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(bucket_folder, error)) {
     if (entry.path().filename().string().rfind("min-", 0) != 0) continue;
-    const Result<Case> stored = read_case(entry.path().string());
+    const Result<Case> stored = read_case_of(bucket_folder, entry.path().filename().string());
     if (!stored) return stored.issue();
     return "NEW " + family_of(*stored) + "  " + short_number(stored->expect.worst_margin) + " " + stored->expect.unit +
            (stored->also.empty() ? "" : " and " + std::to_string(stored->also.size()) + " that come with it") + "  " +
@@ -277,10 +278,10 @@ namespace {
 
 void write_page(const ReportRequest& request, const ReportModel& model, Media media, const Library& library,
                 Context& context) {
+  if (const Result<Done> written = write_report(model, request.folder); !written)
+    return context.fail(written.issue(), is_outside(written.issue()) ? kBadInput : kInternal);
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
     return context.fail(made.issue(), kInternal);
-  if (const Result<Done> written = write_report(model, request.folder); !written)
-    return context.fail(written.issue(), kInternal);
   if (context.gl != "none") tidy(request.folder + "/strips", media.pictures);
   write_case_pages(media.cases, request.folder, library, context);
   if (context.gl == "none") {

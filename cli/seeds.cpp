@@ -5,6 +5,7 @@
 
 #include "cli/input.h"
 #include "corpus/isolate.h"
+#include "generator/core/inside_folder.h"
 #include "generator/stage.h"
 
 namespace contort::cli {
@@ -36,6 +37,7 @@ std::string refusal_of(const Spec& spec, const Library& library) {
 Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& library) {
   std::vector<Spec> seeds;
   for (const std::string& path : files_of(folder)) {
+    if (const Result<Done> inside = check_inside(folder, path); !inside) return inside.issue();
     const Result<SpecInput> input = read_spec_input(path);
     if (!input) return input.issue();
     if (const std::string why = refusal_of(input->spec, library); !why.empty())

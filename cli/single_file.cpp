@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "renders/case_data.h"
 #include "renders/page_call.h"
 
@@ -21,7 +22,7 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
   std::size_t room = kMostBytes;
   int left_out = 0;
   const auto text_of = [&](const std::string& name) {
-    const Result<std::string> text = read_file(folder + "/" + name, kMostBytes);
+    const Result<std::string> text = read_inside(folder, name, kMostBytes);
     return text ? *text : std::string();
   };
   const auto add = [&](const std::string& name, const std::string& text) {

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/variants.h"
 #include "generator/actions/action.h"
+#include "generator/core/inside_folder.h"
 #include "generator/motion/aim_table_file.h"
 #include "generator/motion/aim_tables.h"
 
@@ -79,6 +80,8 @@ void add_tables(CLI::App& app, Context& context) {
   command->callback([folder, &context] {
     const Library* library = context.load_library();
     if (library == nullptr) return;
+    if (const Result<Done> inside = check_inside(*folder, *folder + "/aim"); !inside)  // what is old there is removed
+      return context.fail(inside.issue());
     const Result<Counts> counts = update(*folder + "/aim", geometries_of(*library));
     if (!counts) return context.fail(counts.issue(), kInternal);
     std::printf("%s/aim: %d built, %d kept, %d removed\n", folder->c_str(), counts->built, counts->kept,

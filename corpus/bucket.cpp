@@ -1,22 +1,33 @@
 #include "corpus/bucket.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 #include <tuple>
 
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort {
 
 namespace {
 
+using json_fields::Json;
 using json_fields::Rule;
 using json_fields::Text;
 
 constexpr std::string_view kStateNames[] = {"new", "open", "fixed", "regressed", "flaky", "quarantined", "invalid"};
 
-const Rule kNeeded{.text = Text::label, .required = true};
+constexpr std::size_t kIdDigits = 12;
+constexpr std::string_view kNames[] = {"/id", "/min", "/worst", "/orig"};  // what becomes a path
+
+const Rule kId{.text = Text::hex, .digits = kIdDigits, .required = true};
+// Each role has names of its own: who drops an original must never drop the minimal case or bucket.json.
+Rule case_of(std::string_view begins) {
+  return {.text = Text::file, .begins = begins, .ends = ".json", .may_be_empty = true};
+}
 const Rule kLabel{.text = Text::label, .may_be_empty = true};
 const Rule kProse{.text = Text::prose};
 const Rule kCount{.low = 0, .high = 1e9};
@@ -53,7 +64,7 @@ std::set<std::string> actions_of(const Spec& spec) {
 template <class V>
 void fields(V& v, const Bucket*) {
   v.constant("format", "contort.bucket/1");
-  v.field("id", &Bucket::id, kNeeded, "Hash of family and features.");
+  v.field("id", &Bucket::id, kId, "Hash of family and features.");
   v.field("check", &Bucket::check, {.required = true}, "The check that fails.");
   v.field("family", &Bucket::family, {.text = Text::prose, .required = true},
           "Identity of the failure, without numbers.");
@@ -71,9 +82,9 @@ void fields(V& v, const Bucket*) {
   v.field("streak", &Bucket::streak, kCount, "Replays in a row: passed while quarantined, steady while flaky.");
   v.field("changes", &Bucket::changes, kCount, "How often the state and what belongs to it changed.");
   v.field("runs", &Bucket::runs, {.max_count = 100000}, "Runs that put a case here.");
-  v.field("min", &Bucket::min, kLabel, "File of the smallest case.");
-  v.field("worst", &Bucket::worst, kLabel, "File of the deepest case.");
-  v.field("orig", &Bucket::orig, kLabel, "File of the case that min was shrunk from.");
+  v.field("min", &Bucket::min, case_of("min-"), "File of the smallest case.");
+  v.field("worst", &Bucket::worst, case_of("worst-"), "File of the deepest case.");
+  v.field("orig", &Bucket::orig, case_of("orig-"), "File of the case that min was shrunk from.");
 }
 
 std::string features_of(const Spec& spec) {
@@ -98,7 +109,7 @@ std::string features_of(const Spec& spec) {
 }
 
 std::string bucket_id(const std::string& family, const std::string& features) {
-  return content_id(family + "\n" + features).substr(0, 12);
+  return content_id(family + "\n" + features).substr(0, kIdDigits);
 }
 
 bool cheaper(const Spec& a, const Spec& b) {
@@ -126,20 +137,76 @@ std::string case_file_name(std::string_view role, const Spec& spec) {
   return std::string(role) + "-" + spec_id(spec).substr(0, 16) + ".json";
 }
 
+namespace {
+
+bool is_bad_name(const Issue& issue) {
+  return issue.code == "bucket.bad_text" && std::ranges::count(kNames, issue.pointer) > 0;
+}
+
+Result<std::string> read_text(const std::string& folder) {
+  return read_inside(folder, "bucket.json", json_fields::kMaxDocumentBytes);
+}
+
+Issue in_file(const std::string& path, Issue issue) {
+  const bool is_bad = is_bad_name(issue);
+  issue.text = path + ": " + issue.text;
+  if (is_bad) issue.text += "; contort corpus fsck --repair mends it from the cases that are in the folder";
+  if (is_bad) issue.code = "bucket.bad_name";
+  return issue;
+}
+
+}  // namespace
+
 Result<Bucket> read_bucket(const std::string& folder) {
-  const std::string path = folder + "/bucket.json";
-  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
+  const Result<std::string> text = read_text(folder);
   if (!text) return text.issue();
   Result<Bucket> bucket = json_fields::read_document<Bucket>(*text, "bucket");
   if (bucket) return bucket;
-  return Issue{bucket.issue().code, bucket.issue().pointer, path + ": " + bucket.issue().text};
+  return in_file(folder + "/bucket.json", bucket.issue());
+}
+
+Result<Bucket> read_own_bucket(const std::string& folder) {
+  Result<Bucket> bucket = read_bucket(folder);
+  if (!bucket) return bucket;
+  if (const std::string own = folder_name(*bucket); std::filesystem::path(folder).filename() != own)
+    return Issue{"bucket.wrong_folder", "",
+                 folder + " holds the bucket " + own + ", whose folder has that name; contort corpus fsck --repair " +
+                     "moves it there, or aside where there is one"};
+  for (const std::string& file : {bucket->min, bucket->worst, bucket->orig})
+    if (const Result<Done> inside = check_inside(folder, folder + "/" + file); !inside) return inside.issue();
+  return bucket;
+}
+
+Result<Bucket> read_bucket_without_bad_names(const std::string& folder) {
+  const Result<std::string> text = read_text(folder);
+  if (!text) return text.issue();
+  Result<Json> tree = json_fields::parse_document(*text);
+  if (!tree) return tree.issue();
+  Json left = *tree;
+  const std::string no_id(kIdDigits, '0');  // the field is required, so that it cannot be left out
+  for (;;) {
+    Result<Bucket> read = json_fields::read_document<Bucket>(left.dump(), "bucket");
+    if (!read && !is_bad_name(read.issue())) return read;
+    if (!read) {
+      const std::string field = read.issue().pointer.substr(1);
+      field == "id" ? static_cast<void>(left[field] = no_id) : static_cast<void>(left.erase(field));
+      continue;
+    }
+    Bucket bucket = std::move(read).value();
+    if (bucket.id == no_id) bucket.id.clear();
+    return bucket;
+  }
+}
+
+bool is_untrusted(const Issue& issue) {
+  return is_outside(issue) || issue.code == "bucket.bad_name" || issue.code == "bucket.wrong_folder";
 }
 
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket) {
   const std::string text = print_bucket(bucket);
   // What nobody can read again would be lost: a name of 300 letters, say.
   if (const Result<Bucket> again = json_fields::read_document<Bucket>(text, "bucket"); !again) return again.issue();
-  return write_file(folder + "/bucket.json", text);
+  return write_inside(folder, "bucket.json", text);
 }
 
 std::string print_bucket(const Bucket& bucket) { return json_fields::write_pretty(bucket); }

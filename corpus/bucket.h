@@ -60,8 +60,20 @@ std::string folder_name(const Bucket& bucket);
 // "min-0123456789abcdef.json"
 std::string case_file_name(std::string_view role, const Spec& spec);
 
-// bucket.json; codes json.*, bucket.*.
+// bucket.json; codes json.*, bucket.*, file.*. Code bucket.bad_name where the id or the name of a case has not its
+// form: strangers write them, and they become paths.
 Result<Bucket> read_bucket(const std::string& folder);
+
+// The same, and the bucket may be worked with: it lies in the folder of its name (code bucket.wrong_folder), and its
+// cases are no links that lead out of it (code file.outside).
+Result<Bucket> read_own_bucket(const std::string& folder);
+
+// What bucket.json says apart from the names that are not of their form: these are empty. For fsck, which mends them.
+Result<Bucket> read_bucket_without_bad_names(const std::string& folder);
+
+// Whether a bucket was refused for where its names or links lead, and not because it cannot be read.
+bool is_untrusted(const Issue& issue);
+
 // Also codes of read_bucket, where it could not be read again.
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket);
 std::string print_bucket(const Bucket& bucket);

@@ -7,6 +7,7 @@
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 
 namespace contort {
 
@@ -41,8 +42,8 @@ bool before(const Pair& a, const Pair& b) {
 }  // namespace
 
 Result<Done> BucketFiles::put_pair(const Case& minimal, const Case* original, Bucket& bucket) {
-  const Result<Case> present = read_case(folder_ + "/" + bucket.min);
-  const Result<Case> present_original = read_case(folder_ + "/" + bucket.orig);
+  const Result<Case> present = read_case_of(folder_, bucket.min);
+  const Result<Case> present_original = read_case_of(folder_, bucket.orig);
   const bool whole = present && (present_original || bucket.orig.empty());
   if (whole && !before({&minimal, original}, {&*present, present_original ? &*present_original : nullptr}))
     return Done{};
@@ -54,7 +55,7 @@ Result<Done> BucketFiles::put_pair(const Case& minimal, const Case* original, Bu
 }
 
 Result<Done> BucketFiles::put_worst(const Case& shown, Bucket& bucket) {
-  const Result<Case> worst = read_case(folder_ + "/" + bucket.worst);
+  const Result<Case> worst = read_case_of(folder_, bucket.worst);
   if (worst && !deeper(shown, *worst)) return Done{};
   return put("worst", shown, bucket.worst);
 }
@@ -68,7 +69,7 @@ Result<Done> BucketFiles::commit(const Bucket& bucket) const {
 
 Result<Done> BucketFiles::put(std::string_view role, const Case& next, std::string& current) {
   const std::string name = case_file_name(role, next.spec);
-  if (const Result<Done> written = write_file(folder_ + "/" + name, print_case(next)); !written) return written;
+  if (const Result<Done> written = write_inside(folder_, name, print_case(next)); !written) return written;
   if (!current.empty() && current != name) replaced_.push_back(folder_ + "/" + current);
   current = name;
   return Done{};
@@ -87,8 +88,8 @@ Result<Bucket> present_bucket(const Bucket& source, const std::string& folder) {
 }  // namespace
 
 Result<Done> merge_bucket(const std::string& from, const Bucket& source, const std::string& to) {
-  const Result<Case> minimal = read_case(from + "/" + source.min), worst = read_case(from + "/" + source.worst);
-  const Result<Case> original = source.orig.empty() ? minimal : read_case(from + "/" + source.orig);
+  const Result<Case> minimal = read_case_of(from, source.min), worst = read_case_of(from, source.worst);
+  const Result<Case> original = source.orig.empty() ? minimal : read_case_of(from, source.orig);
   for (const Result<Case>* stored : {&minimal, &worst, &original})
     if (!*stored) return stored->issue();
   const Result<Bucket> present = present_bucket(source, to);

@@ -11,14 +11,16 @@
 #include "corpus/lifecycle.h"
 #include "corpus/lock.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort {
 
 namespace fs = std::filesystem;
 
-Result<Case> read_case(const std::string& path) {
-  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
+namespace {
+
+Result<Case> case_in(const Result<std::string>& text, const std::string& path) {
   if (!text) return text.issue();
   Result<Case> stored = parse_case(*text);
   if (stored) return stored;
@@ -27,7 +29,25 @@ Result<Case> read_case(const std::string& path) {
   return issue;
 }
 
+// Whoever packed the corpus may have made them links to somebody else's folders.
+Result<Done> check_own_folders(const std::string& folder) {
+  for (const char* own : {"/buckets", "/leads", "/runs", "/invalid", "/.lock"})
+    if (const Result<Done> inside = check_inside(folder, folder + own); !inside) return inside;
+  return Done{};
+}
+
+}  // namespace
+
+Result<Case> read_case(const std::string& path) {
+  return case_in(read_file(path, json_fields::kMaxDocumentBytes), path);
+}
+
+Result<Case> read_case_of(const std::string& folder, const std::string& file) {
+  return case_in(read_inside(folder, file, json_fields::kMaxDocumentBytes), folder + "/" + file);
+}
+
 Result<Corpus> Corpus::create(const std::string& folder) {
+  if (const Result<Done> own = check_own_folders(folder); !own) return own.issue();
   for (const char* sub : {"/buckets", "/leads", "/runs"})
     if (const Result<Done> made = make_folder(folder + sub); !made) return made.issue();
   // A folder that exists may still be read-only: find out now, not after an hour of fuzzing. Without a file, which a kill
@@ -43,10 +63,17 @@ Result<Corpus> Corpus::open(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder + "/buckets", error))
     return Issue{"corpus.not_found", "", folder + " holds no corpus (no folder \"buckets\")"};
+  if (const Result<Done> own = check_own_folders(folder); !own) return own.issue();
   return Corpus(folder);
 }
 
 std::string Corpus::folder_of(const Bucket& bucket) const { return folder_ + "/buckets/" + folder_name(bucket); }
+
+Result<std::string> Corpus::place_of(const Bucket& bucket) const {
+  const std::string folder = folder_of(bucket);
+  if (const Result<Done> inside = check_inside(folder_, folder); !inside) return inside.issue();
+  return folder;
+}
 
 namespace {
 
@@ -78,10 +105,12 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
   const Result<CorpusLock> lock = CorpusLock::take(folder_);
   if (!lock) return lock.issue();
   Bucket bucket = bucket_of(found.minimal);
-  const std::string folder = folder_of(bucket);
+  const Result<std::string> place = place_of(bucket);
+  if (!place) return place.issue();
+  const std::string& folder = *place;
   Added added{folder, true};
-  if (std::error_code ignored; fs::exists(folder + "/bucket.json", ignored)) {
-    const Result<Bucket> present = read_bucket(folder);
+  if (std::error_code ignored; fs::exists(fs::symlink_status(folder + "/bucket.json", ignored))) {
+    const Result<Bucket> present = read_own_bucket(folder);
     if (!present) return present.issue();  // a person has to look: overwriting it would lose its state
     bucket = found_again(*present);
     added.is_new = false;
@@ -99,40 +128,46 @@ Result<Corpus::Added> Corpus::add(const Found& found) const {
 Result<Done> Corpus::take(const Corpus& from, const Bucket& bucket) const {
   const Result<CorpusLock> lock = CorpusLock::take(folder_);
   if (!lock) return lock.issue();
+  for (const Corpus* corpus : {&from, this})
+    if (const Result<std::string> place = corpus->place_of(bucket); !place) return place.issue();
   return merge_bucket(from.folder_of(bucket), bucket, folder_of(bucket));
 }
 
 Result<Bucket> Corpus::change(const Bucket& bucket, const Change& change) const {
   const Result<CorpusLock> lock = CorpusLock::take(folder_);
   if (!lock) return lock.issue();
-  const std::string folder = folder_of(bucket);
-  const Result<Bucket> present = read_bucket(folder);
+  const Result<std::string> folder = place_of(bucket);
+  if (!folder) return folder.issue();
+  const Result<Bucket> present = read_own_bucket(*folder);
   if (!present) return present;
   const Result<Bucket> next = change(*present);
   if (!next || *next == *present) return next;
-  if (const Result<Done> written = write_bucket(folder, *next); !written) return written.issue();
+  if (const Result<Done> written = write_bucket(*folder, *next); !written) return written.issue();
   return next;
 }
 
 Result<Done> Corpus::remove(const Bucket& bucket) const {
   const Result<CorpusLock> lock = CorpusLock::take(folder_);
   if (!lock) return lock.issue();
+  const Result<std::string> folder = place_of(bucket);
+  if (!folder) return folder.issue();
   std::error_code error;
-  fs::remove_all(folder_of(bucket), error);
-  if (error) return Issue{"file.unwritable", "", "cannot remove " + folder_of(bucket) + ": " + error.message()};
+  fs::remove_all(*folder, error);
+  if (error) return Issue{"file.unwritable", "", "cannot remove " + *folder + ": " + error.message()};
   return Done{};
 }
 
 std::vector<Bucket> Corpus::buckets_under_lock(std::vector<Issue>& damaged) const {
   std::vector<std::string> folders;
-  std::error_code error;
+  std::error_code error, ignored;
   for (const auto& entry : fs::directory_iterator(folder_ + "/buckets", error))
-    if (entry.is_directory()) folders.push_back(entry.path().string());
+    if (entry.is_directory(ignored)) folders.push_back(entry.path().string());
   if (error) damaged.push_back({"corpus.unreadable", "", folder_ + "/buckets: " + error.message()});
   std::sort(folders.begin(), folders.end());
   std::vector<Bucket> all;
   for (const std::string& folder : folders) {
-    Result<Bucket> bucket = read_bucket(folder);
+    const Result<Done> inside = check_inside(folder_, folder);
+    Result<Bucket> bucket = inside ? read_own_bucket(folder) : Result<Bucket>(inside.issue());
     if (bucket)
       all.push_back(std::move(bucket).value());
     else
@@ -155,7 +190,7 @@ namespace {
 
 std::vector<Corpus::Stored> read_all(const std::string& folder, const std::vector<std::string>& files) {
   std::vector<Corpus::Stored> all;
-  for (const std::string& file : files) all.push_back({folder + "/" + file, read_case(folder + "/" + file)});
+  for (const std::string& file : files) all.push_back({folder + "/" + file, read_case_of(folder, file)});
   return all;
 }
 
@@ -169,16 +204,16 @@ std::vector<Corpus::Stored> Corpus::cases_of(Bucket& bucket) const {
   std::vector<Stored> all = read_all(folder_of(bucket), files_of(bucket));
   if (are_readable(all)) return all;
   const Result<CorpusLock> lock = CorpusLock::share(folder_);
-  if (const Result<Bucket> present = read_bucket(folder_of(bucket))) bucket = *present;
+  if (const Result<Bucket> present = read_own_bucket(folder_of(bucket))) bucket = *present;
   return read_all(folder_of(bucket), files_of(bucket));
 }
 
 Result<Case> Corpus::minimal_of(Bucket& bucket) const {
-  Result<Case> minimal = read_case(folder_of(bucket) + "/" + bucket.min);
+  Result<Case> minimal = read_case_of(folder_of(bucket), bucket.min);
   if (minimal) return minimal;
   const Result<CorpusLock> lock = CorpusLock::share(folder_);
-  if (const Result<Bucket> present = read_bucket(folder_of(bucket))) bucket = *present;
-  return read_case(folder_of(bucket) + "/" + bucket.min);
+  if (const Result<Bucket> present = read_own_bucket(folder_of(bucket))) bucket = *present;
+  return read_case_of(folder_of(bucket), bucket.min);
 }
 
 }  // namespace contort

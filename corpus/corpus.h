@@ -36,7 +36,8 @@ class Corpus {
  public:
   // Makes the folders where they are missing and tries to write; code file.unwritable.
   static Result<Corpus> create(const std::string& folder);
-  // Code corpus.not_found where the folder holds no corpus.
+  // Code corpus.not_found where the folder holds no corpus. Both: code file.outside where one of the corpus' own folders
+  // is a link that leads out of it.
   static Result<Corpus> open(const std::string& folder);
 
   // Stores a failure under its bucket. `is_new`: the bucket was not there before. What was fixed has regressed.
@@ -56,8 +57,8 @@ class Corpus {
   // Takes the bucket and its cases away.
   Result<Done> remove(const Bucket& bucket) const;
 
-  // All buckets, by folder name. Folders that cannot be read while nobody writes are reported in `damaged`, never skipped
-  // silently. Not for whoever holds the corpus' lock, which takes the next.
+  // All buckets, by folder name. Folders that cannot be read while nobody writes, and buckets whose names or links lead
+  // elsewhere (is_untrusted), are reported in `damaged`, never skipped silently. Not for whoever holds the corpus' lock, which takes the next.
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;
   std::vector<Bucket> buckets_under_lock(std::vector<Issue>& damaged) const;
 
@@ -74,9 +75,14 @@ class Corpus {
 
  private:
   explicit Corpus(std::string folder) : folder_(std::move(folder)) {}
+  // folder_of, once it is certain that writing there stays in the corpus.
+  Result<std::string> place_of(const Bucket& bucket) const;
   std::string folder_;
 };
 
 Result<Case> read_case(const std::string& path);
+
+// FOLDER/FILE of a folder that others may have filled: never a file outside. Code file.outside.
+Result<Case> read_case_of(const std::string& folder, const std::string& file);
 
 }  // namespace contort

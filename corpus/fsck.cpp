@@ -12,7 +12,7 @@
 #include "corpus/lock.h"
 #include "corpus/runs.h"
 #include "generator/core/files.h"
-#include "generator/core/json_fields.h"
+#include "generator/core/inside_folder.h"
 
 namespace contort {
 
@@ -30,6 +30,10 @@ void FaultList::add(const std::string& path, const std::string& code, const std:
   faults_.push_back(std::move(fault));
 }
 
+void FaultList::add_unread(const std::string& path, const Issue& why, const Mend& mend) {
+  add(path, is_outside(why) ? "outside" : "unreadable", to_line(why), mend);
+}
+
 void FaultList::mend(const Mend& mend) {
   if (!repair_ || !ok()) return;
   if (const Result<std::string> done = mend(); !done) issue_ = done.issue();
@@ -41,7 +45,10 @@ Result<std::string> FaultList::move_aside(const std::string& path) const {
   std::error_code error;
   for (int n = 2; fs::exists(fs::symlink_status(target, error)); ++n)
     target = root_ + "/invalid/" + below + "." + std::to_string(n);
-  if (const Result<Done> made = make_folder(fs::path(target).parent_path().string()); !made) return made.issue();
+  const std::string parent = fs::path(target).parent_path().string();
+  for (const std::string& folder : {fs::path(path).parent_path().string(), parent})
+    if (const Result<Done> inside = check_inside(root_, folder); !inside) return inside.issue();
+  if (const Result<Done> made = make_folder(parent); !made) return made.issue();
   fs::rename(path, target, error);
   if (error) return Issue{"file.unwritable", "", "cannot move " + path + ": " + error.message()};
   return "moved to " + fs::path(target).lexically_relative(root_).string();
@@ -51,6 +58,11 @@ Result<std::vector<CorpusFault>> FaultList::take() {
   if (!ok()) return issue_;
   std::ranges::stable_sort(faults_, {}, &CorpusFault::path);
   return std::move(faults_);
+}
+
+bool is_link(const std::string& path) {
+  std::error_code error;
+  return fs::is_symlink(fs::symlink_status(path, error));
 }
 
 std::vector<std::string> names_in(const std::string& folder) {
@@ -80,7 +92,8 @@ void check_temporaries(const std::string& root, FaultList& faults) {
     std::error_code error;
     for (const auto& entry : fs::recursive_directory_iterator(root + "/" + sub, error)) {
       const std::optional<pid_t> writer = writer_of(entry.path().filename().string());
-      if (writer && !is_running(*writer) && entry.is_regular_file()) left.push_back(entry.path().string());
+      const bool is_file = entry.is_symlink() || entry.is_regular_file();
+      if (writer && !is_running(*writer) && is_file) left.push_back(entry.path().string());
     }
   }
   std::ranges::sort(left);
@@ -94,15 +107,14 @@ void check_temporaries(const std::string& root, FaultList& faults) {
 }
 
 Result<Done> read_record(const std::string& path) {
-  if (const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes); !text)
-    return text.issue();
   const Result<RunRecord> record = read_run(path);
   if (!record) return record.issue();
   return Done{};
 }
 
 Result<Done> check_lead(const std::string& path) {
-  const Result<Case> lead = read_case(path);
+  const fs::path file(path), folder = file.parent_path();
+  const Result<Case> lead = read_case_of(folder.parent_path().string(), (folder.filename() / file.filename()).string());
   if (!lead) return lead.issue();
   return Done{};
 }
@@ -112,15 +124,20 @@ void check_plain(const std::string& folder, Result<Done> (*read)(const std::stri
   std::vector<std::string> paths;
   std::error_code error;
   for (const auto& entry : fs::recursive_directory_iterator(folder, error))
-    if (!entry.is_directory() && !writer_of(entry.path().filename().string())) paths.push_back(entry.path().string());
+    if ((entry.is_symlink() || !entry.is_directory()) && !writer_of(entry.path().filename().string()))
+      paths.push_back(entry.path().string());
   std::ranges::sort(paths);
   for (const std::string& path : paths) {
     const auto aside = [&] { return faults.move_aside(path); };
-    if (path.ends_with(".state") || path.ends_with(".lock")) continue;  // of a run that goes on, or was stopped
-    if (!path.ends_with(".json"))
+    const bool is_of_run = path.ends_with(".state") || path.ends_with(".lock");  // it goes on, or was stopped
+    if (const Result<Done> inside = check_inside(folder, path); !inside)
+      faults.add_unread(path, inside.issue(), aside);
+    else if (is_of_run)
+      continue;
+    else if (!path.ends_with(".json"))
       faults.add(path, "unknown_file", "is no file of a corpus", aside);
     else if (const Result<Done> good = read(path); !good)
-      faults.add(path, "unreadable", to_line(good.issue()), aside);
+      faults.add_unread(path, good.issue(), aside);
   }
 }
 
@@ -138,7 +155,9 @@ Result<std::vector<CorpusFault>> check_files(const Corpus& corpus, bool repair) 
     if (std::error_code error; fs::is_directory(fs::symlink_status(path, error)))
       check_bucket_folder(corpus, name, faults);
     else if (!writer_of(name))
-      faults.add(path, "unknown_file", "is no folder of a bucket", [&] { return faults.move_aside(path); });
+      faults.add(path, "unknown_file",
+                 is_link(path) ? "is a link, and no folder of a bucket" : "is no folder of a bucket",
+                 [&] { return faults.move_aside(path); });
   }
   check_plain(corpus.folder() + "/runs", read_record, faults);
   check_plain(corpus.folder() + "/leads", check_lead, faults);

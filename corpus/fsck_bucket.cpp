@@ -4,7 +4,8 @@
 
 #include "corpus/bucket_files.h"
 #include "corpus/fsck_files.h"
-#include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
+#include "generator/core/json_fields.h"
 
 namespace contort {
 
@@ -29,7 +30,8 @@ class BucketFolder {
     if (files_of(bucket_).empty())
       return faults_.add(folder_, "missing_case", "holds no case that can be read", aside(folder_));
     replace_missing();
-    if (bucket_ != before) write();
+    // A stand-in of the same spec has the name of what it replaces.
+    if (bucket_ != before || !copies_.empty()) write();
     check_unknown();
     check_name();
   }
@@ -40,27 +42,49 @@ class BucketFolder {
     return [this, path] { return faults_.move_aside(path); };
   }
 
-  // bucket.json, or what the cases say where it cannot be read.
+  // bucket.json, or what the cases say where it cannot be read or names what is no case of this folder.
   bool load() {
     const Result<Bucket> stored = read_bucket(folder_);
     if (stored) return bucket_ = *stored, true;
-    std::error_code error;
-    const bool is_there = fs::exists(path("bucket.json"), error);
-    if (!rebuild()) return faults_.add(folder_, "unreadable", to_line(stored.issue()), aside(folder_)), false;
-    faults_.add(path("bucket.json"), "unreadable", to_line(stored.issue()), [&]() -> Result<std::string> {
-      if (is_there)
-        if (const Result<std::string> moved = faults_.move_aside(path("bucket.json")); !moved) return moved;
-      if (const Result<Done> written = write_bucket(folder_, bucket_); !written) return written.issue();
-      return std::string("made anew from the cases; its state is new");
-    });
+    const Issue& why = stored.issue();
+    if (!rebuild()) return faults_.add_unread(folder_, why, aside(folder_)), false;
+    const Result<Bucket> known = why.code == "bucket.bad_name" ? read_bucket_without_bad_names(folder_) : stored;
+    if (known) keep_what_is_known(*known);
+    const std::string how =
+        known ? "named anew from the cases; its state stays" : "made anew from the cases; its state is new";
+    const FaultList::Mend mend = [&]() -> Result<std::string> { return replace_bucket_file(how); };
+    if (known)
+      faults_.add(path("bucket.json"), "bad_name", to_line(why), mend);
+    else
+      faults_.add_unread(path("bucket.json"), why, mend);
     return true;
+  }
+
+  // The names that are of their form, and everything that people and replays said. What was rebuilt stands for the
+  // rest.
+  void keep_what_is_known(Bucket known) {
+    for (const Role& role : kRoles)
+      if ((known.*role.file).empty()) known.*role.file = bucket_.*role.file;
+    if (known.id.empty()) {
+      known.id = bucket_.id, known.check = bucket_.check, known.family = bucket_.family;
+      known.features = bucket_.features, known.signature = bucket_.signature;
+    }
+    bucket_ = std::move(known);
+  }
+
+  Result<std::string> replace_bucket_file(const std::string& how) {
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(path("bucket.json"), error)))
+      if (const Result<std::string> moved = faults_.move_aside(path("bucket.json")); !moved) return moved;
+    if (const Result<Done> written = write_bucket(folder_, bucket_); !written) return written.issue();
+    return how;
   }
 
   bool rebuild() {
     for (const Role& role : kRoles)
       for (const std::string& name : names_in(folder_)) {
         if (!name.starts_with(std::string(role.name) + "-") || !name.ends_with(".json")) continue;
-        const Result<Case> stored = read_case(path(name));
+        const Result<Case> stored = read_case_of(folder_, name);
         if (!stored || case_file_name(role.name, stored->spec) != name) continue;
         if (bucket_.id.empty()) bucket_ = bucket_of(*stored);
         bucket_.*role.file = name;
@@ -73,13 +97,13 @@ class BucketFolder {
     std::string& file = bucket_.*role.file;
     if (file.empty()) return;
     const std::string full = path(file);
-    const Result<Case> stored = read_case(full);
+    const Result<Case> stored = read_case_of(folder_, file);
     std::error_code error;
-    if (!fs::exists(full, error))
+    if (!fs::exists(fs::symlink_status(full, error)))
       faults_.add(full, "missing_case", "bucket.json names it, but it is not there",
                   [] { return std::string("taken out of bucket.json"); });
     else if (!stored)
-      faults_.add(full, "unreadable", to_line(stored.issue()), aside(full));
+      faults_.add_unread(full, stored.issue(), aside(full));
     else if (family_of(*stored) != bucket_.family)
       faults_.add(full, "wrong_name", "its family is " + family_of(*stored), aside(full));
     else if (const std::string name = case_file_name(role.name, stored->spec); name != file)
@@ -90,12 +114,16 @@ class BucketFolder {
     file.clear();
   }
 
+  Result<Done> copy(const std::string& from, const std::string& to) const {
+    const Result<std::string> bytes = read_inside(folder_, from, json_fields::kMaxDocumentBytes);
+    if (!bytes) return bytes.issue();
+    return write_inside(folder_, to, *bytes);
+  }
+
   void rename_case(const std::string& full, const std::string& name, std::string& file) {
     faults_.add(full, "wrong_name", "its spec belongs to the name " + name, [&]() -> Result<std::string> {
       // A copy first: bucket.json still names the old one.
-      const Result<std::string> bytes = read_file(full);
-      if (!bytes) return bytes.issue();
-      if (const Result<Done> written = write_file(path(name), *bytes); !written) return written.issue();
+      if (const Result<Done> copied = copy(fs::path(full).filename().string(), name); !copied) return copied.issue();
       renamed_.push_back(full);
       return "renamed to " + name;
     });
@@ -109,20 +137,17 @@ class BucketFolder {
     for (const Role& role : {kRoles[0], kRoles[1]}) {
       std::string& file = bucket_.*role.file;
       if (!file.empty()) continue;
-      const Result<Case> stored = read_case(path(stand_in));
+      const Result<Case> stored = read_case_of(folder_, stand_in);
       if (!stored) continue;  // not repaired
       file = case_file_name(role.name, stored->spec);
-      copies_.emplace_back(path(stand_in), path(file));
+      copies_.emplace_back(stand_in, file);
     }
   }
 
   void write() {
     faults_.mend([&]() -> Result<std::string> {
-      for (const auto& [from, to] : copies_) {
-        const Result<std::string> bytes = read_file(from);
-        if (!bytes) return bytes.issue();
-        if (const Result<Done> written = write_file(to, *bytes); !written) return written.issue();
-      }
+      for (const auto& [from, to] : copies_)
+        if (const Result<Done> copied = copy(from, to); !copied) return copied.issue();
       if (const Result<Done> written = write_bucket(folder_, bucket_); !written) return written.issue();
       std::error_code ignored;
       for (const std::string& old : renamed_) fs::remove(old, ignored);
@@ -146,7 +171,7 @@ class BucketFolder {
     faults_.add(folder_, "wrong_folder", "it belongs to " + right, [&]() -> Result<std::string> {
       const std::string target = (fs::path(folder_).parent_path() / right).string();
       std::error_code error;
-      if (fs::exists(target, error)) return faults_.move_aside(folder_);
+      if (fs::exists(fs::symlink_status(target, error))) return faults_.move_aside(folder_);
       fs::rename(folder_, target, error);
       if (error) return Issue{"file.unwritable", "", "cannot rename " + folder_ + ": " + error.message()};
       return "renamed to buckets/" + right;

@@ -20,7 +20,10 @@ class FaultList {
   // The same for what has to be done once for several faults.
   void mend(const Mend& mend);
 
-  // A mend: moves a file or folder below invalid/, to the path that it has below the corpus.
+  // A fault of what could not be read: "outside" where a link was not followed, and "unreadable" else.
+  void add_unread(const std::string& path, const Issue& why, const Mend& mend);
+
+  // A mend: moves a file or folder below invalid/, to the path that it has below the corpus. A link moves as it is.
   Result<std::string> move_aside(const std::string& path) const;
 
   bool ok() const { return issue_.code.empty(); }
@@ -35,6 +38,8 @@ class FaultList {
 
 // One folder of buckets/.
 void check_bucket_folder(const Corpus& corpus, const std::string& name, FaultList& faults);
+
+bool is_link(const std::string& path);
 
 // The entries of a folder, by name; none where there is no folder.
 std::vector<std::string> names_in(const std::string& folder);

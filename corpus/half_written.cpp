@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "corpus/lock.h"
+#include "generator/core/inside_folder.h"
 
 namespace contort {
 
@@ -28,7 +29,8 @@ Result<Done> drop_half_written(const Corpus& corpus, const RunRecord& run) {
   if (!lock) return lock.issue();
   drop_below(corpus.folder() + "/buckets", "");
   for (const char* ending : {".json.", ".state."}) drop_below(corpus.folder() + "/runs", record_name(run) + ending);
-  if (run.shards == 1) drop_below(corpus.folder() + "/leads/" + run.name, "");
+  const std::string leads = corpus.folder() + "/leads/" + run.name;
+  if (run.shards == 1 && check_inside(corpus.folder(), leads)) drop_below(leads, "");
   return Done{};
 }
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
+#include "generator/core/json_fields.h"
 
 namespace contort {
 
@@ -24,6 +26,17 @@ bool is_beside(const std::string& path) {
 }
 
 std::string folder_of(const Corpus& corpus, const std::string& run) { return corpus.folder() + "/leads/" + run; }
+
+// RUN/FILE, of leads/ and not of the run's own folder, which may be a link to elsewhere.
+Result<Case> read_case_of_lead(const std::string& path) {
+  const fs::path file(path), folder = file.parent_path();
+  return read_case_of(folder.parent_path().string(), (folder.filename() / file.filename()).string());
+}
+
+Result<Done> write_case_of_lead(const Corpus& corpus, const std::string& path, const Case& stored) {
+  const std::string folder = corpus.folder() + "/leads";
+  return write_inside(folder, path.substr(folder.size() + 1), print_case(stored));
+}
 
 // Without ".json". Indices in file names have equal length, so that names sort as indices do.
 std::string stem_of(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
@@ -53,14 +66,14 @@ bool waits(const Lead& lead) { return !lead.minimal && lead.original.provenance.
 bool is_unsteady(const Lead& lead) { return !lead.minimal && lead.original.provenance.shrink_stopped == kUnsteady; }
 
 Result<Lead> read_lead(const std::string& path) {
-  Result<Case> original = read_case(path);
+  Result<Case> original = read_case_of_lead(path);
   if (!original) return original.issue();
   Lead lead{fs::path(path).parent_path().filename().string(), std::move(original).value(), {}};
   const std::string stem = path.substr(0, path.size() - 5);
   for (const Beside& beside : kBeside) {
     const std::string other = stem + std::string(beside.ending);
     if (std::error_code error; !fs::exists(other, error)) continue;
-    Result<Case> stored = read_case(other);
+    Result<Case> stored = read_case_of_lead(other);
     if (!stored) return stored.issue();
     lead.*beside.stored = std::move(stored).value();
   }
@@ -75,12 +88,15 @@ std::string lead_path(const Corpus& corpus, const std::string& run, const std::s
 std::string lead_path(const Corpus& corpus, const Lead& lead) { return stem_of(corpus, lead) + ".json"; }
 
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead) {
-  if (const Result<Done> made = make_folder(folder_of(corpus, lead.run)); !made) return made.issue();
+  const Result<std::string> folder = place_inside(corpus.folder() + "/leads", lead.run);
+  if (!folder) return folder.issue();
+  if (const Result<Done> inside = check_inside(corpus.folder(), *folder); !inside) return inside.issue();
+  if (const Result<Done> made = make_folder(*folder); !made) return made.issue();
   const std::string stem = stem_of(corpus, lead);
-  if (const Result<Done> kept = write_file(stem + ".json", print_case(lead.original)); !kept) return kept.issue();
+  if (const Result<Done> kept = write_case_of_lead(corpus, stem + ".json", lead.original); !kept) return kept.issue();
   for (const Beside& beside : kBeside)
     if (const std::optional<Case>& stored = lead.*beside.stored)
-      if (const Result<Done> kept = write_file(stem + std::string(beside.ending), print_case(*stored)); !kept)
+      if (const Result<Done> kept = write_case_of_lead(corpus, stem + std::string(beside.ending), *stored); !kept)
         return kept.issue();
   return stem + ".json";
 }
@@ -109,6 +125,7 @@ Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead) {
 void drop_lead(const Corpus& corpus, const Lead& lead) {
   std::error_code ignored;
   const std::string stem = stem_of(corpus, lead);
+  if (!check_inside(corpus.folder(), fs::path(stem).parent_path().string())) return;
   for (const Beside& beside : kBeside) fs::remove(stem + std::string(beside.ending), ignored);
   fs::remove(stem + ".json", ignored);
 }

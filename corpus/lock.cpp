@@ -23,12 +23,13 @@ Result<CorpusLock> CorpusLock::wait_for(int file, int how, const std::string& pa
 Result<CorpusLock> CorpusLock::take(const std::string& folder) {
   const std::string path = folder + "/.lock";
   // For writing, although nothing is written: on NFS a lock needs it.
-  return wait_for(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), LOCK_EX, path, "file.unwritable");
+  return wait_for(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666), LOCK_EX, path,
+                  "file.unwritable");
 }
 
 Result<CorpusLock> CorpusLock::share(const std::string& folder) {
   const std::string path = folder + "/.lock";
-  return wait_for(::open(path.c_str(), O_RDONLY | O_CLOEXEC), LOCK_SH, path, "file.unreadable");
+  return wait_for(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC), LOCK_SH, path, "file.unreadable");
 }
 
 CorpusLock::~CorpusLock() {

@@ -26,7 +26,9 @@ Result<Done> take_leads(const Corpus& from, const Corpus& into, Merged& merged) 
   for (const Lead& lead : leads_of(from, merged.damaged)) {
     const Result<Lead> present = read_lead(lead_path(into, lead));
     if (present && present->minimal && !lead.minimal) continue;
-    if (const Result<std::string> kept = keep_lead(into, lead); !kept) return kept.issue();
+    const Result<std::string> kept = keep_lead(into, lead);
+    if (!kept && !is_untrusted(kept.issue())) return kept.issue();
+    if (!kept) merged.damaged.push_back(kept.issue());  // it stays in the source
   }
   return Done{};
 }
@@ -101,7 +103,10 @@ Result<Done> file_leads(const Corpus& corpus, const RunRecord& run, Merged& merg
     (came_too_late(run, lead) || told_already(lead) ? superfluous : to_file).push_back(std::move(lead));
   for (const Lead& lead : superfluous) drop_lead(corpus, lead);
   for (const Lead& lead : to_file)
-    if (const auto added = file_lead(corpus, lead); !added) return added.issue();
+    if (const auto added = file_lead(corpus, lead); !added && is_untrusted(added.issue()))
+      merged.damaged.push_back(added.issue());  // it stays a lead: the next merge tries again
+    else if (!added)
+      return added.issue();
   tidy_leads(corpus, run.name);
   return Done{};
 }

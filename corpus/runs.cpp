@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "corpus/run_fields.h"
-#include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 
 namespace contort {
 
@@ -38,7 +38,7 @@ void add_families(const RunRecord& shard, RunRecord& sum) {
 }  // namespace
 
 Result<RunRecord> read_run(const std::string& path) {
-  const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes);
+  const Result<std::string> text = read_beside(path, json_fields::kMaxDocumentBytes);
   if (!text) return text.issue();
   Result<RunRecord> run = json_fields::read_document<RunRecord>(*text, "run");
   if (run) return run;
@@ -74,7 +74,7 @@ Result<Done> keep_run(const Corpus& corpus, const RunRecord& run) {
   std::error_code error;
   if (fs::exists(path, error))
     if (const Result<RunRecord> present = read_run(path); present && present->cases > run.cases) return Done{};
-  return write_file(path, json_fields::write_pretty(run));
+  return write_inside(corpus.folder() + "/runs", record_name(run) + ".json", json_fields::write_pretty(run));
 }
 
 std::vector<RunRecord> runs_of(const Corpus& corpus, std::vector<Issue>& damaged) {

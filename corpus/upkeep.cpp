@@ -6,6 +6,8 @@
 #include "corpus/bucket_files.h"
 #include "corpus/lock.h"
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
+#include "generator/core/json_fields.h"
 
 namespace contort {
 
@@ -13,14 +15,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Does something to each bucket while nobody else writes. A damaged bucket ends it before anything is changed.
+// Does something to each bucket while nobody else writes. A bucket that cannot be read ends it before anything is
+// changed; one whose names lead elsewhere is no bucket of this corpus, and the others have nothing to do with it.
 template <class Each>
 Result<Changes> each_bucket(const Corpus& corpus, const Each& each) {
   const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
   if (!lock) return lock.issue();
   std::vector<Issue> damaged;
   const std::vector<Bucket> buckets = corpus.buckets_under_lock(damaged);
-  if (!damaged.empty()) return damaged.front();
+  if (const auto stop = std::ranges::find_if_not(damaged, is_untrusted); stop != damaged.end()) return *stop;
   Changes changes;
   for (const Bucket& bucket : buckets)
     if (const Result<Done> done = each(bucket, changes); !done) return done.issue();
@@ -29,7 +32,7 @@ Result<Changes> each_bucket(const Corpus& corpus, const Each& each) {
 
 Result<Done> move_bucket(const std::string& from, const Bucket& named, const std::string& to) {
   std::error_code error;
-  if (!fs::exists(to + "/bucket.json", error)) {
+  if (!fs::exists(fs::symlink_status(to + "/bucket.json", error))) {
     fs::rename(from, to, error);
     if (error) return Issue{"file.unwritable", "", "cannot rename " + from + ": " + error.message()};
     return write_bucket(to, named);
@@ -41,7 +44,7 @@ Result<Done> move_bucket(const std::string& from, const Bucket& named, const std
 }
 
 Result<Done> rekey_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
-  const Result<Case> minimal = read_case(corpus.folder_of(bucket) + "/" + bucket.min);
+  const Result<Case> minimal = read_case_of(corpus.folder_of(bucket), bucket.min);
   if (!minimal) return minimal.issue();
   const Bucket right = bucket_of(*minimal);
   Bucket named = bucket;
@@ -50,41 +53,49 @@ Result<Done> rekey_one(const Corpus& corpus, const Bucket& bucket, Changes& chan
   if (named == bucket) return Done{};
   changes.push_back(folder_name(bucket) + " is now " + folder_name(named));
   if (folder_name(named) == folder_name(bucket)) return write_bucket(corpus.folder_of(bucket), named);
-  return move_bucket(corpus.folder_of(bucket), named, corpus.folder_of(named));
+  const Result<Done> inside = check_inside(corpus.folder(), corpus.folder_of(named));
+  return inside ? move_bucket(corpus.folder_of(bucket), named, corpus.folder_of(named)) : inside;
 }
 
 Result<Done> prune_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
   if (bucket.state != BucketState::fixed || bucket.orig.empty()) return Done{};
-  const std::string original = corpus.folder_of(bucket) + "/" + bucket.orig;
+  const Result<std::string> original = place_inside(corpus.folder_of(bucket), bucket.orig);
+  if (!original) return original.issue();
   Bucket pruned = bucket;
   pruned.orig.clear();
   if (const Result<Done> written = write_bucket(corpus.folder_of(bucket), pruned); !written) return written;
   changes.push_back(folder_name(bucket) + "/" + bucket.orig + " dropped");
   std::error_code ignored;  // what stays is found by fsck
-  fs::remove(original, ignored);
+  fs::remove(*original, ignored);
   return Done{};
 }
 
-Result<Done> rewrite(const std::string& path, const std::string& text, const std::string& name, Changes& changes) {
-  const Result<std::string> present = read_file(path);
+Result<Done> rewrite(const std::string& folder, const std::string& file, const std::string& text, Changes& changes) {
+  const Result<std::string> present = read_inside(folder, file, json_fields::kMaxDocumentBytes);
   if (!present) return present.issue();
   if (*present == text) return Done{};
-  changes.push_back(name + " rewritten");
-  return write_file(path, text);
+  changes.push_back(fs::path(folder).filename().string() + "/" + file + " rewritten");
+  return write_inside(folder, file, text);
 }
 
 Result<Done> migrate_one(const Corpus& corpus, const Bucket& bucket, Changes& changes) {
-  const std::string folder = corpus.folder_of(bucket) + "/";
+  const std::string folder = corpus.folder_of(bucket);
   for (const std::string& file : files_of(bucket)) {
-    const Result<Case> stored = read_case(folder + file);
+    const Result<Case> stored = read_case_of(folder, file);
     if (!stored) return stored.issue();
-    const std::string name = folder_name(bucket) + "/" + file;
-    if (const auto done = rewrite(folder + file, print_case(*stored), name, changes); !done) return done;
+    if (const auto done = rewrite(folder, file, print_case(*stored), changes); !done) return done;
   }
-  return rewrite(folder + "bucket.json", print_bucket(bucket), folder_name(bucket) + "/bucket.json", changes);
+  return rewrite(folder, "bucket.json", print_bucket(bucket), changes);
 }
 
 }  // namespace
+
+std::vector<Issue> left_alone(const Corpus& corpus) {
+  std::vector<Issue> damaged;
+  corpus.buckets(damaged);
+  std::erase_if(damaged, [](const Issue& issue) { return !is_untrusted(issue); });
+  return damaged;
+}
 
 Result<Changes> rekey(const Corpus& corpus) {
   return each_bucket(corpus, [&](const Bucket& b, Changes& changes) { return rekey_one(corpus, b, changes); });

@@ -1,4 +1,5 @@
 // What is done to a whole corpus now and then. Each takes the corpus' lock and gives what it changed, one line each.
+// What left_alone lists is not touched.
 #pragma once
 
 #include <string>
@@ -19,6 +20,10 @@ int named_by_other_rules(const Corpus& corpus);
 
 // Drops the originals of fixed buckets: min and worst are enough to notice that one regresses.
 Result<Changes> prune(const Corpus& corpus);
+
+// Why buckets are left alone by all of these: what they name, or a link, leads out of them (is_untrusted). Any other
+// damage stops them before anything is changed.
+std::vector<Issue> left_alone(const Corpus& corpus);
 
 // Reads every bucket and case and writes it in today's format.
 Result<Changes> migrate(const Corpus& corpus);

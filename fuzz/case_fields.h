@@ -13,6 +13,7 @@ namespace case_rules {
 inline const json_fields::Rule kIndices{.low = 0, .high = 0x1p53, .max_count = 1000};
 inline const json_fields::Rule kProse{.text = json_fields::Text::prose, .may_be_empty = true};
 inline const json_fields::Rule kLabels{.max_count = 100000, .text = json_fields::Text::label};
+inline const json_fields::Rule kFolders{.max_count = 100000, .text = json_fields::Text::file};
 inline const json_fields::Rule kFamilies{.max_count = 1'000'000, .text = json_fields::Text::prose};
 inline const json_fields::Rule kHash{.text = json_fields::Text::hex};
 }  // namespace case_rules
@@ -82,8 +83,8 @@ void fields(V& v, const RunState*) {
   v.field("record", &RunState::record, {.required = true}, "What was done so far.");
   v.field("islands", &RunState::islands, {.max_count = kIslands}, "What the search knows.");
   v.field("wanted", &RunState::wanted, {.max_count = 1'000'000}, "Failures that are not settled yet.");
-  v.field("new_buckets", &RunState::new_buckets, case_rules::kLabels, "Buckets that this run was the first to fill.");
-  v.field("known_buckets", &RunState::known_buckets, case_rules::kLabels, "Buckets that were there before.");
+  v.field("new_buckets", &RunState::new_buckets, case_rules::kFolders, "Buckets that this run was the first to fill.");
+  v.field("known_buckets", &RunState::known_buckets, case_rules::kFolders, "Buckets that were there before.");
   v.field("unconfirmed", &RunState::unconfirmed, case_rules::kLabels, "Leads whose second run differed.");
   v.field("waivers", &RunState::waivers, {.max_count = 1000}, "Use of each.");
 }

@@ -8,13 +8,15 @@
 #include <filesystem>
 
 #include "fuzz/case_fields.h"
-#include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 
 namespace contort {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t kMostStateBytes = std::size_t{256} << 20;
 
 std::string path_of(const Corpus& corpus, const RunRecord& record, const std::string& ending) {
   return corpus.folder() + "/runs/" + record_name(record) + ending;
@@ -29,22 +31,57 @@ bool is_still_there(int file, const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+// The folder may be named in another way than when the run was stopped, or be another copy: what counts is which lead
+// of this corpus it is.
+Result<Done> take_paths_here(const Corpus& corpus, std::vector<std::string>& leads) {
+  for (std::size_t i = 0; i < leads.size(); ++i) {
+    const fs::path lead(leads[i]), run = lead.parent_path().filename();
+    const Result<std::string> here =
+        place_inside(corpus.folder(), "leads/" + run.string() + "/" + lead.filename().string());
+    if (!here) return Issue{here.issue().code, "/unconfirmed/" + std::to_string(i), here.issue().text};
+    leads[i] = *here;
+  }
+  return Done{};
+}
+
+// Names in it are of this run and of this corpus.
+Result<Done> check_names(const Corpus& corpus, const RunRecord& record, RunState& state) {
+  if (record_name(state.record) != record_name(record))
+    return Issue{"state.other_run", "/record/name", "found the run " + record_name(state.record)};
+  for (std::size_t i = 0; i < state.wanted.size(); ++i)
+    if (!state.wanted[i].lead.empty())
+      return Issue{"state.bad_lead", "/wanted/" + std::to_string(i) + "/lead",
+                   "found " + json_fields::quoted(state.wanted[i].lead) +
+                       ", expected nothing: leads that wait are looked for in the corpus"};
+  return take_paths_here(corpus, state.unconfirmed);
+}
+
+}  // namespace
+
 std::string state_path(const Corpus& corpus, const RunRecord& record) { return path_of(corpus, record, ".state"); }
 
 Result<Done> keep_state(const Corpus& corpus, const RunState& state) {
-  return write_file(state_path(corpus, state.record), json_fields::write_canonical(state));
+  return write_inside(corpus.folder() + "/runs", record_name(state.record) + ".state",
+                      json_fields::write_canonical(state));
 }
 
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan) {
   const std::string path = state_path(corpus, record);
-  if (std::error_code error; !fs::exists(path, error)) return std::optional<RunState>();
-  const Result<std::string> text = read_file(path);
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return std::optional<RunState>();
+  const Result<std::string> text = read_beside(path, kMostStateBytes);
   if (!text) return text.issue();
-  Result<RunState> state = json_fields::read_document<RunState>(*text, "state");
-  if (!state) return Issue{state.issue().code, state.issue().pointer, path + ": " + state.issue().text};
-  if (state->plan != plan || state->islands.size() != static_cast<std::size_t>(kIslands))
+  Result<RunState> read = json_fields::read_document<RunState>(*text, "state");
+  if (!read) return Issue{read.issue().code, read.issue().pointer, path + ": " + read.issue().text};
+  RunState state = std::move(read).value();
+  if (const Result<Done> own = check_names(corpus, record, state); !own)
+    return Issue{own.issue().code, own.issue().pointer,
+                 path + ": " + own.issue().text + "; remove the file to begin the run anew"};
+  if (state.plan != plan || state.islands.size() != static_cast<std::size_t>(kIslands))
     return Issue{"state.other_plan", "", path + " is of a run with other options; remove it to begin anew"};
-  return std::optional<RunState>(std::move(state).value());
+  return std::optional<RunState>(std::move(state));
 }
 
 void drop_state(const Corpus& corpus, const RunRecord& record) {
@@ -55,8 +92,8 @@ void drop_state(const Corpus& corpus, const RunRecord& record) {
 Result<RunLock> RunLock::take(const Corpus& corpus, const RunRecord& record) {
   const std::string path = path_of(corpus, record, ".lock");
   for (;;) {
-    const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (file < 0) return Issue{"file.unwritable", "", path + " cannot be written"};
+    const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) return Issue{"file.unwritable", "", path + " cannot be written, or is a link"};
     RunLock lock(file, path);
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
       lock.path_.clear();  // it is another's

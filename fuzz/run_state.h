@@ -27,7 +27,8 @@ struct RunState {
 std::string state_path(const Corpus& corpus, const RunRecord& record);
 Result<Done> keep_state(const Corpus& corpus, const RunState& state);
 
-// Nothing where none was kept. Codes state.other_plan, json.*.
+// Nothing where none was kept. Whoever made the corpus may have made the state: it names nothing outside. Codes
+// state.other_plan, state.other_run, state.bad_lead, file.*, json.*.
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
 void drop_state(const Corpus& corpus, const RunRecord& record);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "renders/report_rest.h"
 #include "renders/tested_html.h"
@@ -68,6 +69,8 @@ std::string report_json(const ReportModel& model) {
 }
 
 Result<Done> write_report(const ReportModel& model, const std::string& folder) {
+  for (const char* own : {"/strips", "/cases", "/rows", "/viewer"})  // what is old there is removed
+    if (Result<Done> inside = check_inside(folder, folder + own); !inside) return inside;
   if (Result<Done> made = make_folder(folder); !made) return made;
   if (Result<Done> written = write_file(folder + "/report.json", report_json(model)); !written) return written;
   const PageFiles pages = report_pages(model);

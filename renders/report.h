@@ -73,7 +73,7 @@ PageFiles report_pages(const ReportModel& model);
 std::string report_json(const ReportModel& model);
 
 // report_pages and report.json in `folder`, which is made if need be. What an earlier, larger report had besides goes.
-// Code: file.unwritable.
+// Codes: file.unwritable; file.outside where one of the folders of a report is a link that leads out of it.
 Result<Done> write_report(const ReportModel& model, const std::string& folder);
 
 }  // namespace contort

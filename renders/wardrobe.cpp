@@ -3,6 +3,7 @@
 
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "generator/gltf/read.h"
 #include "renders/skin.h"
@@ -69,7 +70,8 @@ Result<std::shared_ptr<const Skin>> Wardrobe::skin_of(const Character& character
   std::error_code error;
   for (const std::string& folder : folders_)
     if (const std::string path = folder + "/skins/" + character.name() + ".json"; fs::exists(path, error)) {
-      skin = models_->bind(path, character);
+      const Result<Done> inside = check_inside(folder, path);
+      skin = inside ? models_->bind(path, character) : inside.issue();
       break;
     }
   models_->of_figures.emplace(key, skin);

@@ -7,8 +7,8 @@
 
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
-#include "generator/core/files.h"
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 #include "server/program.h"
 
@@ -83,7 +83,7 @@ Result<std::string> Triage::show(const std::string& name, const std::string& tod
   Json json = bucket_json(*bucket, today);
   json["cases"] = Json::object();
   for (const std::string& file : files_of(*bucket)) {
-    const Result<std::string> text = read_file(corpus->folder_of(*bucket) + "/" + file);
+    const Result<std::string> text = read_inside(corpus->folder_of(*bucket), file, json_fields::kMaxDocumentBytes);
     const Result<Json> stored = text ? json_fields::parse_document(*text) : Result<Json>(text.issue());
     if (stored) json["cases"][file.substr(0, file.find('-'))] = *stored;
   }
@@ -139,8 +139,9 @@ Result<Jobs::Outcome> Triage::shrink(const std::string& name, Jobs::Running& run
   if (!corpus) return corpus.issue();
   const Result<Bucket> bucket = find(*corpus, name);
   if (!bucket) return bucket.issue();
-  const std::string input = corpus->folder_of(*bucket) + "/" + (bucket->orig.empty() ? bucket->min : bucket->orig);
-  const Result<Case> original = read_case(input);
+  const std::string& file = bucket->orig.empty() ? bucket->min : bucket->orig;
+  const std::string input = corpus->folder_of(*bucket) + "/" + file;
+  const Result<Case> original = read_case_of(corpus->folder_of(*bucket), file);
   if (!original) return original.issue();
   const std::string output =
       (fs::temp_directory_path() / ("contort-shrink-" + std::to_string(::getpid()) + "-" + bucket->id + ".json"))

@@ -9,7 +9,7 @@
 #include "generator/character/action_rules.h"
 #include "generator/character/part_rules.h"
 #include "generator/character/stock_files.h"
-#include "generator/core/files.h"
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort {
@@ -90,7 +90,7 @@ Result<Done> load_folder(const std::string& folder, Library& into) {
   if (error) return Issue{"library.unreadable", "", folder + ": " + error.message()};
   std::sort(paths.begin(), paths.end());
   for (const std::string& path : paths) {
-    const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+    const Result<std::string> text = read_beside(path, json_fields::kMaxDocumentBytes);
     if (!text) return text.issue();
     if (const Result<Done> added = add_description(*text, into); !added) {
       Issue issue = added.issue();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
 namespace contort {
@@ -23,7 +24,8 @@ Result<SkinDesc> parse_skin(std::string_view text) {
   Result<SkinDesc> skin = json_fields::read_document<SkinDesc>(text, "skin");
   if (!skin) return skin;
   const std::string& model = skin->model;
-  if (model.find_first_of("/\\:") != std::string::npos || model.starts_with('.') || !model.ends_with(".glb"))
+  if (!is_file_name(model) || model.find(':') != std::string::npos || model.starts_with('.') ||
+      !model.ends_with(".glb"))
     return Issue{"skin.outside", "/model",
                  "found " + json_fields::quoted(model) + ", allowed are plain names of .glb files of the same folder"};
   const bool has_root =

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/core/inside_folder.h"
+
 namespace contort::json_fields {
 
 namespace {
@@ -23,13 +25,20 @@ bool is_hex(std::string_view text) {
   return text.size() <= (1 << 18) && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+bool is_file(std::string_view text, const Rule& rule) {
+  return is_file_name(text) && text.size() <= 200 && text.starts_with(rule.begins) && text.ends_with(rule.ends) &&
+         text.size() > rule.begins.size() + rule.ends.size();
+}
+
 bool accepts(const std::string& text, const Rule& rule) {
-  if (text.empty()) return rule.may_be_empty || rule.text == Text::prose || rule.text == Text::hex;
+  if (text.empty())
+    return rule.may_be_empty || rule.text == Text::prose || (rule.text == Text::hex && rule.digits == 0);
   switch (rule.text) {
     case Text::name: return is_name(text);
     case Text::label: return text.size() <= 200;
     case Text::prose: return text.size() <= 4000;
-    case Text::hex: return is_hex(text);
+    case Text::hex: return is_hex(text) && (rule.digits == 0 || text.size() == rule.digits);
+    case Text::file: return is_file(text, rule);
   }
   return false;
 }
@@ -39,7 +48,11 @@ std::string allowed_text(const Rule& rule) {
     case Text::name: return "a name of 1 to 64 characters a-z, 0-9 and _";
     case Text::label: return "1 to 200 bytes";
     case Text::prose: return "up to 4000 bytes";
-    case Text::hex: return "digits 0-9 and a-f";
+    case Text::hex:
+      return (rule.digits == 0 ? std::string() : std::to_string(rule.digits) + " ") + "digits 0-9 and a-f";
+    case Text::file:
+      return "the name of a file in the same folder" +
+             (rule.begins.empty() ? std::string() : ", " + std::string(rule.begins) + "…" + std::string(rule.ends));
   }
   return "";
 }
@@ -240,13 +253,31 @@ Json number_schema(const Rule& rule, bool integer) {
   return schema;
 }
 
+namespace {
+
+std::string hex_pattern(const Rule& rule) {
+  return rule.digits == 0 ? "^[0-9a-f]*$" : "^[0-9a-f]{" + std::to_string(rule.digits) + "}$";
+}
+
+// Without "." and "..", where neither a beginning nor an end keeps them out.
+std::string file_pattern(const Rule& rule) {
+  std::string end(rule.ends);
+  if (end.starts_with('.')) end.insert(0, "\\");
+  const std::string name = std::string(rule.begins) + "[^/\\\\\\u0000-\\u001f\\u007f]+" + end;
+  const std::string no_dots = rule.begins.empty() && rule.ends.empty() ? "(?!\\.{1,2}$)" : "";
+  return rule.may_be_empty ? "^(" + no_dots + name + ")?$" : "^" + no_dots + name + "$";
+}
+
+}  // namespace
+
 Json text_schema(const Rule& rule) {
   const int least = rule.may_be_empty ? 0 : 1;
   switch (rule.text) {
     case Text::name: return {{"type", "string"}, {"pattern", least == 0 ? "^[a-z0-9_]{0,64}$" : "^[a-z0-9_]{1,64}$"}};
     case Text::label: return {{"type", "string"}, {"minLength", least}, {"maxLength", 200}};
     case Text::prose: return {{"type", "string"}, {"maxLength", 4000}};
-    case Text::hex: return {{"type", "string"}, {"pattern", "^[0-9a-f]*$"}};
+    case Text::hex: return {{"type", "string"}, {"pattern", hex_pattern(rule)}};
+    case Text::file: return {{"type", "string"}, {"maxLength", 200}, {"pattern", file_pattern(rule)}};
   }
   return {};
 }

@@ -30,8 +30,9 @@ inline constexpr std::size_t kMaxDocumentBytes = 16 << 20;
 inline constexpr int kMaxDepth = 64;
 inline constexpr std::size_t kMaxValues = 2'000'000;  // of a document, keys included
 
-// name: [a-z0-9_]{1,64} · label: 1 to 200 bytes · prose: up to 4000 bytes · hex: up to 256 KiB of digits 0-9a-f
-enum class Text { name, label, prose, hex };
+// name: [a-z0-9_]{1,64} · label: 1 to 200 bytes · prose: up to 4000 bytes · hex: up to 256 KiB of digits 0-9a-f ·
+// file: a label that names an entry of a folder (inside_folder.h)
+enum class Text { name, label, prose, hex, file };
 
 struct Rule {
   double low = -std::numeric_limits<double>::infinity();
@@ -39,7 +40,10 @@ struct Rule {
   std::size_t max_count = 0;                  // of a list or a map
   std::span<const std::string_view> names{};  // of an enum, in the order of its values
   Text text = Text::name;
-  Text key_text = Text::name;  // of a map's keys
+  Text key_text = Text::name;    // of a map's keys
+  std::size_t digits = 0;        // of a hex text, where their number is fixed
+  std::string_view begins = "";  // of a file's name; without characters that mean something in a pattern
+  std::string_view ends = "";    // the same
   bool required = false;
   bool may_be_empty = false;  // of a text
   bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none

@@ -1,6 +1,7 @@
 #include "generator/motion/aim_tables.h"
 
 #include "generator/core/hash.h"
+#include "generator/core/inside_folder.h"
 #include "generator/motion/aim_table_file.h"
 
 namespace contort {
@@ -20,9 +21,11 @@ void AimTables::read_from(const std::string& folder) {
 }
 
 AimTable AimTables::read_or_build(const AimGeometry& geometry, const std::vector<std::string>& folders) const {
-  for (const std::string& folder : folders)
-    if (Result<AimTable> read = load_aim_table(folder + "/" + aim_table_name(geometry, options_), geometry, options_); read)
-      return std::move(read).value();
+  for (const std::string& folder : folders) {
+    const std::string path = folder + "/" + aim_table_name(geometry, options_);
+    if (!check_inside(folder, path)) continue;
+    if (Result<AimTable> read = load_aim_table(path, geometry, options_); read) return std::move(read).value();
+  }
   return AimTable::build(geometry, options_);
 }
 

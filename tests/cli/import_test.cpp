@@ -85,6 +85,20 @@ TEST_F(ImportCommand, KeepsWhatIsThereUnlessForced) {
   EXPECT_EQ(slurp(part), before);
 }
 
+TEST_F(ImportCommand, WritesNothingThroughALinkThatLeadsOut) {
+  const std::string path = model(fixtures::rigged(fixtures::person()));
+  fs::create_directories(folder_ / "elsewhere");
+  for (const char* own : {"maps", "skins"}) {
+    fs::create_directories(library());
+    fs::create_directory_symlink(folder_ / "elsewhere", library() + "/" + own);
+    const Ran ran = contort_program({"import", path, "-o", library(), "--force"});
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find("file.outside"), std::string::npos) << ran.err;
+    EXPECT_TRUE(tree_of(folder_ / "elsewhere").empty()) << own;
+    fs::remove_all(library());
+  }
+}
+
 TEST_F(ImportCommand, CheckFindsTheMapBesideTheCharacter) {
   const std::string path = model(quick_person());
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);

@@ -80,6 +80,18 @@ TEST_F(Fsck, AMissingMinimalCaseIsReplacedByOneThatIsThere) {
   EXPECT_EQ(stored(corpus_, now, now.min).spec, stored(corpus_, now, now.worst).spec);
 }
 
+TEST_F(Fsck, AMissingCaseIsReplacedByOneOfTheSameSpecUnderTheSameName) {
+  Found same = found(165, 40, 2);
+  same.minimal.expect.subject = same.original.expect.subject = "arm_right/elbow max";
+  same.original = same.minimal;
+  ASSERT_TRUE(corpus_.add(same));
+  const Bucket bucket = bucket_of(same.minimal);
+  const std::string worst = corpus_.folder_of(bucket) + "/" + case_file_name("worst", same.minimal.spec);
+  fs::remove(worst);
+  expect_mended("missing_case", fs::path(worst).filename().string());
+  EXPECT_EQ(slurp(worst), print_case(same.minimal));
+}
+
 TEST_F(Fsck, AMissingOriginalIsForgotten) {
   fs::remove(in_bucket(bucket_.orig));
   expect_mended("missing_case", bucket_.orig);

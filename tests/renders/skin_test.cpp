@@ -158,11 +158,22 @@ TEST_F(SkinTest, StaysInItsFolder) {
   for (const char* outside :
        {"../figure.glb", "/etc/figure.glb", "a/figure.glb", "..\\figure.glb", "c:figure.glb", ".glb"})
     EXPECT_EQ(with_model(outside), "skin.outside") << outside;
+  for (const std::string& outside : {std::string("a\nb.glb"), std::string("figure.glb\0/../x.glb", 19)})
+    EXPECT_EQ(with_model(outside), "skin.outside") << outside;
   EXPECT_EQ(with_model("missing.glb"), "skin.no_model");
   fs::create_directories(folder_ / "elsewhere");
   fs::rename(folder_ / "skins" / "figure.glb", folder_ / "elsewhere" / "figure.glb");
   fs::create_symlink("../elsewhere/figure.glb", folder_ / "skins" / "figure.glb");
   EXPECT_EQ(with_model("figure.glb"), "skin.outside");
+}
+
+TEST_F(SkinTest, IsNotReadThroughALinkThatLeadsOut) {
+  fs::rename(folder_ / "skins", folder_ / "library");
+  fs::create_directories(folder_ / "linked");
+  fs::create_symlink("../library", folder_ / "linked" / "skins");
+  const auto skin = Wardrobe({(folder_ / "linked").string()}).skin_of(*character_);
+  ASSERT_FALSE(skin.ok());
+  EXPECT_EQ(skin.issue().code, "file.outside");
 }
 
 TEST_F(SkinTest, SaysWhyItCannotBeWorn) {
