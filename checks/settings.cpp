@@ -8,6 +8,7 @@
 #include "checks/circumstances.h"
 #include "checks/clip_checks.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/nearest.h"
 
 namespace contort {
 
@@ -38,6 +39,13 @@ bool is_check(std::string_view name) {
   return std::ranges::any_of(all_checks(), is_named) || std::ranges::any_of(clip_checks(), is_named);
 }
 
+std::string check_names_text() {
+  std::string text;
+  for (const CheckDef& check : all_checks()) text += std::string(check.name) + ", ";
+  for (const ClipCheckDef& check : clip_checks()) text += std::string(check.name) + ", ";
+  return text;
+}
+
 bool is_phase(std::string_view name) {
   return name.empty() || std::ranges::any_of(phase_names(), [&](std::string_view phase) { return phase == name; });
 }
@@ -46,7 +54,8 @@ template <class Rule>
 Result<Done> check_names(const Rule& rule, const std::string& pointer) {
   if (!is_check(rule.check))
     return Issue{"settings.unknown_check", pointer + "/check",
-                 "no check is called " + json_fields::quoted(rule.check) + "; `contort list checks` names them"};
+                 "no check is called " + json_fields::quoted(rule.check) + "; `contort list checks` names them" +
+                     did_you_mean(rule.check, check_names_text())};
   if (!is_phase(rule.phase))
     return Issue{"settings.unknown_phase", pointer + "/phase", "no phase is called " + json_fields::quoted(rule.phase)};
   return Done{};

@@ -83,20 +83,34 @@ Result<std::string> find_skeleton(const std::string& amc_path) {
                    "; name it with --skeleton"};
 }
 
-Result<std::vector<std::string>> expand_animations(const std::vector<std::string>& paths) {
+namespace {
+
+// What is in a folder, and in those below it. Links to folders are not followed, as they may lead in a circle.
+void look_into(const std::string& folder, std::vector<std::string>& files, std::vector<Unreadable>& unreadable) {
+  std::error_code error;
+  std::vector<std::string> folders;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    const bool is_folder = entry->is_directory(ignored);
+    if (is_folder && !entry->is_symlink(ignored)) folders.push_back(entry->path().string());
+    if (!is_folder && is_animation(entry->path().string())) files.push_back(entry->path().string());
+  }
+  if (error) unreadable.push_back({folder, {"file.unreadable", "", folder + ": " + error.message()}});
+  for (const std::string& below : folders) look_into(below, files, unreadable);
+}
+
+}  // namespace
+
+std::vector<std::string> expand_animations(const std::vector<std::string>& paths, std::vector<Unreadable>& unreadable) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      files.push_back(path);
-      continue;
-    }
     std::vector<std::string> inside;
-    fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, error);
-    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
-      if (entry->is_regular_file(error) && is_animation(entry->path().string()))
-        inside.push_back(entry->path().string());
-    if (error) return Issue{"file.unreadable", "", path + ": " + error.message()};
+    if (fs::is_directory(path, error))
+      look_into(path, inside, unreadable);
+    else
+      inside.push_back(path);
     std::sort(inside.begin(), inside.end());
     files.insert(files.end(), inside.begin(), inside.end());
   }

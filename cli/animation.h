@@ -35,7 +35,13 @@ Result<Animation> read_animation(const std::string& path, const AnimationOptions
 // check.no_skeleton where there is none or no single one.
 Result<std::string> find_skeleton(const std::string& amc_path);
 
-// Files as they are named, and folders as all animations in them and below, sorted by path.
-Result<std::vector<std::string>> expand_animations(const std::vector<std::string>& paths);
+struct Unreadable {
+  std::string file;
+  Issue issue;
+};
+
+// Files as they are named, and folders as all animations in them and below, sorted by path, whatever kind of file these
+// are. Folders that cannot be looked into are added to `unreadable`.
+std::vector<std::string> expand_animations(const std::vector<std::string>& paths, std::vector<Unreadable>& unreadable);
 
 }  // namespace contort::cli

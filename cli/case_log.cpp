@@ -8,8 +8,9 @@ Result<CaseLog> CaseLog::open(const std::string& path, bool goes_on) {
   CaseLog log;
   log.path_ = path;
   if (!log.is_kept()) return log;
-  log.out_.open(path, goes_on ? std::ios::app : std::ios::trunc);
-  if (!log.out_) return Issue{"file.unwritable", "", path + ": cannot be written"};
+  Result<OutputFile> opened = open_output(path, goes_on ? Start::at_the_end : Start::anew);
+  if (!opened) return opened.issue();
+  log.out_ = std::move(opened).value();
   return log;
 }
 
@@ -25,12 +26,14 @@ void CaseLog::add(const FailingCase& failing) {
                      {"arm", failing.arm},
                      {"families", failing.families},
                      {"spec", Json::parse(print_spec(failing.spec))}};
-  out_ << line.dump() << std::endl;
+  const std::string text = line.dump() + "\n";
+  lost_ |= std::fwrite(text.data(), 1, text.size(), out_.get()) != text.size() || std::fflush(out_.get()) != 0;
 }
 
 Result<Done> CaseLog::close() {
-  out_.close();
-  if (is_kept() && !out_) return Issue{"file.unwritable", "", path_ + ": not all failing cases could be written"};
+  if (!is_kept()) return Done{};
+  lost_ |= std::fclose(out_.release()) != 0;
+  if (lost_) return Issue{"file.unwritable", "", path_ + ": not all failing cases could be written"};
   return Done{};
 }
 

@@ -1,11 +1,11 @@
 // Failing cases of a run, for programs: one JSON object to a line.
 #pragma once
 
-#include <fstream>
 #include <functional>
 #include <string>
 
 #include "fuzz/run.h"
+#include "generator/core/output.h"
 
 namespace contort::cli {
 
@@ -25,7 +25,8 @@ class CaseLog {
   void add(const FailingCase& failing);
 
   std::string path_;
-  std::ofstream out_;
+  OutputFile out_;
+  bool lost_ = false;  // a line that could not be written
 };
 
 }  // namespace contort::cli

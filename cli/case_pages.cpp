@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <thread>
 
@@ -59,9 +58,8 @@ std::string stamp_of(const CasePage& page, const std::string& surroundings) {
 
 // What says why it cannot be shown has no stamp: it is tried again.
 bool is_there(const std::string& folder, const CasePage& page, const std::string& stamp) {
-  std::ifstream file(folder + "/cases/" + page.key + ".js");
-  std::string line;
-  return std::getline(file, line) && stamp_of_page_call(line + "\n") == stamp;
+  const Result<std::string> text = read_file(folder + "/cases/" + page.key + ".js");
+  return text && stamp_of_page_call(text->substr(0, text->find('\n') + 1)) == stamp;
 }
 
 // ----

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/json_fields.h"
 
@@ -34,7 +35,7 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   const Result<SpecInput> input = read_spec_input(file);
   if (!input) return context.fail(input.issue());
   const Result<Stage> stage = build_stage(input->spec, *library);
-  if (!stage) return context.fail(stage.issue());
+  if (!stage) return context.fail(about_file(file, stage.issue()));
   Evaluator evaluator(*settings);
   const Evaluation evaluation = evaluator.run(*stage);
   context.exit_code = evaluation.findings.empty() ? kClean : kFindings;
@@ -106,10 +107,15 @@ void add_check(CLI::App& app, Context& context) {
           "in metres, as many .bvh, is meant in its own unit")
       ->check(CLI::Range(0.0, 1e6))
       ->check(refuse_nan);
+  CLI::Option* all_clips =
+      command
+          ->add_flag("--all-clips", options->all_clips,
+                     "Every clip of every file, in folders and below: one line for each, worst first")
+          ->excludes(clip);
   command
-      ->add_flag("--all-clips", options->all_clips,
-                 "Every clip of every file, in folders and below: one line for each, worst first")
-      ->excludes(clip);
+      ->add_flag("--allow-unreadable", options->allow_unreadable,
+                 "With --all-clips: files that cannot be read are listed, and the others decide")
+      ->needs(all_clips);
   command
       ->add_option("--max-speed-deg-s", options->max_speed_deg_s,
                    "Greatest angular speed of joints without their own limit")
@@ -118,9 +124,9 @@ void add_check(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
-      "Exit code 1 when something was found. With --all-clips, files that cannot be read are listed and counted in "
+      "Exit code 1 when something was found. With --all-clips, files that cannot be read are listed and counted, and "
       "the\n"
-      "last line; the exit code is 2 only where no file could be read.\n"
+      "exit code is 2; --allow-unreadable makes that no error as long as one file could be read.\n"
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
       "         contort check captures --all-clips");

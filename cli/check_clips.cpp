@@ -16,6 +16,7 @@
 #include "cli/clip_report.h"
 #include "cli/print.h"
 #include "generator/character/character.h"
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
@@ -54,7 +55,7 @@ Result<std::string> own_map(const std::string& character, const Context& context
 
 Result<JointMap> read_map(const std::string& path) {
   if (path.empty()) return JointMap{};
-  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  const Result<std::string> text = read_json_file(path, "a map of joints (JSON)");
   if (!text) return text.issue();
   Result<JointMap> map = parse_joint_map(*text);
   if (!map) return Issue{map.issue().code, map.issue().pointer, path + ": " + map.issue().text};
@@ -145,6 +146,15 @@ std::string waived_count(const CheckSettings& settings, const Checked& checked) 
   return settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived);
 }
 
+// Whether nothing can be said of all that was to be checked.
+bool is_incomplete(const ClipCheckOptions& options, const Checked& checked) {
+  return !checked.unreadable.empty() && (!options.allow_unreadable || checked.clips.empty());
+}
+
+std::string count_unreadable(const Checked& checked, std::size_t files) {
+  return std::to_string(checked.unreadable.size()) + " of " + std::to_string(files) + " files cannot be read";
+}
+
 void print_waivers(const CheckSettings& settings, const Checked& checked) {
   for (const std::string& line : waiver_lines(settings, checked.waivers)) std::printf("%s\n", line.c_str());
 }
@@ -153,7 +163,7 @@ void print_one(const ClipCheckOptions& options, const CheckSettings& settings, c
   if (options.json) return print_json(options.files.front(), checked.clips, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip(clip);
   print_waivers(settings, checked);
-  print_result(count_findings(checked.clips), checked.clips.size(), waived_count(settings, checked));
+  print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, checked));
 }
 
 void print_all(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked,
@@ -163,20 +173,27 @@ void print_all(const ClipCheckOptions& options, const CheckSettings& settings, c
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
   print_waivers(settings, checked);
-  print_result(count_findings(checked.clips), checked.clips.size(),
+  const std::string missing = is_incomplete(options, checked) ? count_unreadable(checked, files) : "";
+  print_result(count_findings(checked.clips), checked.clips.size(), missing,
                waived_count(settings, checked) + " files=" + std::to_string(files) +
                    " unreadable=" + std::to_string(checked.unreadable.size()));
 }
 
 // What stops the command before anything is printed: nothing to judge, or a map that does not fit.
 Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked) {
-  if (!options.all_clips && !checked.unreadable.empty()) return checked.unreadable.front().issue;
+  if (!options.all_clips && !checked.unreadable.empty())
+    return about_file(checked.unreadable.front().file, checked.unreadable.front().issue);
   if (!checked.unmatched.empty() && !checked.clips.empty())
     return map_issue(*checked.unmatched.begin(), "unknown_node", "no file has a node of this name");
   if (!checked.clips.empty() || !checked.unreadable.empty()) return Done{};
   const std::string where = options.files.size() == 1 ? options.files.front() : "none of the files";
   return Issue{"check.no_clip", "",
                where + (options.clip.empty() ? " holds no animation" : " holds no clip \"" + options.clip + "\"")};
+}
+
+// What is wrong with the map is said with the name of its file.
+Issue in_map(const std::string& map, const Issue& issue) {
+  return issue.code.starts_with("map.") && !map.empty() ? about_file(map, issue) : issue;
 }
 
 void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) {
@@ -191,22 +208,26 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
   const Result<std::string> map_file = options.map.empty() ? own_map(options.character, context) : options.map;
   if (!map_file) return context.fail(map_file.issue());
-  const Result<JointMap> map = read_map(*map_file);
+  const std::string& map_path = *map_file;
+  const Result<JointMap> map = read_map(map_path);
   if (!map) return context.fail(map.issue());
   const Result<SpeedLimits> limits = limits_of(options, *map, context);
-  if (!limits) return context.fail(limits.issue());
-  const Result<std::vector<std::string>> files =
-      options.all_clips ? expand_animations(options.files) : Result<std::vector<std::string>>(options.files);
-  if (!files) return context.fail(files.issue());
+  if (!limits) return context.fail(in_map(map_path, limits.issue()));
   Checked checked;
+  const std::vector<std::string> files =
+      options.all_clips ? expand_animations(options.files, checked.unreadable) : options.files;
+  const std::size_t count = files.size() + checked.unreadable.size();
   if (!options.map.empty())  // an own map may say more than the file has
     for (const auto& entry : map->joints) checked.unmatched.insert(entry.first);
-  for (const std::string& file : *files) check_file(file, options, *limits, checked);
-  if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(fit.issue());
+  for (const std::string& file : files) check_file(file, options, *limits, checked);
+  if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(in_map(map_path, fit.issue()));
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
   if (!options.all_clips) return print_one(options, limits->settings, checked);
   std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
-  print_all(options, limits->settings, checked, files->size());
+  print_all(options, limits->settings, checked, count);
+  if (is_incomplete(options, checked))
+    context.fail({"check.unreadable", "",
+                  count_unreadable(checked, count) + ": the list says why; --allow-unreadable lets the others decide"});
   print_pace(checked.clips.size(), start);
 }
 

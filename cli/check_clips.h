@@ -20,6 +20,7 @@ struct ClipCheckOptions {
   AnimationOptions animation;
   double max_speed_deg_s = 3000.0;
   bool all_clips = false;
+  bool allow_unreadable = false;  // with all_clips: files that cannot be read do not fail the check
   bool json = false;
 };
 

@@ -1,6 +1,8 @@
 #include "cli/children.h"
 
+#include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,7 +44,9 @@ class Places {
 };
 
 [[noreturn]] void run_share(Place& place, int first, int step, int count, int seconds,
-                            const std::function<void(int)>& work) {
+                            const std::function<void(int)>& work, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before that call
   try {
     for (int i = first; i < count; i += step) {
       place.at = i;
@@ -63,10 +67,11 @@ std::vector<int> in_children(int jobs, int count, int seconds, const std::functi
                              const std::function<void(int done)>& idle) {
   Places places(jobs);
   std::vector<pid_t> children(static_cast<std::size_t>(jobs), 0);
+  const pid_t parent = ::getpid();
   const auto start = [&](int share, int first) {
     const pid_t child = first < count ? ::fork() : 0;
     if (child < 0) throw std::runtime_error("cannot start a process");
-    if (first < count && child == 0) run_share(places[share], first, jobs, count, seconds, work);
+    if (first < count && child == 0) run_share(places[share], first, jobs, count, seconds, work, parent);
     children[static_cast<std::size_t>(share)] = child;
   };
   for (int share = 0; share < jobs; ++share) start(share, share);

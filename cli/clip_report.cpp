@@ -37,19 +37,13 @@ double time_s(const ClipReport& clip, int frame) { return (frame - clip.first_fr
 // Angles for people.
 std::string margin_text(const Finding& finding) {
   const bool is_angle = finding.unit == "rad";
-  char text[60];
-  std::snprintf(text, sizeof text, "%.1f %s", -finding.worst_margin * (is_angle ? kDegPerRad : 1.0),
-                is_angle ? "deg" : finding.unit.c_str());
-  return text;
+  return decimal(-finding.worst_margin * (is_angle ? kDegPerRad : 1.0), 1) + " " + (is_angle ? "deg" : finding.unit);
 }
 
 std::string peak_text(const ClipSpeeds& clip) {
-  char text[120];
-  std::snprintf(text, sizeof text, "peak %.1f deg/s at ", clip.peak_rad_s * kDegPerRad);
   const std::string where = clip.peak_node.empty() ? "(nothing turns)" : printable(clip.peak_node);
-  char when[120];
-  std::snprintf(when, sizeof when, ", %.3f-%.3f s", clip.peak_t0_s, clip.peak_t1_s);
-  return text + where + when;
+  return "peak " + decimal(clip.peak_rad_s * kDegPerRad, 1) + " deg/s at " + where + ", " + decimal(clip.peak_t0_s, 3) +
+         "-" + decimal(clip.peak_t1_s, 3) + " s";
 }
 
 // "863 of 19208 samples out of range, worst 29.7 deg at lwrist ry max, frame 191"
@@ -64,8 +58,9 @@ std::string limits_text(const DofLimits& limits) {
 
 void print_limit_findings(const ClipReport& clip) {
   for (const Finding& f : clip.limits->findings)
-    std::printf("  joint_range  %s  %s out of range  frames %d-%d, worst %d (%.3f s)\n", printable(f.subject).c_str(),
-                margin_text(f).c_str(), f.first_frame, f.last_frame, f.worst_frame, time_s(clip, f.worst_frame));
+    std::printf("  joint_range  %s  %s out of range  frames %d-%d, worst %d (%s s)\n", printable(f.subject).c_str(),
+                margin_text(f).c_str(), f.first_frame, f.last_frame, f.worst_frame,
+                decimal(time_s(clip, f.worst_frame), 3).c_str());
 }
 
 Json speed_json(const ClipFinding& f) {
@@ -151,15 +146,17 @@ bool is_worse(const ClipReport& a, const ClipReport& b) {
 void print_clip(const ClipReport& clip) {
   std::printf("clip %s: %s\n", printable(clip.speeds.clip).c_str(), peak_text(clip.speeds).c_str());
   for (const ClipFinding& f : clip.speeds.findings)
-    std::printf("  %s  %s  %.1f deg/s, allowed %.1f  at %.3f-%.3f s\n", f.finding.check.c_str(),
-                printable(f.finding.subject).c_str(), f.worst_speed_rad_s * kDegPerRad,
-                (f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, f.worst_t0_s, f.worst_t1_s);
+    std::printf("  %s  %s  %s deg/s, allowed %s  at %s-%s s\n", f.finding.check.c_str(),
+                printable(f.finding.subject).c_str(), decimal(f.worst_speed_rad_s * kDegPerRad, 1).c_str(),
+                decimal((f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, 1).c_str(),
+                decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str());
   for (const Finding& f : clip.seams)
     std::printf("  loop_seam  %s  %s wider than allowed between its last key and its first\n",
                 printable(f.subject).c_str(), margin_text(f).c_str());
   for (const Finding& f : clip.gaps)
-    std::printf("  part_gap  %s  %.3f m farther from its place than allowed  keys %d-%d, worst %d\n",
-                printable(f.subject).c_str(), -f.worst_margin, f.first_frame, f.last_frame, f.worst_frame);
+    std::printf("  part_gap  %s  %s m farther from its place than allowed  keys %d-%d, worst %d\n",
+                printable(f.subject).c_str(), decimal(-f.worst_margin, 3).c_str(), f.first_frame, f.last_frame,
+                f.worst_frame);
   if (!clip.limits) return;
   std::printf("  declared limits: %s\n", limits_text(*clip.limits).c_str());
   print_limit_findings(clip);
@@ -174,8 +171,10 @@ void print_clip_line(const ClipReport& clip) {
               clip.limits ? "; " : "", clip.limits ? limits_text(*clip.limits).c_str() : "");
 }
 
-void print_result(std::size_t findings, std::size_t clips, const std::string& more) {
-  std::printf("%s\n", findings == 0 ? "OK: nothing found." : "FAILED: limits are violated.");
+void print_result(std::size_t findings, std::size_t clips, const std::string& missing, const std::string& more) {
+  std::string verdict = findings == 0 ? "OK: nothing found." : "FAILED: limits are violated.";
+  if (!missing.empty()) verdict = (findings == 0 ? "FAILED: " : "FAILED: limits are violated, and ") + missing + ".";
+  std::printf("%s\n", verdict.c_str());
   std::printf("RESULT findings=%zu clips=%zu%s\n", findings, clips, more.c_str());
 }
 

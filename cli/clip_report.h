@@ -7,6 +7,7 @@
 
 #include "checks/clip_speed.h"
 #include "checks/dof_limits.h"
+#include "cli/animation.h"
 #include "generator/core/result.h"
 
 namespace contort::cli {
@@ -21,11 +22,6 @@ struct ClipReport {
   int first_frame = 0;
 };
 
-struct Unreadable {
-  std::string file;
-  Issue issue;
-};
-
 std::size_t count_findings(const std::vector<ClipReport>& clips);
 
 // How bad, in the scales of the checks: the least margin of all, then the greatest speed.
@@ -34,8 +30,9 @@ bool is_worse(const ClipReport& a, const ClipReport& b);
 void print_clip(const ClipReport& clip);       // a line, and one for each finding
 void print_clip_line(const ClipReport& clip);  // one line, with the file
 
-// "OK …" or "FAILED …", and the line for scripts with `more` at its end.
-void print_result(std::size_t findings, std::size_t clips, const std::string& more);
+// "OK …" or "FAILED …", and the line for scripts with `more` at its end. `missing` says what could not be judged: where
+// it is not empty, nothing is OK.
+void print_result(std::size_t findings, std::size_t clips, const std::string& missing, const std::string& more);
 
 // `waivers` is JSON (print.h). A file and its clips; or clips of many files, and the files that could not be read.
 void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::string& waivers);

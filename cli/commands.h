@@ -23,7 +23,11 @@ enum Exit : int {
   kInternal = 3,      // a fault of ours or of the machine: the store cannot be written, no renderer
   kInconclusive = 4,  // nondeterminism, or less work done than asked for
   kInterrupted = 75,  // stopped early; what was found is kept
+  kNobodyReads = 141  // standard output went into a pipe that was closed: 128 + SIGPIPE, as of other programs
 };
+
+// Of an issue that may be about what cannot be written, which is the machine's fault; the others are the user's.
+Exit exit_of(const Issue& issue);
 
 struct Context {
   int exit_code = kClean;
@@ -64,6 +68,7 @@ void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_tables(CLI::App& app, Context& context);
 void add_version(CLI::App& app, Context& context);
+void add_help(CLI::App& app, Context& context);
 void add_serve(CLI::App& app, Context& context);
 
 }  // namespace contort::cli

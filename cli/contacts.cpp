@@ -11,6 +11,8 @@
 #include "cli/input.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/nearest.h"
+#include "generator/core/output.h"
 
 namespace contort::cli {
 
@@ -20,7 +22,7 @@ using json_fields::Json;
 
 constexpr std::string_view kUser = "user: ";  // what a character's file allows
 
-struct Options {
+struct ContactsOptions {
   std::string subject;
   std::string output;
   int poses = 1000;
@@ -31,12 +33,16 @@ struct Options {
 Result<Character> character_of(const std::string& subject, const Library& library) {
   if (library.characters.contains(subject))
     return build_character({.name = subject, .parts = {}, .attachments = {}}, library);
+  std::string names;
+  for (const auto& [name, desc] : library.characters) names += (names.empty() ? "" : ", ") + name;
   if (std::error_code error; !std::filesystem::exists(subject, error))
-    return Issue{"character.unknown_character", "",
-                 "\"" + subject + "\" is no character (contort list characters) and no file"};
+    return Issue{
+        "character.unknown_character", "",
+        "\"" + subject + "\" is no character (contort list characters) and no file" + did_you_mean(subject, names)};
   const Result<SpecInput> input = read_spec_input(subject);
   if (!input) return input.issue();
-  return build_character(input->spec.character, library);
+  Result<Character> built = build_character(input->spec.character, library);
+  return built ? std::move(built) : about_file(subject, built.issue());
 }
 
 std::vector<AllowedPairDesc> allowed_of(const Character& character) {
@@ -88,14 +94,14 @@ std::string file_text(const Character& character, const OwnContacts& proposed) {
   return Json{{"allowed_pairs", to_json(pairs)}}.dump(2) + "\n";
 }
 
-void run(const Options& options, Context& context) {
+void run(const ContactsOptions& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<Character> character = character_of(options.subject, *library);
   if (!character) return context.fail(character.issue());
   const OwnContacts proposed = propose_contacts(*character, options.poses);
   if (!options.output.empty())
-    if (const Result<Done> written = write_file(options.output, file_text(*character, proposed)); !written)
+    if (const Result<Done> written = write_output(options.output, file_text(*character, proposed)); !written)
       return context.fail(written.issue(), kInternal);
   options.json ? print_json(*character, proposed) : print_text(*character, proposed, options.poses);
 }
@@ -103,7 +109,7 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_contacts(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ContactsOptions>();
   CLI::App* command = app.add_subcommand("contacts", "Which contacts of a character are allowed, and which could be");
   command
       ->add_option("CHARACTER", options->subject, "Name of a character, or a spec or case, for its parts and objects")

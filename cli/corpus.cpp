@@ -9,6 +9,7 @@
 #include "cli/corpus_upkeep.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "cli/usage_text.h"
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
 #include "corpus/sides.h"
@@ -20,7 +21,7 @@ namespace {
 
 using json_fields::Json;
 
-struct Options {
+struct CorpusOptions {
   std::string corpus;
   std::vector<std::string> buckets;
   std::vector<std::string> states;
@@ -35,7 +36,7 @@ std::string character_of(const Bucket& bucket) {
   return bucket.family.substr(first, bucket.family.find('|', first) - first);
 }
 
-bool is_wanted(const Bucket& bucket, const Options& options) {
+bool is_wanted(const Bucket& bucket, const CorpusOptions& options) {
   const std::string state(state_name(bucket.state));
   return (options.states.empty() || std::ranges::count(options.states, state) > 0) &&
          (options.check.empty() || bucket.check == options.check) &&
@@ -54,7 +55,7 @@ void print_json(const Json& json) {
   std::printf("%s\n", json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
-Result<Corpus> open_corpus(const Options& options, Context& context) {
+Result<Corpus> open_corpus(const CorpusOptions& options, Context& context) {
   Result<Corpus> corpus = Corpus::open(options.corpus);
   if (!corpus) context.fail(corpus.issue());
   return corpus;
@@ -85,7 +86,7 @@ void print_folded(const std::vector<Bucket>& buckets, const std::string& today) 
   }
 }
 
-void list(const Options& options, Context& context) {
+void list(const CorpusOptions& options, Context& context) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
   std::vector<Bucket> buckets = read_buckets(*corpus, context);
@@ -118,7 +119,7 @@ Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string
   return Issue{"corpus.many_buckets", "", "\"" + prefix + "\" is the beginning of " + names};
 }
 
-void show(const Options& options, Context& context) {
+void show(const CorpusOptions& options, Context& context) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
   Result<Bucket> listed = find_bucket(read_buckets(*corpus, context), options.buckets.front());
@@ -145,7 +146,7 @@ void show(const Options& options, Context& context) {
 }
 
 // All are found and may change before the first one does.
-void change_all(const Options& options, Context& context, const Corpus::Change& change) {
+void change_all(const CorpusOptions& options, Context& context, const Corpus::Change& change) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
   const std::vector<Bucket> all = read_buckets(*corpus, context);
@@ -164,23 +165,24 @@ void change_all(const Options& options, Context& context, const Corpus::Change& 
   }
 }
 
-void ack(const Options& options, Context& context) {
+void ack(const CorpusOptions& options, Context& context) {
   change_all(options, context,
              [&](const Bucket& bucket) { return acknowledge(bucket, options.owner, options.ticket); });
 }
 
-void put_in_quarantine(const Options& options, Context& context) {
+void put_in_quarantine(const CorpusOptions& options, Context& context) {
   change_all(options, context, [&](const Bucket& bucket) {
     return quarantine(bucket, options.owner, options.reason, options.expires, context.day());
   });
 }
 
-void note(const Options& options, Context& context) {
+void note(const CorpusOptions& options, Context& context) {
   change_all(options, context, [&](const Bucket& bucket) { return Result<Bucket>(annotate(bucket, options.text)); });
 }
 
-CLI::App* add(CLI::App& corpus, const std::string& name, const char* help, const std::shared_ptr<Options>& options,
-              Context& context, void (*run)(const Options&, Context&)) {
+CLI::App* add(CLI::App& corpus, const std::string& name, const char* help,
+              const std::shared_ptr<CorpusOptions>& options, Context& context,
+              void (*run)(const CorpusOptions&, Context&)) {
   CLI::App* command = corpus.add_subcommand(name, help);
   command->add_option("CORPUS", options->corpus, "Corpus folder")->required();
   command->callback([options, &context, run] { run(*options, context); });
@@ -188,14 +190,14 @@ CLI::App* add(CLI::App& corpus, const std::string& name, const char* help, const
 }
 
 void add_listing(CLI::App& corpus, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorpusOptions>();
   CLI::App* command = add(corpus, "list", "List buckets, with their states", options, context, list);
   std::vector<std::string> states;
   for (int s = 0; s <= static_cast<int>(BucketState::invalid); ++s)
     states.emplace_back(state_name(static_cast<BucketState>(s)));
   command->add_option("--state", options->states, "Only in this state; may be repeated")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(states));
+      ->check(one_of(states));
   command->add_option("--check", options->check, "Only of this check");
   command->add_option("--character", options->character, "Only of this character");
   CLI::Option* folded = command->add_flag("--fold-sides", options->fold_sides,
@@ -205,7 +207,7 @@ void add_listing(CLI::App& corpus, Context& context) {
 }
 
 void add_showing(CLI::App& corpus, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorpusOptions>();
   CLI::App* command = add(corpus, "show", "Show all that is known about a bucket", options, context, show);
   command->add_option("BUCKET", options->buckets, "Beginning of its id or folder's name")->required()->expected(1);
   command->add_flag("--json", options->json, "Print as JSON");
@@ -213,7 +215,7 @@ void add_showing(CLI::App& corpus, Context& context) {
 }
 
 void add_ack(CLI::App& corpus, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorpusOptions>();
   CLI::App* command =
       add(corpus, "ack", "Acknowledge failures: they are open, and gate no more", options, context, ack);
   command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
@@ -223,7 +225,7 @@ void add_ack(CLI::App& corpus, Context& context) {
 }
 
 void add_note(CLI::App& corpus, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorpusOptions>();
   CLI::App* command = add(corpus, "note", "Write down what is known about failures", options, context, note);
   command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
   command->add_option("--text", options->text, "The note; \"\" takes it away")->required();
@@ -231,7 +233,7 @@ void add_note(CLI::App& corpus, Context& context) {
 }
 
 void add_quarantine(CLI::App& corpus, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorpusOptions>();
   CLI::App* command =
       add(corpus, "quarantine", "Let failures pass until a day; they still run", options, context, put_in_quarantine);
   command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();

@@ -20,9 +20,6 @@ struct FsckOptions {
   bool json = false;
 };
 
-// The machine's fault where it is about writing.
-Exit exit_of(const Issue& issue) { return issue.code == "file.unwritable" ? kInternal : kBadInput; }
-
 void print_fault(const CorpusFault& fault) {
   std::printf("%-12s  %s  %s%s\n", fault.code.c_str(), printable(fault.path).c_str(), printable(fault.text).c_str(),
               fault.mended.empty() ? "" : ("  -> " + printable(fault.mended)).c_str());

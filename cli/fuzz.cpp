@@ -18,6 +18,7 @@
 #include "cli/print.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
+#include "cli/report_folder.h"
 #include "cli/seeds.h"
 #include "cli/surroundings.h"
 #include "corpus/leads.h"
@@ -28,6 +29,7 @@
 #include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/output.h"
 #include "renders/search_html.h"
 
 namespace contort::cli {
@@ -37,7 +39,7 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 void on_interrupt(int) { interrupted = 1; }
 
-struct Options {
+struct FuzzOptions {
   std::vector<std::string> characters;
   std::int64_t cases = -1;
   std::string time;
@@ -83,7 +85,7 @@ class RunLine {
 };
 
 // The characters of the command line, else of the profile, else all.
-Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& library) {
+Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, const Library& library) {
   DrawConfig draw;
   if (!options.profile.empty()) {
     Result<Profile> profile = load_profile(options.profile);
@@ -93,7 +95,8 @@ Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& l
   draw.characters = options.characters.empty() ? draw.profile.characters : options.characters;
   if (draw.characters.empty())
     for (const auto& [name, desc] : library.characters) draw.characters.push_back(name);
-  if (const Result<Done> good = validate(draw.profile, draw.characters, library); !good) return good.issue();
+  if (const Result<Done> good = validate(draw.profile, draw.characters, library); !good)
+    return options.profile.empty() ? good.issue() : about_file(options.profile, good.issue());
   for (const std::string& name : draw.characters)
     if (const auto built = build_character({name, {}, {}}, library); !built) return built.issue();
   return draw;
@@ -103,10 +106,10 @@ Result<DrawConfig> choose_what_is_drawn(const Options& options, const Library& l
 Result<double> time_of(const std::string& text) { return text.empty() ? Result<double>(0.0) : parse_time_s(text); }
 
 // What the command line says, else the profile.
-Result<Done> choose_how_long(const Options& options, RunConfig& config) {
+Result<Done> choose_how_long(const FuzzOptions& options, RunConfig& config) {
   const Profile& profile = config.draw.profile;
   const Result<double> wanted_s = time_of(options.time), profile_s = time_of(profile.time);
-  if (!wanted_s) return wanted_s.issue();
+  if (!wanted_s) return Issue{wanted_s.issue().code, "", "--time: " + wanted_s.issue().text};
   if (!profile_s) return Issue{"profile.bad_time", "/time", options.profile + ": " + profile_s.issue().text};
   const bool says_nothing = options.cases < 0 && options.time.empty();
   config.time_s = says_nothing ? *profile_s : *wanted_s;
@@ -116,7 +119,7 @@ Result<Done> choose_how_long(const Options& options, RunConfig& config) {
 }
 
 // They come on top of the cases that are drawn.
-Result<Done> choose_seeds(const Options& options, const Library& library, RunConfig& config) {
+Result<Done> choose_seeds(const FuzzOptions& options, const Library& library, RunConfig& config) {
   if (options.seeds.empty()) return Done{};
   Result<std::vector<Spec>> seeds = read_seeds(options.seeds, library);
   if (!seeds) return seeds.issue();
@@ -125,7 +128,7 @@ Result<Done> choose_seeds(const Options& options, const Library& library, RunCon
   return Done{};
 }
 
-Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
+Result<Done> choose_shrinking(const FuzzOptions& options, RunConfig& config) {
   config.shrinks_per_family = options.shrinks_per_family;
   config.shrinks_per_case = options.shrinks_per_case;
   config.shrink.max_evaluations = options.shrink_evaluations;
@@ -136,17 +139,17 @@ Result<Done> choose_shrinking(const Options& options, RunConfig& config) {
   return Done{};
 }
 
-Result<Shard> choose_shard(const Options& options) {
+Result<Shard> choose_shard(const FuzzOptions& options) {
   // Bazel takes a test that does not touch this file for one that does all the work in each of its shards.
   if (const char* touched = std::getenv("TEST_SHARD_STATUS_FILE"); touched != nullptr)
-    if (const Result<Done> done = write_file(touched, ""); !done) return done.issue();
+    if (const Result<Done> done = write_output(touched, ""); !done) return done.issue();
   if (!options.shard.empty()) return parse_shard(options.shard);
   const Result<std::optional<Shard>> said = shard_of_environment([](const char* name) { return std::getenv(name); });
   if (!said) return said.issue();
   return said->value_or(Shard{});
 }
 
-Result<RunConfig> configure(const Options& options, const CheckSettings& settings, const Library& library) {
+Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& settings, const Library& library) {
   RunConfig config;
   config.checks = settings;
   Result<DrawConfig> draw = choose_what_is_drawn(options, library);
@@ -175,7 +178,7 @@ void print_found(const RunResult& result, const std::vector<std::string>& librar
     std::printf("NOT CONFIRMED (a second run differed)  %s\n", replay_command(lead, library_folders).c_str());
 }
 
-void print_totals(const RunResult& result, const Options& options, const CheckSettings& settings,
+void print_totals(const RunResult& result, const FuzzOptions& options, const CheckSettings& settings,
                   const std::vector<std::string>& library_folders) {
   const RunRecord& t = result.record;
   if (options.json) {
@@ -235,7 +238,7 @@ void print_result(const RunResult& result) {
 }
 
 // Whether anything that was found fails a build: what people know of, or the baseline has, does not.
-Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Options& options,
+Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const FuzzOptions& options,
                        const std::string& today) {
   const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
   if (!baseline) return baseline.issue();
@@ -284,7 +287,13 @@ void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
         printable(other).c_str(), record_name(record).c_str());
 }
 
-void run(const Options& options, Context& context) {
+// Found out now, and not after an hour of work.
+Result<Done> check_results(const FuzzOptions& options) {
+  if (const Result<Done> writable = check_outputs(options.outputs); !writable) return writable;
+  return options.report.empty() ? Result<Done>(Done{}) : check_report_folder(options.report);
+}
+
+void run(const FuzzOptions& options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
   const Library* library = context.load_library();
@@ -295,8 +304,13 @@ void run(const Options& options, Context& context) {
   if (!configured) return context.fail(configured.issue());
   RunConfig config = std::move(configured).value();
   config.surroundings = surroundings_id(context);
+  if (const Result<Done> ready = check_results(options); !ready)
+    return context.fail(ready.issue(), exit_of(ready.issue()));
+  // Now, not after an hour of fuzzing; it is read again at the end, when others may have added to it.
+  if (const Result<Baseline> known = load_baseline(options.outputs.baseline); !known)
+    return context.fail(known.issue());
   const Result<Corpus> corpus = Corpus::create(options.corpus);
-  if (!corpus) return context.fail(corpus.issue(), is_outside(corpus.issue()) ? kBadInput : kInternal);
+  if (!corpus) return context.fail(corpus.issue(), exit_of(corpus.issue()));
   warn_of_other_rules(*corpus);
   warn_of_other_states(config, *corpus);
   Result<CaseLog> opened = CaseLog::open(options.log, options.resume);
@@ -325,13 +339,13 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_fuzz(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FuzzOptions>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Compose random motions, check every frame, shrink and store what fails");
   command->add_option("--character", options->characters, "Character to fuzz; may be repeated (default: all)");
   command->add_option("--cases", options->cases, "Stop after so many cases (default: 2000, or no limit with --time)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53));
-  command->add_option("--time", options->time, "Stop after this time: 45s, 10m, 2h");
+  command->add_option("--time", options->time, "Stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
   command->add_option("--seed", options->seed, "Case i is a function of the seed and i")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->capture_default_str();
@@ -359,7 +373,7 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
   command->add_option("--shrink-time", options->shrink_time,
-                      "Stop each shrink after this time: 45s, 10m; results then depend on the machine");
+                      "Stop each shrink after this time: 45s, 1.5m; results then depend on the machine");
   command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   command->add_option("--log", options->log, "Write every failing case as a line of JSON: index, arm, families, spec");

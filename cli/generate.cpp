@@ -10,6 +10,7 @@
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/output.h"
 #include "generator/gltf/write.h"
 
 namespace contort::cli {
@@ -18,7 +19,7 @@ namespace {
 
 using json_fields::Json;
 
-struct Options {
+struct GenerateOptions {
   std::string spec;
   std::string output;
 };
@@ -44,18 +45,18 @@ std::string trajectory_json(const Character& character, const Motion& motion) {
          "\n";
 }
 
-void run(const Options& options, Context& context) {
+void run(const GenerateOptions& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<SpecInput> input = read_spec_input(options.spec);
   if (!input) return context.fail(input.issue());
   const Result<Stage> stage = build_stage(input->spec, *library);
-  if (!stage) return context.fail(stage.issue());
+  if (!stage) return context.fail(about_file(options.spec, stage.issue()));
   const Motion motion = generate(*stage);
   const std::string ending = std::filesystem::path(options.output).extension().string();
   Result<Done> saved = Done{};
   if (ending == ".json")
-    saved = write_file(options.output, trajectory_json(*stage->character, motion));
+    saved = write_output(options.output, trajectory_json(*stage->character, motion));
   else if (ending == ".glb")
     saved = save_glb(options.output, *stage->character, motion,
                      {spec_id(input->spec), "contort generate " + shell_quoted(options.spec)});
@@ -70,7 +71,7 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_generate(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateOptions>();
   CLI::App* command = app.add_subcommand("generate", "Make one motion of a spec");
   command->add_option("SPEC", options->spec, "Spec or case file")->required();
   command->add_option("-o,--output", options->output, "OUT.glb (animated model) or OUT.json (numbers)")->required();

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/library_folder.h"
 #include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using json_fields::Json;
 
-struct Options {
+struct ImportCall {
   std::string model;
   std::string folder;
   ImportOptions import;
@@ -29,7 +30,9 @@ struct Options {
   bool json = false;
 };
 
-Result<Done> refuse_existing(const Options& options, const Imported& imported) {
+// --force is for files of an earlier import, and not for a folder that is no library.
+Result<Done> refuse_existing(const ImportCall& options, const Imported& imported) {
+  if (const Result<Done> own = check_library_folder(options.folder); !own) return own;
   std::error_code error;
   for (const ImportFile& file : imported.files)
     if (const std::string path = options.folder + "/" + file.name; !options.force && fs::exists(path, error))
@@ -37,7 +40,7 @@ Result<Done> refuse_existing(const Options& options, const Imported& imported) {
   return Done{};
 }
 
-Result<Done> write_files(const Options& options, const Imported& imported) {
+Result<Done> write_files(const ImportCall& options, const Imported& imported) {
   for (const char* name : {"/maps", "/skins"}) {
     const std::string folder = options.folder + name;
     if (name == std::string("/skins") && !options.import.wears_model) continue;
@@ -53,7 +56,7 @@ const char* build_of(const RiggedFigure& figure) {
   return figure.is_humanoid ? "humanoid" : figure.is_quadruped ? "quadruped" : "other";
 }
 
-void print_json(const Options& options, const Imported& imported) {
+void print_json(const ImportCall& options, const Imported& imported) {
   const std::string& name = imported.cut.character.name;
   const Json out = {{"file", options.model},
                     {"character", name},
@@ -73,7 +76,7 @@ void print_json(const Options& options, const Imported& imported) {
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
-void print_text(const Options& options, const Imported& imported) {
+void print_text(const ImportCall& options, const Imported& imported) {
   const std::string& name = imported.cut.character.name;
   std::printf("%s: %s, %.3g m, %.4g kg, %zu joints in %zu parts\n", name.c_str(), build_of(imported.figure),
               imported.figure.height_m, imported.mass_kg, imported.figure.bones.size(), imported.cut.parts.size());
@@ -91,7 +94,7 @@ bool is_one_file(const std::string& path) {
 }
 
 // Before the report, which is the last file.
-Result<Done> add_model(const Options& options, Imported& imported) {
+Result<Done> add_model(const ImportCall& options, Imported& imported) {
   if (!options.import.wears_model) return Done{};
   Result<std::string> bytes = read_file(options.model);
   if (!bytes) return bytes.issue();
@@ -100,13 +103,13 @@ Result<Done> add_model(const Options& options, Imported& imported) {
   return Done{};
 }
 
-void run(Options options, Context& context) {
+void run(ImportCall options, Context& context) {
   if (options.import.name.empty()) options.import.name = name_of_file(options.model);
   options.import.wears_model = !options.no_model && is_one_file(options.model);
   const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
-  if (!asset) return context.fail(asset.issue());
+  if (!asset) return context.fail(about_file(options.model, asset.issue()));
   Result<Imported> made = import_model(*asset, options.import);
-  if (!made) return context.fail(made.issue());
+  if (!made) return context.fail(about_file(options.model, made.issue()));
   Imported imported = std::move(made).value();
   if (const Result<Done> added = add_model(options, imported); !added) return context.fail(added.issue());
   if (const Result<Done> free = refuse_existing(options, imported); !free) return context.fail(free.issue());
@@ -119,7 +122,7 @@ void run(Options options, Context& context) {
 }  // namespace
 
 void add_import(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportCall>();
   CLI::App* command = app.add_subcommand("import", "Make a character of a rigged model (.glb, .gltf)");
   command->add_option("MODEL", options->model, "Skinned model (.glb, .gltf; VRM's bones are understood)")->required();
   command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();

@@ -3,9 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 
-#include "corpus/corpus.h"
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/inside_folder.h"
@@ -17,14 +16,39 @@ namespace contort::cli {
 
 namespace {
 
-constexpr std::size_t kMaxSpecBytes = 16 << 20;
+constexpr double kLongestTime_s = 1e7;
+constexpr char kSpecOrCase[] = "a spec or a case (JSON)";
 
-Issue in_file(const std::string& path, Issue issue) {
-  issue.text = path + ": " + issue.text;
-  return issue;
+// A glTF model as text is JSON, too.
+bool is_gltf(const json_fields::Json& tree) {
+  const auto asset = tree.is_object() ? tree.find("asset") : tree.end();
+  return asset != tree.end() && asset->is_object() && asset->contains("version");
+}
+
+// Neither a spec nor a case: says what it is instead.
+Issue other_format(const std::string& path, const std::string& text) {
+  const std::string expected = "expected \"contort.spec/1\" or \"contort.case/1\"";
+  const Result<json_fields::Json> tree = json_fields::parse_document(text);
+  if (tree && is_gltf(*tree)) return {"file.wrong_kind", "", path + " is a glTF model, expected " + kSpecOrCase};
+  const auto format = tree && tree->is_object() ? tree->find("format") : json_fields::Json::const_iterator();
+  const bool is_said = tree && tree->is_object() && format != tree->end() && format->is_string();
+  const std::string found = is_said ? "found " + json_fields::quoted(format->get<std::string>()) + ", " : "";
+  return {"spec.wrong_format", "/format", path + ": " + found + expected};
 }
 
 }  // namespace
+
+Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path) {
+  Result<Spec> spec = parse_spec(text);
+  if (spec) return SpecInput{std::move(spec).value(), {}};
+  if (spec.issue().code != "spec.wrong_format") return about_file(path, spec.issue());
+  Result<Case> stored = parse_case(text);
+  if (!stored && stored.issue().code == "case.wrong_format") return other_format(path, text);
+  if (!stored) return about_file(path, stored.issue());
+  SpecInput input{stored->spec, {}};
+  input.stored = std::move(stored).value();
+  return input;
+}
 
 Result<Library> load_libraries(const std::vector<std::string>& folders) {
   Library library = stock_library();
@@ -40,26 +64,23 @@ Result<Library> load_libraries(const std::vector<std::string>& folders) {
 
 Result<CheckSettings> load_settings_file(const std::string& path) {
   if (path.empty()) return CheckSettings{};
-  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  const Result<std::string> text = read_json_file(path, "a settings file (JSON)");
   if (!text) return text.issue();
   Result<CheckSettings> parsed = parse_settings(*text);
-  if (!parsed) return Issue{parsed.issue().code, parsed.issue().pointer, path + ": " + parsed.issue().text};
+  if (!parsed) return about_file(path, parsed.issue());
   return parsed;
 }
 
 Result<SpecInput> read_spec_input(const std::string& path) {
-  const Result<std::string> text = read_file(path, kMaxSpecBytes);
+  const Result<std::string> text = read_named_json(path, kSpecOrCase);
+  return text ? parse_spec_input(*text, path) : text.issue();
+}
+
+Result<Case> read_case_input(const std::string& path) {
+  const Result<std::string> text = read_named_json(path, "a case (JSON)");
   if (!text) return text.issue();
-  Result<Spec> spec = parse_spec(*text);
-  if (spec) return SpecInput{std::move(spec).value(), {}};
-  if (spec.issue().code != "spec.wrong_format") return in_file(path, spec.issue());
   Result<Case> stored = parse_case(*text);
-  if (!stored && stored.issue().code == "case.wrong_format")
-    return in_file(path, {"spec.wrong_format", "/format", "expected \"contort.spec/1\" or \"contort.case/1\""});
-  if (!stored) return in_file(path, stored.issue());
-  SpecInput input{stored->spec, {}};
-  input.stored = std::move(stored).value();
-  return input;
+  return stored ? stored : about_file(path, stored.issue());
 }
 
 const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings) {
@@ -80,34 +101,16 @@ Result<double> parse_time_s(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
   const double scale = unit.empty() || unit == "s" ? 1.0 : unit == "m" ? 60.0 : unit == "h" ? 3600.0 : 0.0;
-  if (error != std::errc{} || !(value > 0.0) || scale == 0.0 || value * scale > 1e7)
-    return Issue{"usage.bad_time", "", "found \"" + text + "\", allowed is a number with s, m or h, like 45s or 10m"};
+  if (error != std::errc{} || !(value > 0.0) || scale == 0.0 || value * scale > kLongestTime_s)
+    return Issue{"usage.bad_time", "",
+                 "found \"" + text +
+                     "\", allowed is a number above 0 with the unit s, m or h, like 45s, 1.5m or 2h, up " +
+                     "to 2777h; a number without a unit is in seconds"};
   return value * scale;
 }
 
 std::string refuse_nan(const std::string& text) {
   return std::isnan(std::strtod(text.c_str(), nullptr)) ? "found \"" + text + "\", expected a number" : "";
-}
-
-Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths) {
-  std::vector<std::string> cases;
-  for (const std::string& path : paths) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(path, error)) {
-      cases.push_back(path);
-      continue;
-    }
-    const Result<Corpus> corpus = Corpus::open(path);
-    if (!corpus) return corpus.issue();
-    std::vector<Issue> damaged;
-    for (const Bucket& bucket : corpus->buckets(damaged))
-      for (const std::string& file : {bucket.min, bucket.worst, bucket.orig}) {
-        const std::string full = corpus->folder_of(bucket) + "/" + file;
-        if (!file.empty()) cases.push_back(full);
-      }
-    if (!damaged.empty()) return damaged.front();
-  }
-  return cases;
 }
 
 std::string shell_quoted(const std::string& text) {

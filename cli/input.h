@@ -24,7 +24,11 @@ struct SpecInput {
   Spec spec;
   std::optional<Case> stored;  // when the file is a case
 };
+Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path);  // the path is for messages
+
+// Of a file that is named on the command line, which may be a pipe: <(command), /dev/stdin.
 Result<SpecInput> read_spec_input(const std::string& path);
+Result<Case> read_case_input(const std::string& path);
 
 // The finding that a picture is about: the one that a case expects; of a spec, the deepest.
 const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings);
@@ -32,14 +36,11 @@ const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& fi
 // Whether the generator has changed since the case was stored: what it says is of another motion.
 bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation);
 
-// "45s", "10m", "2h", "90" (seconds). Code usage.bad_time.
+// "45s", "1.5m", "2h", and "90", which is in seconds. Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 
 // Why a number on the command line is none, "" where it is one: CLI::Range lets NaN pass.
 std::string refuse_nan(const std::string& text);
-
-// Case files named directly, and all cases of the corpus folders named: each bucket's min, worst and orig.
-Result<std::vector<std::string>> expand_cases(const std::vector<std::string>& paths);
 
 // How to see a case again, quoted for a shell, with the libraries it needs.
 std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders);

@@ -7,11 +7,13 @@
 #include "checks/joint_map.h"
 #include "cli/catalogue_fields.h"
 #include "cli/commands.h"
+#include "cli/usage_text.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "fuzz/profile.h"
 #include "generator/character/skin_desc.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/nearest.h"
 
 namespace contort::cli {
 
@@ -74,19 +76,34 @@ void print_text(const Json& list) {
 
 using Lister = std::function<Json(const Library&)>;
 const std::map<std::string, Lister>& listers() {
-  static const std::map<std::string, Lister> all = {
-      {"characters", list_characters}, {"parts", list_parts}, {"actions", list_actions}, {"checks", list_checks},
-      {"profiles", list_profiles}};
+  static const std::map<std::string, Lister> all = {{"characters", list_characters},
+                                                    {"parts", list_parts},
+                                                    {"actions", list_actions},
+                                                    {"checks", list_checks},
+                                                    {"profiles", list_profiles}};
   return all;
 }
 
 const std::map<std::string, std::function<std::string()>>& schemas() {
-  static const std::map<std::string, std::function<std::string()>> all = {
-      {"spec", spec_schema},     {"case", case_schema},           {"part", part_schema},
-      {"object", object_schema}, {"character", character_schema}, {"action", action_schema},
-      {"map", joint_map_schema}, {"settings", settings_schema},   {"bucket", bucket_schema},
-      {"profile", profile_schema}, {"skin", skin_schema}};
+  static const std::map<std::string, std::function<std::string()>> all = {{"spec", spec_schema},
+                                                                          {"case", case_schema},
+                                                                          {"part", part_schema},
+                                                                          {"object", object_schema},
+                                                                          {"character", character_schema},
+                                                                          {"action", action_schema},
+                                                                          {"map", joint_map_schema},
+                                                                          {"settings", settings_schema},
+                                                                          {"bucket", bucket_schema},
+                                                                          {"profile", profile_schema},
+                                                                          {"skin", skin_schema}};
   return all;
+}
+
+template <class Values>
+std::vector<std::string> keys_of(const std::map<std::string, Values>& map) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : map) keys.push_back(key);
+  return keys;
 }
 
 }  // namespace
@@ -101,7 +118,7 @@ void add_list(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("list", "List characters, parts, actions, checks or profiles");
   command->add_option("WHAT", options->what, "characters, parts, actions, checks or profiles")
       ->required()
-      ->check(CLI::IsMember(listers()));
+      ->check(one_of(keys_of(listers())));
   command->add_flag("--json", options->json, "Print as JSON");
   command->add_flag("--markdown", options->markdown, "Print actions as docs/actions.md")->excludes("--json");
   command->footer("Example: contort list actions");
@@ -123,9 +140,7 @@ void add_list(CLI::App& app, Context& context) {
 void add_schema(CLI::App& app, Context&) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a file format");
-  command->add_option("FORMAT", *what, "Name of the format")
-      ->required()
-      ->check(CLI::IsMember(schemas()));
+  command->add_option("FORMAT", *what, "Name of the format")->required()->check(one_of(keys_of(schemas())));
   command->footer("Example: contort schema spec > spec.schema.json");
   command->callback([what] { std::printf("%s", schemas().at(*what)().c_str()); });
 }
@@ -134,6 +149,28 @@ void add_version(CLI::App& app, Context&) {
   CLI::App* command = app.add_subcommand("version", "Print the version");
   command->footer("Example: contort version");
   command->callback([] { std::printf("contort %s\n", CONTORT_VERSION); });
+}
+
+void add_help(CLI::App& app, Context& context) {
+  auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand("help", "Explain the program, or one command");
+  command->add_option("COMMAND", *words, "Name of a command; two words of one that has commands of its own");
+  command->footer("Example: contort help fuzz\n         contort help corpus list");
+  command->callback([words, &app, &context] {
+    const CLI::App* explained = &app;
+    std::string name = app.get_name();
+    for (const std::string& word : *words) {
+      const CLI::App* next = find_command(*explained, word);
+      if (next == nullptr) {
+        const std::string names = command_names(*explained);
+        return context.fail(
+            {"usage", "", "there is no command \"" + word + "\"; there are " + names + did_you_mean(word, names)});
+      }
+      explained = next;
+      name += " " + word;
+    }
+    std::printf("%s", explained->get_formatter()->make_help(explained, name, CLI::AppFormatMode::Normal).c_str());
+  });
 }
 
 }  // namespace contort::cli

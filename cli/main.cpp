@@ -1,14 +1,12 @@
 // contort: the command line. One file per subcommand; this one parses and hands over.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <exception>
 
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
+#include "cli/start.h"
+#include "cli/usage_text.h"
 
 namespace contort::cli {
 
@@ -29,6 +27,8 @@ std::string refuse_no_day(const std::string& text) {
 }
 
 }  // namespace
+
+Exit exit_of(const Issue& issue) { return issue.code == "file.unwritable" ? kInternal : kBadInput; }
 
 const Library* Context::load_library() {
   if (library != nullptr) return library;
@@ -75,22 +75,24 @@ int run(int argc, char** argv) {
       ->type_name("YYYY-MM-DD")
       ->check(refuse_no_day);
   app.add_option("--gl", context.gl, "Who draws pictures; none: there are none")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "none"}))
+      ->check(one_of({"auto", "osmesa", "egl", "none"}))
       ->capture_default_str();
+  app.set_version_flag("--version", std::string("contort ") + CONTORT_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
       "Exit codes: 0 nothing gating, 1 gating findings, 2 bad usage or input, 3 internal error,\n"
-      "4 inconclusive, 75 interrupted. 'contort COMMAND --help' explains one command.");
-  for (const auto add : {add_fuzz, add_replay, add_generate, add_check, add_shrink, add_render, add_report, add_corpus,
-                         add_merge, add_import, add_contacts, add_list, add_schema, add_tables, add_serve, add_version})
+      "4 inconclusive, 75 interrupted. 'contort COMMAND --help' and 'contort help COMMAND' explain one command.");
+  for (const auto add :
+       {add_fuzz, add_replay, add_generate, add_check, add_shrink, add_render, add_report, add_corpus, add_merge,
+        add_import, add_contacts, add_list, add_schema, add_tables, add_serve, add_version, add_help})
     add(app, context);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+  } catch (const CLI::Success& answer) {  // help, or the version
+    return app.exit(answer);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "contort: usage: %s (see contort --help)\n", error.what());
+    std::fprintf(stderr, "contort: usage: %s (see contort --help)\n", usage_text(app, argc, argv, error).c_str());
     return kBadInput;
   }
   return context.exit_code;
@@ -100,13 +102,4 @@ int run(int argc, char** argv) {
 
 }  // namespace contort::cli
 
-int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, like a full disk
-  try {
-    return contort::cli::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "contort: internal error: %s\n", error.what());
-    return contort::cli::kInternal;
-  }
-}
+int main(int argc, char** argv) { return contort::cli::run_to_the_end(argc, argv, contort::cli::run); }

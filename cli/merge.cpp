@@ -13,14 +13,14 @@ namespace contort::cli {
 
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> sources;
   std::string output;
   bool require_complete = false;
   bool json = false;
 };
 
-void print(const Options& options, const Merged& merged, std::size_t buckets) {
+void print(const MergeOptions& options, const Merged& merged, std::size_t buckets) {
   if (options.json) {
     const json_fields::Json out = {{"buckets", buckets}, {"incomplete", merged.incomplete}, {"leads", merged.leads}};
     std::printf("%s\n", out.dump(2).c_str());
@@ -30,7 +30,7 @@ void print(const Options& options, const Merged& merged, std::size_t buckets) {
   std::printf("RESULT buckets=%zu incomplete=%zu leads=%d\n", buckets, merged.incomplete.size(), merged.leads);
 }
 
-void run(const Options& options, Context& context) {
+void run(const MergeOptions& options, Context& context) {
   std::vector<Corpus> sources;
   for (const std::string& folder : options.sources) {
     Result<Corpus> corpus = Corpus::open(folder);
@@ -38,7 +38,7 @@ void run(const Options& options, Context& context) {
     sources.push_back(std::move(corpus).value());
   }
   const Result<Corpus> into = Corpus::create(options.output);
-  if (!into) return context.fail(into.issue(), is_outside(into.issue()) ? kBadInput : kInternal);
+  if (!into) return context.fail(into.issue(), exit_of(into.issue()));
   const Result<Merged> merged = merge(sources, *into);
   if (!merged) return context.fail(merged.issue(), kInternal);
   std::vector<Issue> damaged = merged->damaged;
@@ -52,7 +52,7 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_merge(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MergeOptions>();
   CLI::App* command = app.add_subcommand("merge", "Corpora of shards, nights or machines become one");
   command->add_option("CORPUS", options->sources, "Corpus folders")->required();
   command->add_option("-o,--output", options->output, "Corpus that they are added to; made where it is missing")

@@ -2,9 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 
-#include "generator/core/files.h"
+#include "generator/core/output.h"
 #include "renders/ci_outputs.h"
 
 namespace contort::cli {
@@ -28,26 +27,19 @@ Result<Baseline> load_baseline(const std::string& path) {
   return path.empty() ? Result<Baseline>(Baseline{}) : read_baseline(path);
 }
 
-namespace {
-
-// The summary of a job's earlier steps stays.
-Result<Done> append(const std::string& path, const std::string& text) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return write_file(path, text);
-  const Result<std::string> present = read_regular_file(path, std::size_t{16} << 20);
-  if (!present) return Issue{"file.unwritable", "", "cannot append to " + path + ": " + present.issue().text};
-  return write_file(path, *present + text);
+Result<Done> check_outputs(const OutputRequest& request) {
+  for (const std::string& path : {request.junit, request.sarif, request.markdown})
+    if (const Result<Done> writable = path.empty() ? Done{} : check_output(path); !writable) return writable;
+  return Done{};
 }
-
-}  // namespace
 
 Result<Done> write_outputs(const OutputRequest& request, const ReportModel& model, std::FILE* annotations) {
   if (!request.junit.empty())
-    if (const Result<Done> written = write_file(request.junit, junit_xml(model)); !written) return written;
+    if (const Result<Done> written = write_output(request.junit, junit_xml(model)); !written) return written;
   if (!request.sarif.empty())
-    if (const Result<Done> written = write_file(request.sarif, sarif_json(model)); !written) return written;
+    if (const Result<Done> written = write_output(request.sarif, sarif_json(model)); !written) return written;
   if (!request.markdown.empty())
-    if (const Result<Done> written = append(request.markdown, markdown_summary(model)); !written) return written;
+    if (const Result<Done> written = append_output(request.markdown, markdown_summary(model)); !written) return written;
   if (request.github)
     for (const std::string& line : github_annotations(model)) std::fprintf(annotations, "%s\n", line.c_str());
   return Done{};

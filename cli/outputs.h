@@ -17,7 +17,7 @@ namespace contort::cli {
 struct OutputRequest {
   std::string junit;  // files, "" for none
   std::string sarif;
-  std::string markdown;  // appended to, as $GITHUB_STEP_SUMMARY is
+  std::string markdown;  // appended to, as $GITHUB_STEP_SUMMARY is: the summary of a job's earlier steps stays
   bool github = false;   // annotations on standard output
   std::string baseline;  // file or corpus, "" for none
   bool wanted() const { return github || !junit.empty() || !sarif.empty() || !markdown.empty(); }
@@ -29,6 +29,9 @@ void add_baseline_option(CLI::App& command, std::string& baseline);
 
 // Nothing is known without a baseline.
 Result<Baseline> load_baseline(const std::string& path);
+
+// Whether what is wanted could be written, before the work is done; code file.unwritable.
+Result<Done> check_outputs(const OutputRequest& request);
 
 // Writes what is wanted; code file.unwritable. Annotations are workflow commands, which GitHub reads from both streams.
 Result<Done> write_outputs(const OutputRequest& request, const ReportModel& model, std::FILE* annotations);

@@ -36,10 +36,17 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string decimal(double value, int digits) {
+  if (!(std::fabs(value) < 1e9)) return short_number(value);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
 std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst) {
   char frames[120];
-  std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%.3f s)", finding.first_frame, finding.last_frame,
-                finding.worst_frame, finding.worst_frame / rate_hz);
+  std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%s s)", finding.first_frame, finding.last_frame,
+                finding.worst_frame, decimal(finding.worst_frame / rate_hz, 3).c_str());
   std::string line = finding.check + "  " + finding.subject + "  " + short_number(finding.worst_margin) + " " +
                      finding.unit + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
   for (const ActiveAction& action : at_worst.actions)

@@ -33,6 +33,9 @@ std::string known_text(const Bucket& bucket, const std::string& today);
 // On standard error, where a corpus has buckets that were named by other rules than this version's.
 void warn_of_other_rules(const Corpus& corpus);
 
+// With so many digits behind the point, and in short where it has more than nine before it.
+std::string decimal(double value, int digits);
+
 // A finite number in short; "nan" where it is not one.
 std::string short_number(double value);
 

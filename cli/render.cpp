@@ -2,6 +2,8 @@
 // shared libraries, 216 ms and 130 MB), so that nothing else pays for them.
 #include "cli/render.h"
 
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,9 +35,12 @@ Result<int> run_program(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) return Issue{"render.no_process", "", std::string("cannot start a process: ") + std::strerror(errno)};
   if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for its pictures
+    if (::getppid() != parent) ::_exit(kInternal);
     ::execv(arguments[0], arguments.data());
     std::fprintf(stderr, "contort: render.no_program: cannot start %s: %s\n", arguments[0], std::strerror(errno));
     ::_exit(kInternal);
@@ -49,7 +54,7 @@ Result<int> run_program(const std::vector<std::string>& command) {
 namespace {
 
 // Of a folder that is a corpus, the minimal cases, deepest first; those without a motion are left out.
-Result<std::vector<std::string>> cases_of(const std::string& folder) {
+Result<std::vector<std::string>> cases_of(const std::string& folder, int& unreadable) {
   const Result<Corpus> corpus = Corpus::open(folder);
   if (!corpus) return corpus.issue();
   std::vector<Issue> damaged;
@@ -61,6 +66,7 @@ Result<std::vector<std::string>> cases_of(const std::string& folder) {
     if (stored && !is_ending(stored->expect)) cases.emplace_back(-stored->expect.depth, path);
   }
   for (const Issue& issue : damaged) std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
+  unreadable += static_cast<int>(damaged.size());
   if (cases.empty()) return Issue{"corpus.no_case", "", folder + " has no case to draw"};
   std::stable_sort(cases.begin(), cases.end(), [](const auto& l, const auto& r) { return l.first < r.first; });
   std::vector<std::string> paths;
@@ -68,8 +74,8 @@ Result<std::vector<std::string>> cases_of(const std::string& folder) {
   return paths;
 }
 
-// Folders become the cases that they hold.
-Result<Done> take_cases(std::vector<std::string>& inputs) {
+// Folders become the cases that they hold; those that cannot be read are told, and counted.
+Result<Done> take_cases(std::vector<std::string>& inputs, int& unreadable) {
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
     std::error_code error;
@@ -77,7 +83,7 @@ Result<Done> take_cases(std::vector<std::string>& inputs) {
       files.push_back(input);
       continue;
     }
-    const Result<std::vector<std::string>> cases = cases_of(input);
+    const Result<std::vector<std::string>> cases = cases_of(input, unreadable);
     if (!cases) return cases.issue();
     files.insert(files.end(), cases->begin(), cases->end());
   }
@@ -102,6 +108,7 @@ void add_render(CLI::App& app, Context& context) {
     bool colliders = false;
     bool rows = false;
     bool sheet = false;
+    bool allow_unreadable = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Draw a case or spec as a film strip (PNG)");
@@ -117,11 +124,14 @@ void add_render(CLI::App& app, Context& context) {
       ->type_name("FILE");
   command->add_option("--compare", options->compared, "Another case or spec, in a row below: says where the two part")
       ->type_name("FILE");
-  command->add_option("--tolerance", options->tolerance_mm, "What is no farther apart is the same [1]")->type_name("MM");
+  command->add_option("--tolerance", options->tolerance_mm, "What is no farther apart is the same [1]")
+      ->type_name("MM");
   command->add_flag("--json", options->json, "Print what --compare found as JSON");
   command->add_flag("--colliders", options->colliders, "The shapes that checks judge, as wires around the figure");
   command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
   command->add_flag("--sheet", options->sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
+  command->add_flag("--allow-unreadable", options->allow_unreadable,
+                    "With --sheet, files that cannot be shown are no error");
   command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
       ->allow_extra_args(false);
   command->footer(
@@ -136,9 +146,12 @@ void add_render(CLI::App& app, Context& context) {
     if (options->json) call.push_back("--json");
     if (options->colliders) call.push_back("--colliders");
     if (options->rows) call.push_back("--rows");
+    if (options->allow_unreadable) call.push_back("--allow-unreadable");
+    int unreadable = 0;
     if (options->sheet) {
       call.push_back("--sheet");
-      if (const Result<Done> found = take_cases(options->inputs); !found) return context.fail(found.issue());
+      const Result<Done> found = take_cases(options->inputs, unreadable);
+      if (!found) return context.fail(found.issue());
     }
     if (!options->frames.empty()) call.insert(call.end(), {"--frames", options->frames});
     if (!options->azimuth_deg.empty()) call.insert(call.end(), {"--azimuth", options->azimuth_deg});
@@ -149,6 +162,10 @@ void add_render(CLI::App& app, Context& context) {
     const Result<int> code = run_program(call);
     if (!code) return context.fail(code.issue(), kInternal);
     context.exit_code = *code;
+    if (*code == kClean && unreadable > 0 && !options->allow_unreadable)
+      context.fail({"render.left_out", "",
+                    "buckets that cannot be read and are not on the sheet: " + std::to_string(unreadable) +
+                        "; --allow-unreadable makes that no error"});
   });
 }
 

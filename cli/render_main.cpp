@@ -4,16 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/render_options.h"
+#include "cli/start.h"
+#include "cli/usage_text.h"
+#include "generator/core/files.h"
+#include "generator/core/json_fields.h"
 #include "renders/divergence.h"
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
@@ -24,34 +26,7 @@ namespace contort::cli {
 
 namespace {
 
-struct Options {
-  std::vector<std::string> files;
-  std::string output;
-  std::vector<std::string> libraries;
-  std::vector<std::string> labels;
-  std::vector<int> frames;
-  std::string azimuth_deg;  // as it was written; "": none is given
-  std::string clip;         // where the moving picture of one file goes; "": there is none
-  std::string gl = "auto";
-  std::string settings_file;
-  std::string compared;  // with the one file; "": with nothing
-  double tolerance_mm = 1000.0 * kSamePlace_m;
-  bool json = false;
-  CheckSettings settings{};
-  bool colliders = false;
-  bool clips = false;  // with `many`: beside each strip
-  bool views = false;  // the same
-  bool many = false;
-  bool rows = false;
-  bool sheet = false;
-  int tiles = 8;
-  std::optional<double> azimuth_rad() const {
-    if (azimuth_deg.empty()) return std::nullopt;
-    return std::strtod(azimuth_deg.c_str(), nullptr) * kRadPerDeg;
-  }
-};
-
-std::string clip_of(const Options& options, const std::string& png) {
+std::string clip_of(const RenderOptions& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
@@ -59,7 +34,7 @@ std::string clip_of(const Options& options, const std::string& png) {
 struct Studio {
   StripRenderer renderer;
   Library library;
-  Options options;
+  RenderOptions options;
   Wardrobe wardrobe;
   std::vector<Issue> notes{};     // why figures have no skin, once each
   std::set<std::string> noted{};  // characters
@@ -88,7 +63,7 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
   Result<Stage> stage = build_stage(input->spec, studio.library);
-  if (!stage) return stage.issue();
+  if (!stage) return about_file(file, stage.issue());
   auto shown = std::make_unique<Shown>(
       Shown{std::move(input).value(), std::move(stage).value(), Evaluator(studio.options.settings), {}});
   shown->evaluation = shown->evaluator.run(shown->stage);
@@ -96,7 +71,7 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   return shown;
 }
 
-StripInput strip_of(const Shown& shown, const Options& options, const std::string& file) {
+StripInput strip_of(const Shown& shown, const RenderOptions& options, const std::string& file) {
   StripInput strip{*shown.stage.character, shown.evaluator.motion()};
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
   if (plays_another_motion(shown.input, shown.evaluation)) strip.note = "NOT THE STORED MOTION";
@@ -138,7 +113,7 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
     Result<SpecInput> input = read_spec_input(file);
     if (!input) return input.issue();
     Result<Stage> stage = build_stage(input->spec, studio.library);
-    if (!stage) return Issue{stage.issue().code, stage.issue().pointer, file + ": " + stage.issue().text};
+    if (!stage) return about_file(file, stage.issue());
     Motion motion = generate(*stage);
     std::shared_ptr<const Skin> skin = studio.skin_of(*stage->character);
     all.push_back({file, std::move(input->spec), std::move(stage).value(), std::move(motion), std::move(skin)});
@@ -147,18 +122,18 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
 }
 
 // Those of the command line, or spread over the shortest of the motions.
-std::vector<int> frames_of(const Options& options, const std::vector<Performed>& all) {
+std::vector<int> frames_of(const RenderOptions& options, const std::vector<Performed>& all) {
   if (!options.frames.empty()) return options.frames;
   int shortest = all.front().motion.frame_count;
   for (const Performed& one : all) shortest = std::min(shortest, one.motion.frame_count);
   return spread_frames(shortest, options.tiles);
 }
 
-std::string command_of(const Options& options, const std::vector<int>& frames) {
+std::string command_of(const RenderOptions& options, const std::vector<int>& frames) {
   std::string command = "contort render";
   for (const std::string& file : options.files) command += " " + shell_quoted(file);
   command += options.compared.empty() ? " --rows" : " --compare " + shell_quoted(options.compared);
-  if (!options.compared.empty()) command += " --tolerance " + std::to_string(options.tolerance_mm);
+  if (!options.compared.empty()) command += " --tolerance " + json_fields::shortest(options.tolerance_mm);
   command += " --frames ";
   for (const int frame : frames) command += (&frame == frames.data() ? "" : ",") + std::to_string(frame);
   if (!options.azimuth_deg.empty()) command += " --azimuth " + shell_quoted(options.azimuth_deg);
@@ -169,7 +144,7 @@ std::string command_of(const Options& options, const std::vector<int>& frames) {
 }
 
 Result<StripDone> draw_all(Studio& studio) {
-  const Options& options = studio.options;
+  const RenderOptions& options = studio.options;
   const Result<std::vector<Performed>> all = perform_all(studio, options.files);
   if (!all) return all.issue();
   RowsInput input;
@@ -191,7 +166,7 @@ Result<StripDone> draw_all(Studio& studio) {
 }
 
 // Around the first difference, up to the last one; of frames that both have.
-std::vector<int> frames_of(const Options& options, const Divergence& divergence) {
+std::vector<int> frames_of(const RenderOptions& options, const Divergence& divergence) {
   if (!options.frames.empty()) return options.frames;
   if (divergence.first.frame < 0) return spread_frames(divergence.frames, options.tiles);
   return choose_frames(divergence.first.frame, divergence.worst.frame, divergence.last_frame, divergence.frames,
@@ -199,7 +174,7 @@ std::vector<int> frames_of(const Options& options, const Divergence& divergence)
 }
 
 // Two rows: the first motion, and the second with the first as its ghost, where it is the same figure.
-RowsInput rows_of(const Options& options, const std::vector<Performed>& all, const Divergence& divergence,
+RowsInput rows_of(const RenderOptions& options, const std::vector<Performed>& all, const Divergence& divergence,
                   const Finding& where, const std::string& verdict) {
   RowsInput input;
   const bool same_figure = all[0].stage.character->hash() == all[1].stage.character->hash();
@@ -225,7 +200,7 @@ RowsInput rows_of(const Options& options, const std::vector<Performed>& all, con
 }
 
 Result<StripDone> draw_comparison(Studio& studio) {
-  const Options& options = studio.options;
+  const RenderOptions& options = studio.options;
   const Result<std::vector<Performed>> all = perform_all(studio, {options.files.front(), options.compared});
   if (!all) return all.issue();
   const Performed &a = (*all)[0], &b = (*all)[1];
@@ -249,9 +224,9 @@ Result<Image> draw_tile(Studio& studio, const Shown& shown, const std::string& f
   return studio.renderer.render_tile(strip);
 }
 
-// A tile for each file; those that cannot be shown are left out, and `warnings` says so.
-Result<StripDone> draw_sheet(Studio& studio) {
-  const Options& options = studio.options;
+// A tile for each file; those that cannot be shown are left out and counted, and `warnings` says so.
+Result<StripDone> draw_sheet(Studio& studio, int& left_out) {
+  const RenderOptions& options = studio.options;
   StripDone done;
   std::vector<Image> tiles;
   for (const std::string& file : options.files) {
@@ -266,7 +241,7 @@ Result<StripDone> draw_sheet(Studio& studio) {
     if (tile)
       tiles.push_back(std::move(tile).value());
     else
-      done.warnings.push_back({tile.issue().code, tile.issue().pointer, file + ": " + tile.issue().text});
+      done.warnings.push_back(about_file(file, tile.issue())), ++left_out;
   }
   if (tiles.empty() && !done.warnings.empty()) return done.warnings.front();
   const Result<Done> written = write_sheet(tiles, kSheetColumns, options.output);
@@ -291,11 +266,21 @@ int report(const Result<StripDone>& done) {
   return kClean;
 }
 
+int sheet(Studio& studio) {
+  int left_out = 0;
+  const int code = report(draw_sheet(studio, left_out));
+  if (left_out == 0 || code != kClean || studio.options.allow_unreadable) return code;
+  return fail({"render.left_out", "",
+               "files that are not on the sheet: " + std::to_string(left_out) + " of " +
+                   std::to_string(studio.options.files.size()) + "; --allow-unreadable makes that no error"},
+              kBadInput);
+}
+
 int draw_what_is_asked(Studio& studio) {
-  const Options& options = studio.options;
+  const RenderOptions& options = studio.options;
   if (!options.compared.empty()) return report(draw_comparison(studio));
   if (options.rows) return report(draw_all(studio));
-  if (options.sheet) return report(draw_sheet(studio));
+  if (options.sheet) return sheet(studio);
   if (!options.many) return report(draw(studio, options.files.front(), options.output));
   int code = kClean;
   for (std::size_t i = 0; i < options.files.size(); i += 2)
@@ -303,7 +288,7 @@ int draw_what_is_asked(Studio& studio) {
   return code;
 }
 
-int run(Options options) {
+int run(RenderOptions options) {
   const Result<Library> library = load_libraries(options.libraries);
   if (!library) return fail(library.issue(), kBadInput);
   Result<CheckSettings> settings = load_settings_file(options.settings_file);
@@ -319,33 +304,9 @@ int run(Options options) {
   return code;
 }
 
-// Why the arguments do not fit together, "" where they do.
-std::string misfit(const Options& options) {
-  const std::size_t files = options.files.size(), shown = files + (options.compared.empty() ? 0 : 1);
-  if (options.many + options.rows + options.sheet > 1) return "--many, --rows and --sheet exclude each other";
-  if (options.compared.empty() && options.json) return "--json is what --compare found";
-  if (!options.compared.empty() && (options.many || options.rows || options.sheet || files > 1))
-    return "--compare sets one FILE beside another";
-  if (options.sheet && !options.labels.empty()) return "--sheet takes no --label";
-  if (!options.clip.empty() && options.clip == options.output) return "--clip and -o are the same file";
-  if (options.sheet && !options.frames.empty()) return "--sheet shows the worst frame of each FILE";
-  if (options.many && files % 2 != 0) return "expected --many FILE PNG FILE PNG …";
-  if ((options.clips || options.views) && !options.many) return "--clips and --views need --many";
-  if (!options.clip.empty() && (options.many || options.rows || options.sheet || !options.compared.empty()))
-    return "--clip is of one FILE";
-  if (!options.many && options.output.empty()) return "expected -o PNG";
-  if (!options.many && !options.rows && !options.sheet && files > 1)
-    return "found " + std::to_string(files) +
-           " files: with --rows they become the rows of one picture, with --sheet its tiles";
-  if (!options.labels.empty() && (options.many || options.labels.size() != shown))
-    return "found " + std::to_string(options.labels.size()) + " labels for " + std::to_string(shown) +
-           " files, expected one for each";
-  return "";
-}
-
 int parse_and_run(int argc, char** argv) {
   CLI::App app("Draws film strips of cases and specs; see contort render.", "contort-render");
-  Options options;
+  RenderOptions options;
   app.add_option("FILE", options.files, "Case or spec; with --many: FILE PNG pairs")->required();
   app.add_option("-o,--output", options.output, "The picture");
   app.add_option("--library", options.libraries, "Folder with parts, objects, characters and actions; may be repeated")
@@ -367,13 +328,15 @@ int parse_and_run(int argc, char** argv) {
   app.add_flag("--colliders", options.colliders, "Show the shapes that are judged");
   app.add_flag("--rows", options.rows, "A row for each FILE");
   app.add_flag("--sheet", options.sheet, "A tile for each FILE");
+  app.add_flag("--allow-unreadable", options.allow_unreadable, "With --sheet, files that cannot be shown are no error");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");
+  app.set_version_flag("--version", std::string("contort-render ") + CONTORT_VERSION);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+  } catch (const CLI::Success& answer) {
+    return app.exit(answer);
   } catch (const CLI::ParseError& error) {
-    return fail({"usage", "", error.what()}, kBadInput);
+    return fail({"usage", "", usage_text(app, argc, argv, error)}, kBadInput);
   }
   if (const std::string why = misfit(options); !why.empty()) return fail({"usage", "", why}, kBadInput);
   return run(options);
@@ -383,11 +346,4 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace contort::cli
 
-int main(int argc, char** argv) {
-  try {
-    return contort::cli::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "contort: internal error: %s\n", error.what());
-    return contort::cli::kInternal;
-  }
-}
+int main(int argc, char** argv) { return contort::cli::run_to_the_end(argc, argv, contort::cli::parse_and_run); }

@@ -25,7 +25,7 @@ namespace {
 using json_fields::Json;
 using Clock = std::chrono::steady_clock;
 
-struct Options {
+struct ReplayOptions {
   std::vector<std::string> paths;
   bool json = false;
   std::string level;
@@ -91,7 +91,7 @@ struct Totals {
 // One call of the command.
 class Session {
  public:
-  Session(const Options& options, RunCase replay, Context& context)
+  Session(const ReplayOptions& options, RunCase replay, Context& context)
       : options_(options), replay_(std::move(replay), options.limits.limits()), context_(context) {}
 
   Result<Done> prepare() {
@@ -100,14 +100,14 @@ class Session {
     known_ = *known;
     if (options_.time.empty()) return Done{};
     const Result<double> time_s = parse_time_s(options_.time);
-    if (!time_s) return time_s.issue();
+    if (!time_s) return Issue{time_s.issue().code, "", "--time: " + time_s.issue().text};
     end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*time_s));
     return Done{};
   }
 
   void run_case(const std::string& path) {
     ++totals_.cases;
-    const Result<Case> stored = read_case(path);
+    const Result<Case> stored = read_case_input(path);
     if (!stored) {
       context_.fail(stored.issue());
       ++totals_.verdicts[Verdict::refused];
@@ -228,7 +228,7 @@ class Session {
             {"cases", cases}};
   }
 
-  const Options& options_;
+  const ReplayOptions& options_;
   GuardedReplay replay_;
   Context& context_;
   Baseline known_;
@@ -239,7 +239,7 @@ class Session {
   Json list_ = Json::array();
 };
 
-void run(const Options& options, Context& context) {
+void run(const ReplayOptions& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
@@ -268,13 +268,14 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_replay(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with what they say");
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
   command->add_option("--level", options->level,
                       "Only a sequence, a clip or a part of each case: sequence:2, clip:2/1, part:arm_right");
   command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
-  command->add_option("--time", options->time, "Of a corpus: stop after this time: 45s, 10m, 2h");
+  command->add_option("--time", options->time,
+                      "Of a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
   command->add_option("--build", options->build, "What --update writes behind the version: a commit of your library");
   add_limit_options(*command, options->limits);
   add_baseline_option(*command, options->baseline);

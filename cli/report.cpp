@@ -228,6 +228,10 @@ void tidy(const std::string& folder, std::vector<Picture>& pictures) {
   for (const Picture& picture : pictures)
     for (const std::string& path : files_of(picture)) wanted.insert(std::filesystem::path(path).filename().string());
   remove_old(folder, is_picture_file, wanted);
+  std::error_code error;
+  for (const Picture& picture : pictures)  // a link would be followed, and what it leads to is none of the report's
+    for (const std::string& path : files_of(picture))
+      if (std::filesystem::is_symlink(path, error)) std::filesystem::remove(path, error);
   std::erase_if(pictures, is_drawn);
 }
 
@@ -278,8 +282,9 @@ namespace {
 
 void write_page(const ReportRequest& request, const ReportModel& model, Media media, const Library& library,
                 Context& context) {
+  // Its summary comes first: it is what tells a folder that holds a report.
   if (const Result<Done> written = write_report(model, request.folder); !written)
-    return context.fail(written.issue(), is_outside(written.issue()) ? kBadInput : kInternal);
+    return context.fail(written.issue(), exit_of(written.issue()));
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
     return context.fail(made.issue(), kInternal);
   if (context.gl != "none") tidy(request.folder + "/strips", media.pictures);
@@ -306,6 +311,8 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
   if (const Result<CheckSettings> settings = context.load_settings(); !settings) return context.fail(settings.issue());
   const Result<Baseline> known = load_baseline(request.outputs.baseline);
   if (!known) return context.fail(known.issue());
+  if (!request.folder.empty())
+    if (const Result<Done> own = check_report_folder(request.folder); !own) return context.fail(own.issue());
   ReportModel model;
   model.title = "Contort report";
   model.tool = CONTORT_VERSION;

@@ -4,6 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include "generator/core/files.h"
+#include "generator/core/own_folder.h"
+
 namespace contort::cli {
 
 namespace fs = std::filesystem;
@@ -29,6 +32,11 @@ bool is_picture_file(const std::string& name) {
   const std::string stem = fs::path(name).stem().string();
   const std::size_t dash = stem.rfind('-');
   return dash != stem.npos && is_hex(std::string_view(stem).substr(dash + 1), 8) && is_key(stem.substr(0, dash));
+}
+
+Result<Done> check_report_folder(const std::string& folder) {
+  const Result<std::string> summary = read_file(folder + "/report.json");
+  return check_own_folder(folder, summary && summary->find("\"contort.report/1\"") != summary->npos, "a report");
 }
 
 void remove_old(const std::string& folder, bool (*is_ours)(const std::string&), const std::set<std::string>& wanted) {

@@ -4,11 +4,16 @@
 #include <set>
 #include <string>
 
+#include "generator/core/result.h"
+
 namespace contort::cli {
 
 // Whether a name is one that only a report gives: "<check>-<12 hex digits>", with "-<8 hex digits>" for pictures.
 bool is_case_file(const std::string& name);     // .js
 bool is_picture_file(const std::string& name);  // .png, .webp, and .js of from where it is seen
+
+// Whether a report may go there: code folder.other_files where it holds files and no report.
+Result<Done> check_report_folder(const std::string& folder);
 
 // Removes the files of this kind that nobody wants any more; all others stay.
 void remove_old(const std::string& folder, bool (*is_ours)(const std::string&), const std::set<std::string>& wanted);

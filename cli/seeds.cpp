@@ -5,6 +5,7 @@
 
 #include "cli/input.h"
 #include "corpus/isolate.h"
+#include "generator/core/file_kind.h"
 #include "generator/core/inside_folder.h"
 #include "generator/stage.h"
 
@@ -38,7 +39,9 @@ Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& l
   std::vector<Spec> seeds;
   for (const std::string& path : files_of(folder)) {
     if (const Result<Done> inside = check_inside(folder, path); !inside) return inside.issue();
-    const Result<SpecInput> input = read_spec_input(path);
+    const Result<std::string> text = read_json_file(path, "a spec or a case (JSON)");
+    if (!text) return text.issue();
+    const Result<SpecInput> input = parse_spec_input(*text, path);
     if (!input) return input.issue();
     if (const std::string why = refusal_of(input->spec, library); !why.empty())
       return Issue{"seeds.refused", "", path + ": " + why};

@@ -15,6 +15,7 @@
 #include "generator/dynamics/dynamics_desc.h"
 #include "server/app.h"
 #include "server/http.h"
+#include "server/scratch.h"
 
 namespace contort::cli {
 
@@ -22,7 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+constexpr int kConnectionsBesideStreams = 96;  // in total; half as many of one client
+
+struct ServeOptions {
   server::HttpConfig http;
   server::Limits limits;
   server::BrokerLimits workers;
@@ -31,30 +34,9 @@ struct Options {
   bool read_only = false;
 };
 
-// Files of one run of the server; they go with it.
-class Scratch {
- public:
-  Result<Done> make() {
-    std::string name = (fs::temp_directory_path() / "contort-serve-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) return Issue{"file.unwritable", "", "cannot make a folder for files that pass"};
-    path_ = name;
-    return Done{};
-  }
-  ~Scratch() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  std::string folder(const std::string& name) const { return path_ + "/" + name; }
+std::string bracketed(const std::string& host) { return host.find(':') == std::string::npos ? host : "[" + host + "]"; }
 
- private:
-  std::string path_;
-};
-
-std::string bracketed(const std::string& host) {
-  return host.find(':') == std::string::npos ? host : "[" + host + "]";
-}
-
-std::vector<std::string> hosts_of(const Options& options, int port) {
+std::vector<std::string> hosts_of(const ServeOptions& options, int port) {
   const std::string end = ":" + std::to_string(port);
   std::vector<std::string> hosts = {"127.0.0.1" + end, "localhost" + end, "[::1]" + end,
                                     bracketed(options.http.host) + end};
@@ -64,19 +46,14 @@ std::vector<std::string> hosts_of(const Options& options, int port) {
 }
 
 Json limits_json(const server::Limits& limits) {
-  return {{"sessions", limits.sessions},
-          {"sessions_of_client", limits.sessions_of_client},
-          {"streams", limits.streams},
-          {"streams_of_client", limits.streams_of_client},
-          {"calls_per_s", limits.calls_per_s},
-          {"cpu_s_per_minute", limits.cpu_s_per_minute},
-          {"spec_bytes", limits.spec_bytes},
-          {"library_bytes", limits.library_bytes},
-          {"take_s", limits.take_s},
-          {"most_s", limits.most_s}};
+  return {{"sessions", limits.sessions},       {"sessions_of_client", limits.sessions_of_client},
+          {"streams", limits.streams},         {"streams_of_client", limits.streams_of_client},
+          {"calls_per_s", limits.calls_per_s}, {"cpu_s_per_minute", limits.cpu_s_per_minute},
+          {"spec_bytes", limits.spec_bytes},   {"library_bytes", limits.library_bytes},
+          {"take_s", limits.take_s},           {"most_s", limits.most_s}};
 }
 
-std::string catalogue(const Library& library, const Options& options) {
+std::string catalogue(const Library& library, const ServeOptions& options) {
   Json sockets = Json::object(), modes = Json::array(), objects = Json::array();
   for (const auto& [name, part] : library.parts) {
     sockets[name] = Json::array();
@@ -124,10 +101,10 @@ void wait_for_end(server::App& app, const sigset_t& ends) {
   }
 }
 
-Result<Done> check(const Options& options) {
+Result<Done> check(const ServeOptions& options) {
   if (!server::is_loopback(options.http.host) && options.token.empty())
-    return Issue{"serve.no_token", "", "--host " + options.http.host +
-                                           " can be reached from other machines: give --token, or use 127.0.0.1"};
+    return Issue{"serve.no_token", "",
+                 "--host " + options.http.host + " can be reached from other machines: give --token, or use 127.0.0.1"};
   if (!options.token.empty() && options.token.size() < 16)
     return Issue{"serve.short_token", "", "a token needs 16 characters at least"};
   for (const char c : options.token)
@@ -136,33 +113,42 @@ Result<Done> check(const Options& options) {
   return Done{};
 }
 
-void announce(const Options& options, int port) {
+void announce(const ServeOptions& options, int port) {
   std::printf("contort serves http://%s:%d/%s\n", bracketed(options.http.host).c_str(), port,
               options.token.empty() ? "" : "?token=…");
   std::printf("playground: /play, calls: /api, metrics: /metrics; end with Ctrl-C\n");
   std::fflush(stdout);
 }
 
-void serve(const Options& options, const Library& library, const CheckSettings& settings, Context& context) {
-  Scratch scratch;
-  if (const Result<Done> made = scratch.make(); !made) return context.fail(made.issue(), kInternal);
+server::AppConfig app_config(const ServeOptions& options, int port, const server::Scratch& scratch, Context& context) {
+  server::AppConfig config;
+  config.guard = {hosts_of(options, port), options.token};
+  config.read_only = options.read_only, config.corpus = options.corpus;
+  config.report = options.corpus.empty() ? "" : options.report.empty() ? scratch.folder("report") : options.report;
+  config.pages = (fs::path(renderer_path()).parent_path() / "page").string();
+  config.scratch = scratch.folder("files");
+  config.program = own_call(context);
+  config.today = [&context] { return context.day(); };
+  return config;
+}
+
+// Signals are blocked first, so that from then on none ends the server without its folder being removed.
+void serve(const ServeOptions& options, const Library& library, const CheckSettings& settings, Context& context) {
   const std::string about = catalogue(library, options);
   const sigset_t ends = block_signals();
   server::Engine engine(options.limits, options.workers, library, settings, std::string("contort ") + CONTORT_VERSION);
   server::Http http(options.http);
   const Result<int> port = http.bind();
   if (!port) return context.fail(port.issue());
-  server::AppConfig config;
-  config.guard = {hosts_of(options, *port), options.token};
-  config.read_only = options.read_only, config.corpus = options.corpus;
-  config.report = options.corpus.empty() ? "" : options.report.empty() ? scratch.folder("report") : options.report;
-  config.pages = (fs::path(renderer_path()).parent_path() / "page").string();
-  config.scratch = scratch.folder("libraries");
+  const auto scratch = server::Scratch::make();
+  if (!scratch) return context.fail(scratch.issue(), kInternal);
+  server::AppConfig config = app_config(options, *port, **scratch, context);
   config.catalogue = about;
-  config.program = own_call(context);
-  config.today = [&context] { return context.day(); };
-  server::App app(config, engine);
-  std::thread answers([&] { http.run([&](const server::Request& request) { return app.answer(request); }); });
+  server::App app(std::move(config), engine);
+  std::thread answers([&] {
+    http.run({[&](const server::Request& head) { return app.refuse(head); },
+              [&](const server::Request& request) { return app.perform(request); }});
+  });
   announce(options, *port);
   wait_for_end(app, ends);
   app.close();
@@ -170,24 +156,34 @@ void serve(const Options& options, const Library& library, const CheckSettings& 
   answers.join();
 }
 
-void run(Options options, Context& context) {
+// A corpus that is not there is a mistyped one: it is not made here.
+Result<std::string> open_corpus(const ServeOptions& options) {
+  Result<Corpus> corpus = Corpus::open(options.corpus);
+  if (corpus && !options.read_only) corpus = Corpus::create(options.corpus);  // finds out whether it can be written
+  if (!corpus) return corpus.issue();
+  return fs::absolute(options.corpus).string();
+}
+
+void run(ServeOptions options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
   if (const Result<Done> fine = check(options); !fine) return context.fail(fine.issue());
   if (!options.corpus.empty()) {
-    const Result<Corpus> corpus = options.read_only ? Corpus::open(options.corpus) : Corpus::create(options.corpus);
+    const Result<std::string> corpus = open_corpus(options);
     if (!corpus) return context.fail(corpus.issue());
-    options.corpus = fs::absolute(options.corpus).string();
+    options.corpus = *corpus;
   }
-  if (options.limits.sessions_of_client > options.limits.sessions) options.limits.sessions = options.limits.sessions_of_client;
-  options.http.threads = options.limits.streams + 64;
+  if (options.limits.sessions_of_client > options.limits.sessions)
+    options.limits.sessions = options.limits.sessions_of_client;
+  options.http.connections = options.limits.streams + kConnectionsBesideStreams;
+  options.http.connections_of_client = options.limits.streams_of_client + kConnectionsBesideStreams / 2;
   options.http.most_body = static_cast<std::size_t>(std::max(options.limits.spec_bytes, options.limits.library_bytes));
   serve(options, *library, *settings, context);
 }
 
-void add_limits(CLI::App& command, Options& options) {
+void add_limits(CLI::App& command, ServeOptions& options) {
   const CLI::Range some(1, 100000);
   server::Limits& limits = options.limits;
   const char* group = "Limits";
@@ -205,28 +201,41 @@ void add_limits(CLI::App& command, Options& options) {
   add("--waiting-tasks", options.workers.most_waiting, "Motions that wait for a worker");
   add("--task-seconds", options.workers.each.seconds, "Time of one motion");
   command.add_option("--spec-bytes", limits.spec_bytes, "Size of a call's body")
-      ->check(CLI::Range(1 << 10, 16 << 20))->capture_default_str()->group(group);
+      ->check(CLI::Range(1 << 10, 16 << 20))
+      ->capture_default_str()
+      ->group(group);
   command.add_option("--take-seconds", limits.take_s, "Length of a take")
-      ->check(CLI::Range(2.0, 60.0))->check(refuse_nan)->capture_default_str()->group(group);
+      ->check(CLI::Range(2.0, 60.0))
+      ->check(refuse_nan)
+      ->capture_default_str()
+      ->group(group);
 }
 
 }  // namespace
 
 void add_serve(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ServeOptions>();
   options->workers.workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand("serve", "Browse, triage and drive characters from a web page");
-  command->add_option("--corpus", options->corpus, "Its report, live; triage writes it; what sessions show is kept here")
+  command
+      ->add_option("--corpus", options->corpus,
+                   "A corpus that is there: its report, live; triage writes it; what sessions show is kept here")
       ->type_name("DIR");
-  command->add_option("--report", options->report, "Where its report is made (default: a folder that goes with the server)")
+  command
+      ->add_option("--report", options->report,
+                   "Where its report is made (default: a folder that goes with the server)")
       ->type_name("DIR");
   command->add_option("--host", options->http.host, "Address to listen on")->capture_default_str();
-  command->add_option("--port", options->http.port, "0: any that is free")->check(CLI::Range(0, 65535))->capture_default_str();
-  command->add_option("--token", options->token, "Who calls must know it; needed where other machines can reach the server");
+  command->add_option("--port", options->http.port, "0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--token", options->token,
+                      "Who calls must know it; needed where other machines can reach the server");
   command->add_option("--allow-host", options->hosts, "A name by which browsers may call it, such as one of a proxy");
   command->add_flag("--read-only", options->read_only, "The corpus does not change");
   command->add_option("--workers", options->workers.workers, "Processes that generate")
-      ->check(CLI::Range(1, 256))->capture_default_str();
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   add_limits(*command, *options);
   command->footer("Example: contort serve --corpus contort-out/corpus");
   command->callback([options, &context] { run(*options, context); });

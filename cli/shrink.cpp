@@ -14,12 +14,13 @@
 #include "fuzz/departures.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/output.h"
 
 namespace contort::cli {
 
 namespace {
 
-struct Options {
+struct ShrinkOptions {
   std::string input;
   std::string output;
   std::string worst;
@@ -30,14 +31,14 @@ struct Options {
 };
 
 // The case as it fails now, or nothing with the reason printed.
-std::optional<Case> failing_now(const Options& options, const Library& library, const CheckSettings& settings,
+std::optional<Case> failing_now(const ShrinkOptions& options, const Library& library, const CheckSettings& settings,
                                 Context& context) {
-  Result<Case> stored = read_case(options.input);
+  Result<Case> stored = read_case_input(options.input);
   if (!stored) return context.fail(stored.issue()), std::nullopt;
   Evaluator evaluator(settings);
   GuardedReplay guarded([&](const Case& c) { return replay(c, library, evaluator); }, {});
   const Replay now = guarded(*stored);
-  if (now.verdict == Verdict::refused) return context.fail(now.issue), std::nullopt;
+  if (now.verdict == Verdict::refused) return context.fail(about_file(options.input, now.issue)), std::nullopt;
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
     return context.fail(
                {"shrink.no_failure", "",
@@ -49,7 +50,7 @@ std::optional<Case> failing_now(const Options& options, const Library& library, 
 }
 
 // The profile that it has to stay within: of the command line, else the built-in one that found the case, else none.
-Result<std::optional<Profile>> profile_of(const Options& options, const Case& original) {
+Result<std::optional<Profile>> profile_of(const ShrinkOptions& options, const Case& original) {
   const std::string& found_with = original.provenance.profile;
   if (!options.profile.empty()) {
     Result<Profile> profile = load_profile(options.profile);
@@ -65,13 +66,13 @@ Result<std::optional<Profile>> profile_of(const Options& options, const Case& or
 }
 
 // The configuration of one shrink; its time runs from now on.
-Result<ShrinkConfig> configure(const Options& options, const CheckSettings& settings) {
+Result<ShrinkConfig> configure(const ShrinkOptions& options, const CheckSettings& settings) {
   ShrinkConfig config = options.config;
   config.checks = settings;
   config.guarded = true;  // whatever a candidate does to its process, the user's stays
   if (options.time.empty()) return config;
   const Result<double> seconds = parse_time_s(options.time);
-  if (!seconds) return seconds.issue();
+  if (!seconds) return Issue{seconds.issue().code, "", "--time: " + seconds.issue().text};
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*seconds);
   config.out_of_time = [end] { return std::chrono::steady_clock::now() >= end; };
   return config;
@@ -108,7 +109,7 @@ void print_json(const Shrunk& shrunk, const std::string& output) {
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }
 
-void run(const Options& options, Context& context) {
+void run(const ShrinkOptions& options, Context& context) {
   const Library* library = context.load_library();
   if (library == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
@@ -127,10 +128,10 @@ void run(const Options& options, Context& context) {
                         kInconclusive);
   const std::string output =
       options.output.empty() ? "min-" + spec_id(shrunk.minimal.spec).substr(0, 16) + ".json" : options.output;
-  if (const Result<Done> written = write_file(output, print_case(shrunk.minimal)); !written)
+  if (const Result<Done> written = write_output(output, print_case(shrunk.minimal)); !written)
     return context.fail(written.issue(), kInternal);
   if (!options.worst.empty())
-    if (const Result<Done> written = write_file(options.worst, print_case(shrunk.worst)); !written)
+    if (const Result<Done> written = write_output(options.worst, print_case(shrunk.worst)); !written)
       return context.fail(written.issue(), kInternal);
   if (options.json) return print_json(shrunk, output);
   print_shrunk(shrunk, *original, output, context);
@@ -139,13 +140,13 @@ void run(const Options& options, Context& context) {
 }  // namespace
 
 void add_shrink(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShrinkOptions>();
   CLI::App* command = app.add_subcommand("shrink", "Make a case smaller, with the same failure");
   command->add_option("CASE", options->input, "Case file")->required();
   command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
   command->add_option("--time,--shrink-time", options->time,
-                      "Stop after this time: 45s, 10m; results then depend on the machine");
+                      "Stop after this time: 45s, 1.5m; without a unit, seconds; results then depend on the machine");
   command->add_option("--profile", options->profile,
                       "Stay within what it draws (default: the built-in one that found the case): a name or a file");
   command->add_flag("--json", options->json, "Print the result as JSON");

@@ -5,6 +5,7 @@
 
 #include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
+#include "generator/core/output.h"
 #include "renders/case_data.h"
 #include "renders/page_call.h"
 
@@ -40,9 +41,9 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
     if (row.has_motion) add("cases/" + row.key + ".json", data_of_script(row.key, text_of("cases/" + row.key + ".js")));
   }
   if (left_out > 0)
-    std::fprintf(stderr, "contort: %s is as large as mail may be; %d motions and pictures are only in %s\n", path.c_str(),
-                 left_out, folder.c_str());
-  return write_file(path, report_html(model, inside));
+    std::fprintf(stderr, "contort: %s is as large as mail may be; %d motions and pictures are only in %s\n",
+                 path.c_str(), left_out, folder.c_str());
+  return write_output(path, report_html(model, inside));
 }
 
 }  // namespace contort::cli

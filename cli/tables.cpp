@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/library_folder.h"
 #include "cli/variants.h"
 #include "generator/actions/action.h"
 #include "generator/core/inside_folder.h"
@@ -80,6 +81,7 @@ void add_tables(CLI::App& app, Context& context) {
   command->callback([folder, &context] {
     const Library* library = context.load_library();
     if (library == nullptr) return;
+    if (const Result<Done> own = check_library_folder(*folder); !own) return context.fail(own.issue());
     if (const Result<Done> inside = check_inside(*folder, *folder + "/aim"); !inside)  // what is old there is removed
       return context.fail(inside.issue());
     const Result<Counts> counts = update(*folder + "/aim", geometries_of(*library));

@@ -5,6 +5,7 @@
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
 #include "corpus/replay.h"
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 
@@ -63,7 +64,7 @@ void Baseline::add(const std::string& bucket, const std::string& family) {
 
 Result<Baseline> read_baseline(const std::string& path) {
   if (std::error_code error; std::filesystem::is_directory(path, error)) return from_corpus(path);
-  const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+  const Result<std::string> text = read_json_file(path, "a corpus, or a list of buckets (JSON)");
   if (!text) return text.issue();
   const Result<Json> list = json_fields::parse_document(*text);
   if (!list) return Issue{list.issue().code, list.issue().pointer, path + ": " + list.issue().text};

@@ -13,6 +13,7 @@
 #include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/own_folder.h"
 
 namespace contort {
 
@@ -47,11 +48,14 @@ Result<Case> read_case_of(const std::string& folder, const std::string& file) {
 }
 
 Result<Corpus> Corpus::create(const std::string& folder) {
+  std::error_code ignored;
+  const bool is_corpus = fs::is_directory(folder + "/buckets", ignored);
+  if (const Result<Done> own = check_own_folder(folder, is_corpus, "a corpus"); !own) return own.issue();
   if (const Result<Done> own = check_own_folders(folder); !own) return own.issue();
   for (const char* sub : {"/buckets", "/leads", "/runs"})
     if (const Result<Done> made = make_folder(folder + sub); !made) return made.issue();
-  // A folder that exists may still be read-only: find out now, not after an hour of fuzzing. Without a file, which a kill
-  // would leave behind.
+  // A folder that exists may still be read-only: find out now, not after an hour of fuzzing. Without a file, which a
+  // kill would leave behind.
   if (::access((folder + "/leads").c_str(), W_OK | X_OK) != 0)
     return Issue{"file.unwritable", "", "cannot write into " + folder + "/leads: " + std::strerror(errno)};
   // Made here, so that whether a corpus was locked yet makes no difference.
@@ -62,7 +66,10 @@ Result<Corpus> Corpus::create(const std::string& folder) {
 Result<Corpus> Corpus::open(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder + "/buckets", error))
-    return Issue{"corpus.not_found", "", folder + " holds no corpus (no folder \"buckets\")"};
+    return Issue{"corpus.not_found", "",
+                 (fs::exists(folder, error) ? folder + " holds no corpus, because it has no folder \"buckets\""
+                                            : "there is no corpus " + folder + ", because there is no such folder") +
+                     ": check the path; contort fuzz --corpus DIR makes a corpus, and with --cases 0 an empty one"};
   if (const Result<Done> own = check_own_folders(folder); !own) return own.issue();
   return Corpus(folder);
 }
@@ -176,8 +183,8 @@ std::vector<Bucket> Corpus::buckets_under_lock(std::vector<Issue>& damaged) cons
   return all;
 }
 
-// A reader waits for writers only where something seems to be damaged: a folder that is being made, a file that is being
-// replaced.
+// A reader waits for writers only where something seems to be damaged: a folder that is being made, a file that is
+// being replaced.
 std::vector<Bucket> Corpus::buckets(std::vector<Issue>& damaged) const {
   std::vector<Issue> at_first;
   std::vector<Bucket> all = buckets_under_lock(at_first);

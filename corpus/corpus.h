@@ -34,10 +34,11 @@ struct Found {
 
 class Corpus {
  public:
-  // Makes the folders where they are missing and tries to write; code file.unwritable.
+  // Makes the folders where they are missing and tries to write; code file.unwritable, and folder.other_files where the
+  // folder holds files and no corpus.
   static Result<Corpus> create(const std::string& folder);
-  // Code corpus.not_found where the folder holds no corpus. Both: code file.outside where one of the corpus' own folders
-  // is a link that leads out of it.
+  // Code corpus.not_found where the folder holds no corpus. Both: code file.outside where one of the corpus' own
+  // folders is a link that leads out of it.
   static Result<Corpus> open(const std::string& folder);
 
   // Stores a failure under its bucket. `is_new`: the bucket was not there before. What was fixed has regressed.
@@ -58,11 +59,13 @@ class Corpus {
   Result<Done> remove(const Bucket& bucket) const;
 
   // All buckets, by folder name. Folders that cannot be read while nobody writes, and buckets whose names or links lead
-  // elsewhere (is_untrusted), are reported in `damaged`, never skipped silently. Not for whoever holds the corpus' lock, which takes the next.
+  // elsewhere (is_untrusted), are reported in `damaged`, never skipped silently. Not for whoever holds the corpus'
+  // lock, which takes the next.
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;
   std::vector<Bucket> buckets_under_lock(std::vector<Issue>& damaged) const;
 
-  // Cases of a bucket. Where another process has replaced one since the bucket was read, it is read anew, into `bucket`.
+  // Cases of a bucket. Where another process has replaced one since the bucket was read, it is read anew, into
+  // `bucket`.
   struct Stored {
     std::string path;
     Result<Case> stored;

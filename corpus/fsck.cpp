@@ -107,6 +107,7 @@ void check_temporaries(const std::string& root, FaultList& faults) {
 }
 
 Result<Done> read_record(const std::string& path) {
+  if (const Result<std::string> text = read_file(path, json_fields::kMaxDocumentBytes); !text) return text.issue();
   const Result<RunRecord> record = read_run(path);
   if (!record) return record.issue();
   return Done{};

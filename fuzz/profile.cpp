@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "fuzz/profile_files.h"
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/nearest.h"
 
 namespace contort {
 
@@ -133,7 +135,9 @@ Issue unknown_profile(const std::string& name, const std::string& pointer) {
   std::string names;
   for (const StockFile& file : profile_files())
     names += (names.empty() ? "" : ", ") + std::string(file.name.substr(0, file.name.rfind('.')));
-  return {"profile.unknown", pointer, "no profile is called " + json_fields::quoted(name) + "; there are " + names};
+  return {"profile.unknown", pointer,
+          "no profile is called " + json_fields::quoted(name) + "; there are " + names +
+              (pointer.empty() ? ", and files" : "") + did_you_mean(name, names)};
 }
 
 Result<Profile> read_over_base(const std::string& name, std::string_view json) {
@@ -179,12 +183,8 @@ std::string profile_schema() { return json_fields::write_schema<Profile>("Contor
 Result<Profile> load_profile(const std::string& name_or_path) {
   for (const Profile& profile : built_in_profiles())
     if (profile.name == name_or_path) return profile;
-  if (name_or_path.find_first_of("./") == std::string::npos) {
-    Issue issue = unknown_profile(name_or_path, "");
-    issue.text += ", and files";
-    return issue;
-  }
-  const Result<std::string> text = read_regular_file(name_or_path, json_fields::kMaxDocumentBytes);
+  if (name_or_path.find_first_of("./") == std::string::npos) return unknown_profile(name_or_path, "");
+  const Result<std::string> text = read_json_file(name_or_path, "a fuzzing profile (JSON)");
   if (!text) return text.issue();
   Result<Profile> profile = parse_profile(*text);
   if (profile) return profile;

@@ -6,6 +6,7 @@
 #include "fuzz/profile.h"
 #include "generator/actions/action.h"
 #include "generator/core/json_fields.h"
+#include "generator/core/nearest.h"
 #include "generator/spec_fields.h"
 
 namespace contort {
@@ -50,12 +51,18 @@ Known known_of(const Library& library) {
   return known;
 }
 
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 Result<Done> check_known(const std::vector<std::string>& names, const std::set<std::string>& known,
                          const std::string& pointer, const std::string& kind) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!known.contains(names[i]))
       return Issue{"profile.unknown_name", pointer + "/" + std::to_string(i),
-                   quoted(names[i]) + " is none of the library's " + kind};
+                   quoted(names[i]) + " is none of the library's " + kind + did_you_mean(names[i], joined(known))};
   return Done{};
 }
 

@@ -92,7 +92,7 @@ void drop_state(const Corpus& corpus, const RunRecord& record) {
 Result<RunLock> RunLock::take(const Corpus& corpus, const RunRecord& record) {
   const std::string path = path_of(corpus, record, ".lock");
   for (;;) {
-    const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
+    const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (file < 0) return Issue{"file.unwritable", "", path + " cannot be written, or is a link"};
     RunLock lock(file, path);
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/gltf/read.h"
 #include "generator/mocap/bvh.h"
@@ -31,7 +32,7 @@ Result<Done> load_recordings(const std::string& folder, Library& into) {
   for (const std::filesystem::path& path : paths) {
     if (const Result<Done> inside = check_inside(folder, path.string()); !inside) return inside.issue();
     Result<Asset> asset = read_recording(path);
-    if (!asset) return asset.issue();
+    if (!asset) return about_file(path.string(), asset.issue());
     if (!into.recordings.try_emplace(path.stem().string(), std::make_shared<const Asset>(std::move(asset).value()))
              .second)
       return Issue{"recording.duplicate_name", "",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/core/number_text.h"
 #include "generator/motion/recording.h"
 
 namespace contort {
@@ -46,7 +47,7 @@ Result<Motion> play_recording(const Spec& spec, const Character& character, cons
   const RecordingUse use{asset, *clip, desc.joints, desc.from_s, spec.rate_hz, spec.hold_frames, start};
   if (desc.from_s > clip->last_s - clip->first_s)
     return Issue{"recording.too_late", "/recording/from_s",
-                 "the clip lasts " + std::to_string(clip->last_s - clip->first_s) + " s"};
+                 "the clip lasts " + number_text(clip->last_s - clip->first_s) + " s"};
   if (frames_of(use) > kMaxFrames)
     return Issue{"spec.too_long", "/recording", "the motion is longer than " + std::to_string(kMaxFrames) + " frames"};
   Result<Motion> motion = follow_recording(character, use);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "generator/core/index.h"
+#include "generator/core/number_text.h"
 #include "import/names.h"
 #include "import/skinning.h"
 
@@ -297,8 +298,8 @@ class FigureReader {
     if (largest >= 0.2 && largest <= 30.0) return scale;
     while (largest * scale > 5.0) scale /= 10.0;
     while (largest * scale < 0.5) scale *= 10.0;
-    note("The model's largest side is " + std::to_string(largest) + " units, which are hardly metres: scaled by " +
-         std::to_string(scale) + ". --scale or --height-m says it better.");
+    note("The model's largest side is " + number_text(largest) + " units, which are hardly metres: scaled by " +
+         number_text(scale) + ". --scale or --height-m says it better.");
     return scale;
   }
 

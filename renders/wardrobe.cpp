@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <map>
 
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/inside_folder.h"
@@ -12,11 +13,6 @@ namespace contort {
 namespace {
 
 namespace fs = std::filesystem;
-
-Issue in_file(const std::string& path, Issue issue) {
-  issue.text = path + ": " + issue.text;
-  return issue;
-}
 
 // Links are followed: where they lead must be the folder, too.
 Result<std::string> model_path(const std::string& skin_path, const SkinDesc& desc) {
@@ -39,21 +35,21 @@ struct Wardrobe::Models {
   Result<std::shared_ptr<const SkinnedAsset>> model(const std::string& path) {
     if (const auto known = read.find(path); known != read.end()) return known->second;
     Result<SkinnedAsset> asset = read_skinned_gltf(path);
-    if (!asset) return in_file(path, asset.issue());
+    if (!asset) return about_file(path, asset.issue());
     return read[path] = std::make_shared<const SkinnedAsset>(std::move(asset).value());
   }
 
   Result<std::shared_ptr<const Skin>> bind(const std::string& path, const Character& character) {
-    const Result<std::string> text = read_regular_file(path, json_fields::kMaxDocumentBytes);
+    const Result<std::string> text = read_json_file(path, "the skin of a character (JSON)");
     if (!text) return text.issue();
     const Result<SkinDesc> desc = parse_skin(*text);
-    if (!desc) return in_file(path, desc.issue());
+    if (!desc) return about_file(path, desc.issue());
     const Result<std::string> file = model_path(path, *desc);
-    if (!file) return in_file(path, file.issue());
+    if (!file) return about_file(path, file.issue());
     const Result<std::shared_ptr<const SkinnedAsset>> asset = model(*file);
     if (!asset) return asset.issue();
     Result<Skin> skin = bind_skin(*desc, **asset, character);
-    if (!skin) return in_file(path, skin.issue());
+    if (!skin) return about_file(path, skin.issue());
     return std::make_shared<const Skin>(std::move(skin).value());
   }
 };

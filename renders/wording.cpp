@@ -51,7 +51,8 @@ std::string margin_text(double margin, std::string_view unit) {
   if (std::isnan(margin)) return "not a number";
   std::string text = format("%.3g ", margin) + std::string(unit);
   for (const FamiliarUnit& u : kFamiliarUnits)
-    if (u.stored == unit) text += format(" (%.1f", margin * u.factor) + std::string(u.familiar) + ")";
+    if (u.stored == unit)
+      text += format(std::fabs(margin) < 1e9 ? " (%.1f" : " (%.3g", margin * u.factor) + std::string(u.familiar) + ")";
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "generator/core/files.h"
@@ -20,6 +21,11 @@ constexpr auto kPatience = std::chrono::seconds(1);
 void wait_for_cpu(Answer& answer, double wait_s) {
   for (auto& [name, value] : answer.headers)
     if (name == "Retry-After" && wait_s > 1.0) value = std::to_string(static_cast<int>(std::ceil(wait_s)));
+}
+
+Answer broken(const std::exception& error) {
+  std::fprintf(stderr, "contort: internal error: %s\n", error.what());
+  return refusal({"file.internal", "", "an internal error; the server's log has more"});
 }
 
 }  // namespace
@@ -93,25 +99,46 @@ App::App(AppConfig config, Engine& engine)
       calls_left_(engine.limits().calls_per_s, engine.limits().calls_at_once),
       sessions_(engine),
       jobs_(engine.limits().jobs, [this](const Job& job) { tell(job); }) {
-  if (!config_.corpus.empty()) triage_.emplace(config_.corpus, config_.program);
+  if (!config_.corpus.empty()) triage_.emplace(config_.corpus, config_.program, config_.scratch);
 }
 
 App::~App() { close(); }
 
 Answer App::answer(const Request& request) {
+  if (std::optional<Answer> refused = refuse(request)) return std::move(*refused);
+  return perform(request);
+}
+
+std::optional<Answer> App::refuse(const Request& head) {
   ++calls_;
-  Answer answer;
   try {
-    Result<Done> admitted = admit(request, config_.guard);
-    if (admitted && request.path.starts_with("/api") && !calls_left_.take(request.client, 1.0, now()))
-      admitted = Issue{"limit.calls", "", "too many calls in a short time"};
-    if (admitted && closed_) admitted = Issue{"full.closing", "", "the server ends"};
-    answer = admitted ? dispatch(*this, request) : refusal(admitted.issue());
+    std::optional<Answer> refused = refuse_head(head);
+    if (!refused) return std::nullopt;
+    return counted(std::move(*refused), head.client);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "contort: internal error: %s\n", error.what());
-    answer = refusal({"file.internal", "", "an internal error; the server's log has more"});
+    return counted(broken(error), head.client);
   }
-  if (answer.status == 429) wait_for_cpu(answer, engine_.wait_s(request.client));
+}
+
+Answer App::perform(const Request& request) {
+  try {
+    return counted(dispatch(*this, request), request.client);
+  } catch (const std::exception& error) {
+    return counted(broken(error), request.client);
+  }
+}
+
+std::optional<Answer> App::refuse_head(const Request& head) {
+  if (const Result<Done> admitted = admit(head, config_.guard); !admitted) return refusal(admitted.issue());
+  if (head.path.starts_with("/api") && !calls_left_.take(head.client, 1.0, now()))
+    return refusal({"limit.calls", "", "too many calls in a short time"});
+  if (closed_) return refusal({"full.closing", "", "the server ends"});
+  const std::string length = head.header("content-length");
+  return refuse_route(*this, head, std::strtoull(length.c_str(), nullptr, 10));
+}
+
+Answer App::counted(Answer answer, const std::string& client) {
+  if (answer.status == 429) wait_for_cpu(answer, engine_.wait_s(client));
   if (answer.status >= 500 && answer.status != 503) ++failed_;
   if (answer.status >= 400) ++refused_;
   return answer;

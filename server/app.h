@@ -22,14 +22,14 @@ namespace contort::server {
 
 struct AppConfig {
   GuardConfig guard;
-  bool read_only = false;                // the corpus does not change
-  std::string corpus;                    // folder; "": none
-  std::string report;                    // folder of the page that is made of it
-  std::string pages;                     // folder of play.html and what it loads
-  std::string scratch;                   // folder for registered libraries
-  std::string catalogue;                 // JSON: what there is; docs/server.md
-  std::vector<std::string> program;      // how contort is called
-  std::function<std::string()> today;    // for what gates
+  bool read_only = false;              // the corpus does not change
+  std::string corpus;                  // folder; "": none
+  std::string report;                  // folder of the page that is made of it
+  std::string pages;                   // folder of play.html and what it loads
+  std::string scratch;                 // folder for registered libraries and for files that pass
+  std::string catalogue;               // JSON: what there is; docs/server.md
+  std::vector<std::string> program;    // how contort is called
+  std::function<std::string()> today;  // for what gates
 };
 
 // What everybody who listens is told of, by counters: a listener compares them with those that it saw last.
@@ -62,8 +62,12 @@ class App {
   App(AppConfig config, Engine& engine);
   ~App();
 
-  // Everything from the guard to the answer. Never throws.
+  // Everything from the guard to the answer. Never throws, nor do the two that it is made of.
   Answer answer(const Request& request);
+  // Looks at a request of which the body has not been read: why it need not be, or nothing where it may go on.
+  std::optional<Answer> refuse(const Request& head);
+  // Answers a request that was not refused.
+  Answer perform(const Request& request);
 
   // Once a second or so: idle sessions end, and what others did to the corpus is told and reported.
   void tick();
@@ -74,6 +78,7 @@ class App {
   // What handlers use.
   const AppConfig& config() const { return config_; }
   Engine& engine() { return engine_; }
+  const Limits& limits() const { return engine_.limits(); }
   Sessions& sessions() { return sessions_; }
   Jobs& jobs() { return jobs_; }
   News& news() { return news_; }
@@ -83,13 +88,15 @@ class App {
   Result<std::string> library_folder(const std::string& id) const;  // code library.not_found; "" for ""
   Result<std::string> register_library(const std::map<std::string, std::string>& files);
   Issue forget_library(const std::string& id, Issue why);  // what turned out not to fit; `why`, about the body
-  Result<std::string> make_report();  // the job
+  Result<std::string> make_report();                       // the job
   std::string metrics() const;
   // A stream for one client; see Sessions::count_stream.
   Answer stream(const std::string& client, std::function<std::vector<Event>(bool& more)> next);
 
  private:
   void tell(const Job& job);
+  std::optional<Answer> refuse_head(const Request& head);
+  Answer counted(Answer answer, const std::string& client);
 
   AppConfig config_;
   Engine& engine_;

@@ -54,7 +54,8 @@ struct SessionBody {
 template <class V>
 void fields(V& v, const SessionBody*) {
   v.field("spec", &SessionBody::spec, {.required = true}, "The take begins with it.");
-  v.field("modes", &SessionBody::modes, {.max_count = 3, .names = mode_names()}, "Each is a motion of its own; the spec's mode where left out.");
+  v.field("modes", &SessionBody::modes, {.max_count = 3, .names = mode_names()},
+          "Each is a motion of its own; the spec's mode where left out.");
   v.field("library", &SessionBody::library, kAnyLabel, "Of POST /api/libraries.");
 }
 
@@ -176,7 +177,8 @@ struct NoteBody {
 };
 template <class V>
 void fields(V& v, const NoteBody*) {
-  v.field("text", &NoteBody::text, {.text = Text::prose, .required = true, .may_be_empty = true}, "\"\" takes the note away.");
+  v.field("text", &NoteBody::text, {.text = Text::prose, .required = true, .may_be_empty = true},
+          "\"\" takes the note away.");
 }
 
 }  // namespace contort::server

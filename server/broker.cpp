@@ -32,9 +32,7 @@ struct Header {
   double worker_s = 0.0;   // from the broker
 };
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 bool send_message(int socket, Header header, const std::string& text) {
   header.length = text.size();
@@ -51,7 +49,9 @@ bool receive_message(int socket, Header& header, std::string& text) {
 class BrokerProcess {
  public:
   BrokerProcess(int socket, const BrokerLimits& limits, WorkerPool::Work work)
-      : socket_(socket), pool_(limits.workers, limits.each, std::move(work)), given_(static_cast<std::size_t>(limits.workers)) {}
+      : socket_(socket),
+        pool_(limits.workers, limits.each, std::move(work)),
+        given_(static_cast<std::size_t>(limits.workers)) {}
 
   // Until the front hangs up.
   void run() {
@@ -96,7 +96,8 @@ class BrokerProcess {
 
   bool tell(const WorkerEvent& event) {
     const Given& given = given_[static_cast<std::size_t>(event.worker)];
-    return send_message(socket_, {given.id, 0, static_cast<std::uint64_t>(event.end), now_s() - given.since_s}, event.text);
+    return send_message(socket_, {given.id, 0, static_cast<std::uint64_t>(event.end), now_s() - given.since_s},
+                        event.text);
   }
 
   int socket_;

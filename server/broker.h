@@ -1,5 +1,5 @@
-// The way to the worker processes. The front has threads and must not fork, so a process with one thread, the broker, is
-// split off before the first of them; it keeps the workers (corpus/worker_pool.h) and hands tasks on.
+// The way to the worker processes. The front has threads and must not fork, so a process with one thread, the broker,
+// is split off before the first of them; it keeps the workers (corpus/worker_pool.h) and hands tasks on.
 #pragma once
 
 #include <condition_variable>

@@ -22,7 +22,8 @@ Answer job_answer(App& app, const Result<std::string>& id) {
 
 // What is answered is on the disk.
 template <class Body>
-Answer change_bucket(App& app, const Call& call, Result<Bucket> (*edit)(const Bucket&, const Body&, const std::string&)) {
+Answer change_bucket(App& app, const Call& call,
+                     Result<Bucket> (*edit)(const Bucket&, const Body&, const std::string&)) {
   const Result<Body> body = json_fields::read_document<Body>(call.request.body, "call");
   if (!body) return refusal(body.issue());
   const Result<const Triage*> corpus = app.writable_corpus();
@@ -34,7 +35,8 @@ Answer change_bucket(App& app, const Call& call, Result<Bucket> (*edit)(const Bu
   return answer;
 }
 
-Answer start(App& app, const Call& call, const char* kind, Result<Jobs::Work> (Triage::*work)(const std::string&) const) {
+Answer start(App& app, const Call& call, const char* kind,
+             Result<Jobs::Work> (Triage::*work)(const std::string&) const) {
   const Result<const Triage*> corpus = app.writable_corpus();
   if (!corpus) return refusal(corpus.issue());
   if (const Result<Done> may = app.engine().may_work(call.request.client); !may) return refusal(may.issue());
@@ -56,16 +58,17 @@ Answer show_bucket(App& app, const Call& call) {
 }
 
 Answer acknowledge_bucket(App& app, const Call& call) {
-  return change_bucket<AcknowledgeBody>(app, call, [](const Bucket& bucket, const AcknowledgeBody& body, const std::string&) {
-    return acknowledge(bucket, body.owner, body.ticket);
-  });
+  return change_bucket<AcknowledgeBody>(app, call,
+                                        [](const Bucket& bucket, const AcknowledgeBody& body, const std::string&) {
+                                          return acknowledge(bucket, body.owner, body.ticket);
+                                        });
 }
 
 Answer quarantine_bucket(App& app, const Call& call) {
-  return change_bucket<QuarantineBody>(
-      app, call, [](const Bucket& bucket, const QuarantineBody& body, const std::string& today) {
-        return quarantine(bucket, body.owner, body.reason, body.expires, today);
-      });
+  return change_bucket<QuarantineBody>(app, call,
+                                       [](const Bucket& bucket, const QuarantineBody& body, const std::string& today) {
+                                         return quarantine(bucket, body.owner, body.reason, body.expires, today);
+                                       });
 }
 
 Answer note_bucket(App& app, const Call& call) {

@@ -77,9 +77,8 @@ Answer close_session(App& app, const Call& call) {
 
 Answer enqueue(App& app, const Call& call) {
   return with<EnqueueBody>(app, call, [](Session& session, const EnqueueBody& body) {
-    return session.command([&](const Spec& spec, const Moment& now) {
-      return with_sequence(spec, body.sequence, body.enter, true, now);
-    });
+    return session.command(
+        [&](const Spec& spec, const Moment& now) { return with_sequence(spec, body.sequence, body.enter, true, now); });
   });
 }
 
@@ -162,7 +161,8 @@ Answer motion_file(App& app, const Call& call) {
   const std::optional<Mode> mode = mode_of(call, **session);
   const std::optional<Spec> spec = mode ? (*session)->spec_of((*session)->take(), *mode) : std::nullopt;
   if (!spec) return refusal(kNoMode);
-  const Worked worked = app.engine().run({TaskKind::model_file, *spec, 0, 0, (*session)->desc().library, "", ""}, call.request.client);
+  const Worked worked =
+      app.engine().run({TaskKind::model_file, *spec, 0, 0, (*session)->desc().library, "", ""}, call.request.client);
   if (!worked.reply) return refusal(worked.reply.issue());
   Answer answer = json_answer(worked.reply->bytes);
   answer.type = "model/gltf-binary";
@@ -181,10 +181,11 @@ Answer keep_case(App& app, const Call& call) {
   const std::optional<Spec> spec = (*session)->spec_of(take, body->mode);
   if (!spec) return refusal({"take.gone", "", "that take is not here any more, or not in that mode"});
   if (!(*session)->desc().library.empty())
-    return refusal({"session.own_library", "", "cases of registered libraries cannot be replayed from a corpus; start the "
-                                               "server with --library DIR"});
-  const Worked worked = app.engine().run({TaskKind::make_case, *spec, 0, 0, "", body->check, body->subject},
-                                         call.request.client);
+    return refusal({"session.own_library", "",
+                    "cases of registered libraries cannot be replayed from a corpus; start the "
+                    "server with --library DIR"});
+  const Worked worked =
+      app.engine().run({TaskKind::make_case, *spec, 0, 0, "", body->check, body->subject}, call.request.client);
   if (!worked.reply) return refusal(worked.reply.issue());
   const Result<Case> made = parse_case(worked.reply->head);
   const Result<std::string> kept = made ? (*corpus)->keep(*made) : Result<std::string>(made.issue());

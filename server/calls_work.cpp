@@ -20,10 +20,26 @@ Answer text_answer(std::string text, std::string type = "application/json") {
   return answer;
 }
 
+constexpr std::size_t kAtOnce = 1 << 20;  // larger files are sent in pieces
+
 Answer file_answer(const std::string& folder, const std::string& path) {
-  const Result<std::string> bytes = read_below(folder, path);
-  if (!bytes) return refusal(bytes.issue());
-  return text_answer(*bytes, type_of(path));
+  const Result<std::shared_ptr<PlainFile>> opened = open_below(folder, path);
+  if (!opened) return refusal(opened.issue());
+  const std::shared_ptr<PlainFile> file = *opened;
+  Answer answer = text_answer(file->left() > kAtOnce ? "" : file->read(kAtOnce), type_of(path));
+  if (file->left() == 0) return answer;
+  answer.pieces = [file](bool& more) {
+    std::string piece = file->read(kAtOnce);
+    more = file->left() > 0;
+    return piece;
+  };
+  return answer;
+}
+
+Answer page_answer(std::string page, std::string policy) {
+  Answer answer = text_answer(std::move(page), type_of(".html"));
+  if (!policy.empty()) answer.headers.emplace_back("Content-Security-Policy", std::move(policy));
+  return answer;
 }
 
 void replace_once(std::string& text, std::string_view what, std::string_view by) {
@@ -36,6 +52,25 @@ std::string made_live(std::string page) {
   replace_once(page, "script-src ", "script-src 'self' ");
   replace_once(page, "</head>", "<script src='/page/live.js' defer></script>\n</head>");
   return page;
+}
+
+// What the page says of itself, and that nobody may frame it, which only a header can say. "": it says nothing.
+std::string policy_of(const std::string& page) {
+  constexpr std::string_view kMeta = "<meta http-equiv='Content-Security-Policy' content=\"";
+  const std::size_t at = page.find(kMeta);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + kMeta.size(), end = page.find('"', begin);
+  const std::string policy = page.substr(begin, end - begin);
+  const bool is_line = end != std::string::npos && policy.find_first_of("\r\n") == std::string::npos;
+  return is_line ? policy + "; frame-ancestors 'none'" : "";
+}
+
+Answer report_page(const std::string& folder, const std::string& path) {
+  const Result<std::string> bytes = read_below(folder, path);
+  if (!bytes) return refusal(bytes.issue());
+  std::string page = path == "index.html" ? made_live(*bytes) : *bytes;
+  std::string policy = policy_of(page);
+  return page_answer(std::move(page), std::move(policy));
 }
 
 Result<Worked> work(App& app, const Call& call, TaskKind kind) {
@@ -98,15 +133,14 @@ Answer front_page(App& app, const Call& call) {
   answer.status = 302;
   answer.headers.emplace_back("Location", app.config().report.empty() ? "/play" : "/report/index.html");
   if (!app.config().guard.token.empty() && !call.request.parameter("token").empty())
-    answer.headers.emplace_back("Set-Cookie", "contort=" + app.config().guard.token +
-                                                  "; HttpOnly; SameSite=Strict; Path=/; Max-Age=43200");
+    answer.headers.emplace_back(
+        "Set-Cookie", "contort=" + app.config().guard.token + "; HttpOnly; SameSite=Strict; Path=/; Max-Age=43200");
   return answer;
 }
 
 Answer play_page(App& app, const Call&) {
-  Answer answer = file_answer(app.config().pages, "play.html");
-  answer.headers.emplace_back("Content-Security-Policy", kPolicy);
-  return answer;
+  const Result<std::string> page = read_below(app.config().pages, "play.html");
+  return page ? page_answer(*page, kPolicy) : refusal(page.issue());
 }
 
 Answer page_file(App& app, const Call& call) { return file_answer(app.config().pages, call.id("rest")); }
@@ -114,9 +148,10 @@ Answer page_file(App& app, const Call& call) { return file_answer(app.config().p
 // The report says itself what its scripts may do.
 Answer report_file(App& app, const Call& call) {
   if (app.config().report.empty()) return refusal({"call.not_found", "", "this server has no corpus to report"});
-  Answer answer = file_answer(app.config().report, call.id("rest"));
+  const std::string& path = call.id("rest");
+  Answer answer =
+      path.ends_with(".html") ? report_page(app.config().report, path) : file_answer(app.config().report, path);
   answer.headers.emplace_back("Cache-Control", "no-cache");
-  if (call.id("rest") == "index.html" && answer.status == 200) answer.body = made_live(std::move(answer.body));
   return answer;
 }
 

@@ -15,21 +15,21 @@
 namespace contort::server {
 
 struct Limits {
-  int sessions = 256;             // in total
+  int sessions = 256;  // in total
   int sessions_of_client = 16;
-  int streams = 64;               // in total
+  int streams = 64;  // in total
   int streams_of_client = 16;
-  double calls_per_s = 30.0;      // of one client, on average
-  double calls_at_once = 120.0;   // after a pause
-  double cpu_s_per_minute = 60.0; // of one client's motions and jobs, on average
-  double cpu_minutes_at_once = 5; // of these, after a pause
-  int spec_bytes = 256 << 10;     // of a call's body
+  double calls_per_s = 30.0;       // of one client, on average
+  double calls_at_once = 120.0;    // after a pause
+  double cpu_s_per_minute = 60.0;  // of one client's motions and jobs, on average
+  double cpu_minutes_at_once = 5;  // of these, after a pause
+  int spec_bytes = 256 << 10;      // of a call's body
   int library_bytes = 1 << 20;
-  double take_s = 10.0;           // how long a take is: each command makes all of it anew
-  double most_s = 60.0;           // and may become, by what is queued
-  int frame_bytes = 64 << 20;     // of one motion
-  double idle_s = 600.0;          // after which a session that nobody uses ends
-  int jobs = 16;                  // that wait
+  double take_s = 10.0;        // how long a take is: each command makes all of it anew
+  double most_s = 60.0;        // and may become, by what is queued
+  int frame_bytes = 64 << 20;  // of one motion
+  double idle_s = 600.0;       // after which a session that nobody uses ends
+  int jobs = 16;               // that wait
 };
 
 // Every code that a task can end with, and what it took of a worker's CPU: of its time, where it did not end well.

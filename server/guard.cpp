@@ -1,6 +1,7 @@
 #include "server/guard.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace contort::server {
 
@@ -8,7 +9,27 @@ namespace {
 
 constexpr std::size_t kMostPath = 1024;
 
-bool writes(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }
+bool writes(const Request& request) {
+  return request.method == "POST" || request.method == "PUT" || request.method == "PATCH" || request.method == "DELETE";
+}
+
+// "Application/JSON; charset=utf-8" is one, "application/json-seq" is not.
+bool is_json(const std::string& type) {
+  std::string name = type.substr(0, type.find(';'));
+  name.erase(name.find_last_not_of(" \t") + 1);
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name == "application/json";
+}
+
+// The body has to be what it is: what 1 kB of it may become in memory, nobody who compressed it decides.
+Result<Done> admit_body(const Request& request) {
+  const std::string encoding = request.header("content-encoding");
+  if (!encoding.empty() && encoding != "identity")
+    return Issue{"call.content_encoding", "", "this server takes no compressed bodies: leave Content-Encoding out"};
+  if (writes(request) && request.method != "DELETE" && !is_json(request.header("content-type")))
+    return Issue{"call.content_type", "", "a call that writes has Content-Type: application/json"};
+  return Done{};
+}
 
 // Takes the same time wherever they differ.
 bool equal(const std::string& a, const std::string& b) {
@@ -35,9 +56,7 @@ bool has_token(const Request& request, const std::string& token) {
 
 }  // namespace
 
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
+bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
 
 Result<Done> admit(const Request& request, const GuardConfig& config) {
   if (request.path.size() > kMostPath) return Issue{"call.too_long", "", "the address is too long"};
@@ -49,8 +68,7 @@ Result<Done> admit(const Request& request, const GuardConfig& config) {
     return Issue{"guard.origin", "", "pages of other servers may not call this one"};
   if (!config.token.empty() && !has_token(request, config.token))
     return Issue{"guard.token", "", "a token is needed: Authorization: Bearer, or once /?token= in a browser"};
-  if (writes(request) && request.method != "DELETE" && !request.header("content-type").starts_with("application/json"))
-    return Issue{"call.wrong_type", "", "a call that writes has Content-Type: application/json"};
+  if (const Result<Done> fine = admit_body(request); !fine) return fine;
   if (writes(request) && !request.header("sec-fetch-site").empty() && request.header("sec-fetch-site") != "same-origin")
     return Issue{"guard.origin", "", "pages of other servers may not call this one"};
   return Done{};

@@ -13,8 +13,9 @@ struct GuardConfig {
   std::string token;               // "": none is needed
 };
 
-// Codes guard.host, guard.origin, guard.token, call.wrong_type, call.too_long. A name of elsewhere that resolves to this
-// machine (DNS rebinding) fails by its Host; a page of elsewhere by its Origin or by its type of content.
+// Looks at the head of a request only, so that no body is read for somebody who may not call. Codes guard.host,
+// guard.origin, guard.token, call.content_type, call.content_encoding, call.too_long. A name of elsewhere that resolves
+// to this machine (DNS rebinding) fails by its Host; a page of elsewhere by its Origin or by its type of content.
 Result<Done> admit(const Request& request, const GuardConfig& config);
 
 // The address is this machine's own.

@@ -1,42 +1,47 @@
 #include "server/http.h"
 
 #include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "server/connection.h"
 
 namespace contort::server {
 
 namespace {
 
 constexpr std::size_t kMostTarget = 2048;  // of the request line: longer ones never reach a pattern
-constexpr time_t kRead_s = 5, kWrite_s = 5, kKeepAlive_s = 10;
+constexpr int kBacklog = 512;              // connections that the kernel keeps until they are accepted
+constexpr int kTurnedAway = 32;            // threads for those that find no seat
+constexpr int kMostRequests = 100000;      // of one connection
+constexpr std::chrono::milliseconds kStopAgain{5};
+constexpr std::size_t kChunkOverhead = 8;  // bytes of the network for each of the body, in chunks of one byte
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
+using Handled = httplib::Server::HandlerResponse;
 
 Request request_of(const httplib::Request& from) {
   Request request;
-  request.method = from.method, request.path = from.path, request.body = from.body, request.client = from.remote_addr;
-  for (const auto& [name, value] : from.headers) request.headers[lower(name)] = value;
+  request.method = from.method, request.path = from.path, request.client = from.remote_addr;
+  for (const auto& [name, value] : from.headers) request.headers[name] = value;  // lower case: read_head
   for (const auto& [name, value] : from.params) request.query[name] = value;
   return request;
 }
 
 void send(Answer answer, httplib::Response& to) {
   to.status = answer.status;
-  to.set_header("X-Content-Type-Options", "nosniff");
-  to.set_header("Referrer-Policy", "no-referrer");
-  to.set_header("Cross-Origin-Resource-Policy", "same-origin");
-  for (const auto& [name, value] : answer.headers) to.set_header(name, value);
+  for (const auto& [name, value] : headers_of(answer)) to.set_header(name, value);
   if (!answer.pieces) return to.set_content(answer.body, answer.type);
   to.set_chunked_content_provider(answer.type, [pieces = answer.pieces](std::size_t, httplib::DataSink& sink) {
     bool more = true;
     const std::string text = pieces(more);
-    // A line that says nothing, so that a listener who has left is noticed.
-    const bool sent = text.empty() ? sink.write(":\n\n", 3) : sink.write(text.data(), text.size());
+    // Where there is nothing to tell, a line that says nothing, so that a listener who has left is noticed.
+    const bool sent = text.empty() ? !more || sink.write(":\n\n", 3) : sink.write(text.data(), text.size());
     if (!more) sink.done();
     return sent;
   });
@@ -51,6 +56,17 @@ Issue issue_of(int status) {
   }
 }
 
+void send_error(int status, httplib::Response& to) {
+  Answer answer = refusal(issue_of(status));
+  answer.status = status;
+  send(std::move(answer), to);
+}
+
+bool announces_body(const httplib::Request& request) {
+  const std::string length = request.get_header_value("content-length");
+  return request.has_header("transfer-encoding") || (!length.empty() && length != "0");
+}
+
 // Two servers on one port would share its connections, which SO_REUSEPORT allows.
 void set_options(socket_t socket) {
   const int yes = 1;
@@ -59,61 +75,140 @@ void set_options(socket_t socket) {
 
 }  // namespace
 
-struct Http::Impl {
-  httplib::Server server;
+class Http::Impl : public httplib::Server {
+ public:
+  explicit Impl(const HttpConfig& config);
+
+  void widen_backlog() const { ::listen(svr_sock_, kBacklog); }
+  void serve(Service service);
+  void end();
+
+ private:
+  bool process_and_close_socket(socket_t socket) override;
+  void converse(int socket);
+  // Whether it was; a body that was not read ends the connection.
+  bool refuse(const httplib::Request& request, httplib::Response& response) const;
+  void answer(const httplib::Request& request, httplib::Response& response) const;
+  void read_and_answer(const httplib::Request&, httplib::Response&, const httplib::ContentReader&) const;
+
+  HttpConfig config_;
+  Connections connections_;
+  Service service_;
+  std::atomic<bool> over_ = false;  // run() has nothing more to answer
 };
 
-Http::Http(const HttpConfig& config) : config_(config), impl_(std::make_unique<Impl>()) {
-  httplib::Server& server = impl_->server;
-  server.new_task_queue = [threads = config.threads] { return new httplib::ThreadPool(static_cast<std::size_t>(threads)); };
-  server.set_socket_options(set_options);
-  server.set_tcp_nodelay(true);
-  server.set_payload_max_length(config.most_body);
-  server.set_read_timeout(kRead_s);
-  server.set_write_timeout(kWrite_s);
-  server.set_keep_alive_timeout(kKeepAlive_s);
-  server.set_keep_alive_max_count(100000);
-  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
-    if (request.target.size() <= kMostTarget) return httplib::Server::HandlerResponse::Unhandled;
-    send(refusal({"call.too_long", "", "the address is too long"}), response);
-    return httplib::Server::HandlerResponse::Handled;
+Http::Impl::Impl(const HttpConfig& config)
+    : config_(config), connections_(config.connections, config.connections_of_client) {
+  new_task_queue = [threads = config.connections + kTurnedAway] {
+    return new httplib::ThreadPool(static_cast<std::size_t>(threads));
+  };
+  set_socket_options(set_options);
+  set_tcp_nodelay(true);
+  set_payload_max_length(config.most_body);
+  set_keep_alive_timeout(static_cast<time_t>(Patience{}.next_request_s));
+  set_keep_alive_max_count(kMostRequests);
+  set_error_handler([](const httplib::Request&, httplib::Response& response) {
+    if (response.body.empty()) send_error(response.status, response);
   });
-  server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
-    if (!response.body.empty()) return;
-    Answer answer = refusal(issue_of(response.status));
-    answer.status = response.status;
-    send(std::move(answer), response);
+  set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+    send(refusal({"file.internal", "", "an internal error"}), response);
   });
 }
+
+void Http::Impl::serve(Service service) {
+  service_ = std::move(service);
+  const auto by_reading = [this](const httplib::Request& request, httplib::Response& response,
+                                 const httplib::ContentReader& reader) { read_and_answer(request, response, reader); };
+  // Who asks first whether the body is wanted is refused before it is sent, and not asked about again.
+  set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
+    return refuse(request, response) ? response.status : 100;
+  });
+  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    if (request.get_header_value("expect") == "100-continue") return Handled::Unhandled;
+    return refuse(request, response) ? Handled::Handled : Handled::Unhandled;
+  });
+  Get(".*", [this](const httplib::Request& request, httplib::Response& response) { answer(request, response); });
+  Post(".*", by_reading);
+  Delete(".*", by_reading);
+  listen_after_bind();
+  over_ = true;
+}
+
+// httplib's stop() does nothing between the call of listen_after_bind() and its first accept(), so it is repeated.
+void Http::Impl::end() {
+  connections_.close();
+  for (stop(); !over_; stop()) std::this_thread::sleep_for(kStopAgain);
+}
+
+bool Http::Impl::refuse(const httplib::Request& request, httplib::Response& response) const {
+  const bool is_long = request.target.size() > kMostTarget;
+  std::optional<Answer> refused =
+      is_long ? refusal({"call.too_long", "", "the address is too long"}) : service_.refuse(request_of(request));
+  if (!refused) return false;
+  if (announces_body(request)) refused->headers.emplace_back("Connection", "close");
+  send(std::move(*refused), response);
+  return true;
+}
+
+void Http::Impl::answer(const httplib::Request& request, httplib::Response& response) const {
+  send(service_.answer(request_of(request)), response);
+}
+
+// The limit holds for what is kept, however it was sent.
+void Http::Impl::read_and_answer(const httplib::Request& from, httplib::Response& response,
+                                 const httplib::ContentReader& reader) const {
+  Request request = request_of(from);
+  bool too_large = false;
+  const bool complete = reader([&](const char* bytes, std::size_t count) {
+    too_large = request.body.size() + count > config_.most_body;
+    if (!too_large) request.body.append(bytes, count);
+    return !too_large;
+  });
+  if (!complete) return send_error(too_large ? 413 : 400, response);
+  send(service_.answer(request), response);
+}
+
+void Http::Impl::converse(int socket) {
+  const auto seat = connections_.enter(socket, client_of(socket));
+  if (!seat) return turn_away(socket, seat.issue());
+  Connection connection(socket, **seat, kChunkOverhead * config_.most_body);
+  for (int count = 1; count <= kMostRequests; ++count) {
+    const Result<Head> head = connection.next_request();
+    if (!head && head.issue().code != "connection.over") connection.refuse(head.issue());
+    if (!head) return;
+    const bool last = count == kMostRequests || head->is_chunked || (head->is_read_only && head->has_body());
+    bool closed = false;
+    const bool fine = process_request(connection, last, closed, nullptr);
+    if (connection.has_unread()) return connection.linger();
+    if (!fine || last || closed) return;
+  }
+}
+
+// In a thread of its own.
+bool Http::Impl::process_and_close_socket(socket_t socket) {
+  converse(socket);
+  ::close(socket);
+  return true;
+}
+
+Http::Http(const HttpConfig& config) : config_(config), impl_(std::make_unique<Impl>(config)) {}
 
 Http::~Http() = default;
 
 Result<int> Http::bind() {
-  httplib::Server& server = impl_->server;
-  if (config_.port == 0) {
-    const int port = server.bind_to_any_port(config_.host);
-    if (port > 0) return port;
-  } else if (server.bind_to_port(config_.host, config_.port)) {
-    return config_.port;
-  }
-  return Issue{"serve.no_port", "", "cannot listen on " + config_.host + ":" + std::to_string(config_.port) +
-                                        ": the address is not this machine's, or the port is taken"};
+  int port = config_.port;
+  const bool bound =
+      port == 0 ? (port = impl_->bind_to_any_port(config_.host)) > 0 : impl_->bind_to_port(config_.host, port);
+  if (!bound)
+    return Issue{"serve.no_port", "",
+                 "cannot listen on " + config_.host + ":" + std::to_string(config_.port) +
+                     ": the address is not this machine's, or the port is taken"};
+  impl_->widen_backlog();
+  return port;
 }
 
-void Http::run(Handler handler) {
-  httplib::Server& server = impl_->server;
-  const auto answer = [handler](const httplib::Request& request, httplib::Response& response) {
-    send(handler(request_of(request)), response);
-  };
-  server.Get(".*", answer);
-  server.Post(".*", answer);
-  server.Put(".*", answer);
-  server.Patch(".*", answer);
-  server.Delete(".*", answer);
-  server.Options(".*", answer);
-  server.listen_after_bind();
-}
+void Http::run(Service service) { impl_->serve(std::move(service)); }
 
-void Http::stop() { impl_->server.stop(); }
+void Http::stop() { impl_->end(); }
 
 }  // namespace contort::server

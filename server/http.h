@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/request.h"
@@ -11,26 +12,31 @@ namespace contort::server {
 
 struct HttpConfig {
   std::string host = "127.0.0.1";
-  int port = 8080;               // 0: any that is free
-  int threads = 128;             // connections at a time, streams among them
+  int port = 8080;        // 0: any that is free
+  int connections = 192;  // at a time, streams among them
+  int connections_of_client = 64;
   std::size_t most_body = 1 << 20;
+};
+
+// Who answers. `refuse` sees a request before its body is read: what it gives is the answer, and the body never is.
+struct Service {
+  std::function<std::optional<Answer>(const Request& head)> refuse;
+  std::function<Answer(const Request&)> answer;
 };
 
 class Http {
  public:
-  using Handler = std::function<Answer(const Request&)>;
-
   explicit Http(const HttpConfig& config);
   ~Http();
 
   // The port. Code serve.no_port where it cannot be had.
   Result<int> bind();
   // Answers until stop(), from another thread; then waits for what is being answered.
-  void run(Handler handler);
-  void stop();
+  void run(Service service);
+  void stop();  // run() was called, or is about to be; returns when it is over
 
  private:
-  struct Impl;
+  class Impl;
   HttpConfig config_;
   std::unique_ptr<Impl> impl_;
 };

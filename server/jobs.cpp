@@ -13,10 +13,6 @@ using json_fields::Json;
 constexpr std::size_t kRemembered = 100;
 constexpr std::string_view kStates[] = {"queued", "running", "done", "failed"};
 
-double seconds_since(Time since) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
-}
-
 }  // namespace
 
 std::string print_job(const Job& job) {
@@ -45,8 +41,7 @@ Jobs::~Jobs() {
   thread_.join();
 }
 
-Result<std::string> Jobs::add(const std::string& kind, const std::string& about, const std::string& client,
-                              Work work) {
+Result<std::string> Jobs::add(const std::string& kind, const std::string& about, const std::string& client, Work work) {
   Job job;
   {
     const std::lock_guard lock(mutex_);

@@ -51,7 +51,8 @@ std::string name_of(const Route& route) {
 }
 
 Json operation(const Route& route) {
-  Json json = {{"operationId", name_of(route)}, {"summary", std::string(route.summary)}, {"responses", answers_of(route)}};
+  Json json = {
+      {"operationId", name_of(route)}, {"summary", std::string(route.summary)}, {"responses", answers_of(route)}};
   if (Json parameters = parameters_of(route); !parameters.empty()) json["parameters"] = std::move(parameters);
   if (route.body_schema != nullptr)
     json["requestBody"] = {
@@ -82,14 +83,15 @@ std::string openapi(std::string_view version) {
     for (const char c : route.method) method += static_cast<char>(c - 'A' + 'a');
     paths[std::string(route.pattern)][method] = operation(route);
   }
-  return Json{{"openapi", "3.1.0"},
-              {"info",
-               {{"title", "Contort"},
-                {"version", std::string(version)},
-                {"description", "Browse and triage a corpus, and drive characters. docs/server.md explains the calls."}}},
-              {"security", {Json::object(), {{"token", Json::array()}}}},
-              {"paths", paths},
-              {"components", error_components()}}
+  return Json{
+      {"openapi", "3.1.0"},
+      {"info",
+       {{"title", "Contort"},
+        {"version", std::string(version)},
+        {"description", "Browse and triage a corpus, and drive characters. docs/server.md explains the calls."}}},
+      {"security", {Json::object(), {{"token", Json::array()}}}},
+      {"paths", paths},
+      {"components", error_components()}}
       .dump();
 }
 

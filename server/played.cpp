@@ -28,8 +28,8 @@ int PlayClock::frame(double rate_hz, Time at) const {
 int Played::first_difference(const Played& other) const {
   const std::size_t each = static_cast<std::size_t>(std::max(1, frame_bytes()));
   const std::size_t common = std::min(frames.size(), other.frames.size());
-  const auto differs = std::mismatch(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(common),
-                                     other.frames.begin());
+  const auto differs =
+      std::mismatch(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(common), other.frames.begin());
   return static_cast<int>(static_cast<std::size_t>(differs.first - frames.begin()) / each);
 }
 
@@ -51,7 +51,8 @@ Result<std::shared_ptr<const Played>> played_of(const Reply& reply) {
   for (const Json& span : head->at("queue"))
     played->queue.push_back({span.value("first_frame", 0), span.value("last_frame", 0), span.value("sequence", 0),
                              span.value("first_content", 0)});
-  played->spans = "\"spans\":" + head->at("spans").dump(-1, ' ', false, Json::error_handler_t::replace) + ",\"marks\":" + head->at("marks").dump(-1, ' ', false, Json::error_handler_t::replace);
+  played->spans = "\"spans\":" + head->at("spans").dump(-1, ' ', false, Json::error_handler_t::replace) +
+                  ",\"marks\":" + head->at("marks").dump(-1, ' ', false, Json::error_handler_t::replace);
   return std::shared_ptr<const Played>(played);
 }
 

@@ -14,6 +14,7 @@ namespace contort::server {
 
 using Time = std::chrono::steady_clock::time_point;
 inline Time now() { return std::chrono::steady_clock::now(); }
+inline double seconds_since(Time since) { return std::chrono::duration<double>(now() - since).count(); }
 
 // Frames that go by while it plays.
 class PlayClock {

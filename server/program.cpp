@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,14 +13,13 @@
 #include <chrono>
 #include <cstring>
 
-extern char** environ;
-
 namespace contort::server {
 
 namespace {
 
 constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
 constexpr int kSignalCheck_ms = 50;
+constexpr int kNotStarted = 127;  // the exit code that shells have for it
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -43,24 +42,29 @@ bool read_some(int file, std::string& text) {
   return true;
 }
 
+// Between fork and exec, in a process that has other threads: nothing but calls to the kernel. It may have children,
+// which are of its group and end with it.
+[[noreturn]] void become(char* const* arguments, int out, int err, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before that call
+  ::setpgid(0, 0);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0) ::execv(arguments[0], arguments);
+  ::_exit(kNotStarted);
+}
+
 pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, out.ends[1], 1);
-  ::posix_spawn_file_actions_adddup2(&files, err.ends[1], 2);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setpgroup(&attributes, 0);  // it may have children: they end with it
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t pid = -1;
-  const int failed = ::posix_spawn(&pid, arguments[0], &files, &attributes, arguments.data(), environ);
-  ::posix_spawnattr_destroy(&attributes);
-  ::posix_spawn_file_actions_destroy(&files);
-  return failed == 0 ? pid : -1;
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid == 0) become(arguments.data(), out.ends[1], err.ends[1], parent);
+  if (pid > 0) ::setpgid(pid, pid);  // whichever of the two comes first
+  return pid;
 }
 
 double seconds_of(const timeval& time) {
@@ -94,6 +98,7 @@ Result<Ran> run_program(const std::vector<std::string>& command, double seconds,
   while (::wait4(pid, &status, 0, &used) < 0 && errno == EINTR) {
   }
   ran.code = code_of(status);
+  if (ran.code == kNotStarted) return Issue{"work.no_process", "", "cannot start " + command[0]};
   ran.cpu_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
   return ran;
 }

@@ -10,14 +10,15 @@
 namespace contort::server {
 
 struct Ran {
-  int code = 0;        // exit code; 128 + signal
-  bool killed = false; // it took too long, or was no longer wanted
-  std::string out;     // the end of what it printed, each
+  int code = 0;         // exit code; 128 + signal
+  bool killed = false;  // it took too long, or was no longer wanted
+  std::string out;      // the end of what it printed, each
   std::string err;
   double cpu_s = 0.0;  // its own, and that of its children that ended before it
 };
 
-// Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so. Code work.no_process.
+// Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so; it also ends when
+// the thread that calls this does, in whatever way. Code work.no_process.
 Result<Ran> run_program(const std::vector<std::string>& command, double seconds, const std::function<bool()>& stop);
 
 }  // namespace contort::server

@@ -38,4 +38,11 @@ struct Answer {
 int status_of(const Issue& issue);
 Answer refusal(const Issue& issue);
 
+// Those of the answer and those that all answers have: what a browser may do with them. A page that may do more says so
+// in a Content-Security-Policy of its own.
+std::vector<std::pair<std::string, std::string>> headers_of(const Answer& answer);
+
+// An answer as it is sent where the HTTP library is not asked; the connection ends with it.
+std::string print_answer(const Answer& answer);
+
 }  // namespace contort::server

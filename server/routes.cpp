@@ -1,7 +1,8 @@
 #include "server/routes.h"
 
 #include <algorithm>
-#include <exception>
+#include <optional>
+#include <vector>
 
 namespace contort::server {
 
@@ -16,31 +17,41 @@ constexpr Route kRoutes[] = {
     {"GET", "/api", "This document.", calls::document},
     {"GET", "/api/health", "Whether the server can work.", calls::health},
     {"GET", "/api/catalogue", "Characters, parts, objects, actions, checks, modes, limits.", calls::catalogue},
-    {"POST", "/api/libraries", "Registers parts, objects, characters and actions.", calls::register_library, schemas::library, "", "application/json", 201},
+    {"POST", "/api/libraries", "Registers parts, objects, characters and actions.", calls::register_library,
+     schemas::library, "", "application/json", 201},
     {"POST", "/api/evaluate", "Motion hash and findings of a spec.", calls::evaluate, schemas::evaluate},
     {"POST", "/api/generate", "The motion of a spec as .glb.", calls::generate_file, schemas::evaluate, "", kGlb},
     {"POST", "/api/sessions", "Opens a session.", calls::open_session, schemas::session, "", "application/json", 201},
     {"GET", "/api/sessions/{session}", "Its state.", calls::show_session},
     {"DELETE", "/api/sessions/{session}", "Ends it.", calls::close_session},
     {"POST", "/api/sessions/{session}/enqueue", "A sequence for the queue.", calls::enqueue, schemas::enqueue},
-    {"POST", "/api/sessions/{session}/interrupt", "A sequence that runs at once.", calls::interrupt, schemas::interrupt},
+    {"POST", "/api/sessions/{session}/interrupt", "A sequence that runs at once.", calls::interrupt,
+     schemas::interrupt},
     {"POST", "/api/sessions/{session}/aim", "Aims at a place, beside what runs.", calls::aim, schemas::aim},
     {"POST", "/api/sessions/{session}/push", "A blow.", calls::push, schemas::push},
     {"POST", "/api/sessions/{session}/clock", "Plays, stops, steps, goes back.", calls::clock, schemas::clock},
-    {"POST", "/api/sessions/{session}/change", "A new take with another character, ground, load or mode.", calls::change, schemas::change},
-    {"GET", "/api/sessions/{session}/stream", "Frames and margins as they are made.", calls::stream, nullptr, "", kStream},
+    {"POST", "/api/sessions/{session}/change", "A new take with another character, ground, load or mode.",
+     calls::change, schemas::change},
+    {"GET", "/api/sessions/{session}/stream", "Frames and margins as they are made.", calls::stream, nullptr, "",
+     kStream},
     {"GET", "/api/sessions/{session}/frames", "Compact frames.", calls::frames, nullptr, "from count mode", kBytes},
     {"GET", "/api/sessions/{session}/model", "The character and what is around it.", calls::model},
     {"GET", "/api/sessions/{session}/motion.glb", "The take as glTF.", calls::motion_file, nullptr, "mode", kGlb},
-    {"POST", "/api/sessions/{session}/case", "Keeps a finding in the corpus.", calls::keep_case, schemas::keep_case, "", "application/json", 201},
+    {"POST", "/api/sessions/{session}/case", "Keeps a finding in the corpus.", calls::keep_case, schemas::keep_case, "",
+     "application/json", 201},
     {"GET", "/api/corpus", "All buckets.", calls::list_corpus},
     {"GET", "/api/corpus/{bucket}", "A bucket with its cases.", calls::show_bucket},
-    {"POST", "/api/corpus/{bucket}/acknowledge", "It is known, and gates no more.", calls::acknowledge_bucket, schemas::acknowledge},
-    {"POST", "/api/corpus/{bucket}/quarantine", "It may fail until a day.", calls::quarantine_bucket, schemas::quarantine},
+    {"POST", "/api/corpus/{bucket}/acknowledge", "It is known, and gates no more.", calls::acknowledge_bucket,
+     schemas::acknowledge},
+    {"POST", "/api/corpus/{bucket}/quarantine", "It may fail until a day.", calls::quarantine_bucket,
+     schemas::quarantine},
     {"POST", "/api/corpus/{bucket}/note", "What people say about it.", calls::note_bucket, schemas::note},
-    {"POST", "/api/corpus/{bucket}/replay", "Does it still fail?", calls::replay_bucket, schemas::nothing, "", "application/json", 202},
-    {"POST", "/api/corpus/{bucket}/shrink", "A smaller case with the same failure.", calls::shrink_bucket, schemas::nothing, "", "application/json", 202},
-    {"POST", "/api/report", "Makes the report anew.", calls::make_report, schemas::nothing, "", "application/json", 202},
+    {"POST", "/api/corpus/{bucket}/replay", "Does it still fail?", calls::replay_bucket, schemas::nothing, "",
+     "application/json", 202},
+    {"POST", "/api/corpus/{bucket}/shrink", "A smaller case with the same failure.", calls::shrink_bucket,
+     schemas::nothing, "", "application/json", 202},
+    {"POST", "/api/report", "Makes the report anew.", calls::make_report, schemas::nothing, "", "application/json",
+     202},
     {"GET", "/api/jobs/{job}", "How a job stands.", calls::show_job},
     {"GET", "/api/events", "What happens to the corpus, the report and jobs.", calls::events, nullptr, "", kStream},
     {"GET", "/metrics", "Prometheus text.", calls::metrics, nullptr, "", "text/plain"},
@@ -75,26 +86,63 @@ bool fits(std::string_view pattern, std::string_view path, std::map<std::string,
 
 std::span<const Route> routes() { return kRoutes; }
 
-Answer dispatch(App& app, const Request& request) {
-  const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
-  bool other_method = false;
+namespace {
+
+// The calls of an address; `ids` is what stands for {names} in their pattern.
+std::vector<const Route*> routes_of(const std::string& path, std::map<std::string, std::string>& ids) {
+  std::vector<const Route*> found;
   for (const Route& route : kRoutes) {
-    Call call{request, {}};
-    if (!fits(route.pattern, request.path, call.ids)) continue;
-    if (route.method != method) {
-      other_method = true;
-      continue;
-    }
-    const auto most = static_cast<std::size_t>(app.engine().limits().spec_bytes);
-    if (request.body.size() > most && route.handler != calls::register_library)
-      return refusal({"call.too_large", "", "the body has " + std::to_string(request.body.size()) +
-                                                " bytes, allowed are " + std::to_string(most)});
-    Answer answer = route.handler(app, call);
-    if (answer.status == 200) answer.status = route.status;
-    return answer;
+    std::map<std::string, std::string> own;
+    if (!fits(route.pattern, path, own)) continue;
+    if (found.empty() || found.front()->pattern == route.pattern) found.push_back(&route), ids = std::move(own);
   }
-  if (other_method) return refusal({"call.wrong_method", "", "this address does not take " + request.method});
-  return refusal({"call.not_found", "", "there is no such call; GET /api lists them"});
+  return found;
+}
+
+const Route* with_method(const std::vector<const Route*>& all, std::string_view method) {
+  const std::string_view wanted = method == "HEAD" ? "GET" : method;
+  const auto found = std::ranges::find_if(all, [&](const Route* route) { return route->method == wanted; });
+  return found == all.end() ? nullptr : *found;
+}
+
+// "GET, HEAD, OPTIONS"
+std::string allowed(const std::vector<const Route*>& all) {
+  std::string names;
+  for (const Route* route : all) names += std::string(route->method) + (route->method == "GET" ? ", HEAD, " : ", ");
+  return names + "OPTIONS";
+}
+
+// What else an address takes.
+Answer other_methods(const std::vector<const Route*>& all, const std::string& method) {
+  Answer answer = refusal({"call.wrong_method", "", "this address does not take " + method});
+  if (method == "OPTIONS") answer.status = 200, answer.body.clear();
+  answer.headers.emplace_back("Allow", allowed(all));
+  return answer;
+}
+
+}  // namespace
+
+std::optional<Answer> refuse_route(const App& app, const Request& request, std::size_t body_bytes) {
+  std::map<std::string, std::string> ids;
+  const std::vector<const Route*> all = routes_of(request.path, ids);
+  if (all.empty()) return refusal({"call.not_found", "", "there is no such call; GET /api lists them"});
+  const Route* route = with_method(all, request.method);
+  if (route == nullptr) return other_methods(all, request.method);
+  const Limits& limits = app.limits();
+  const auto most =
+      static_cast<std::size_t>(route->handler == calls::register_library ? limits.library_bytes : limits.spec_bytes);
+  if (body_bytes <= most) return std::nullopt;
+  return refusal({"call.too_large", "",
+                  "the body has " + std::to_string(body_bytes) + " bytes, allowed are " + std::to_string(most)});
+}
+
+Answer dispatch(App& app, const Request& request) {
+  if (std::optional<Answer> refused = refuse_route(app, request, request.body.size())) return std::move(*refused);
+  Call call{request, {}};
+  const Route* route = with_method(routes_of(request.path, call.ids), request.method);
+  Answer answer = route->handler(app, call);
+  if (answer.status == 200) answer.status = route->status;
+  return answer;
 }
 
 }  // namespace contort::server

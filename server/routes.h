@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,7 +32,11 @@ struct Route {
 
 std::span<const Route> routes();
 
-// Codes call.not_found, call.wrong_method.
+// Why a request to this address goes no further, or which methods it takes; nothing where it may go on. Codes
+// call.not_found, call.wrong_method, call.too_large.
+std::optional<Answer> refuse_route(const App& app, const Request& request, std::size_t body_bytes);
+
+// Refuses for the same reasons.
 Answer dispatch(App& app, const Request& request);
 
 // OpenAPI 3.1, JSON.

@@ -1,4 +1,5 @@
-// A terminal's session: a spec that grows, the motions that it makes, and a clock (docs/server.md). Safe from any thread.
+// A terminal's session: a spec that grows, the motions that it makes, and a clock (docs/server.md). Safe from any
+// thread.
 #pragma once
 
 #include <condition_variable>
@@ -33,7 +34,7 @@ struct StreamState {
   std::int64_t clock = -1;
   std::int64_t problem = 0;
   std::map<Mode, Frames> sent;
-  std::map<Mode, std::int64_t> judged;     // revision
+  std::map<Mode, std::int64_t> judged;  // revision
   Time clock_sent{};
 };
 
@@ -58,8 +59,8 @@ class Session : public std::enable_shared_from_this<Session> {
   // Codes of Worker::run.
   static Result<std::shared_ptr<Session>> open(const SessionDesc& desc, Engine& engine);
 
-  // An edit of the spec that takes effect in the frame after the present one. The motion is there when this returns; where
-  // it is refused nothing has changed.
+  // An edit of the spec that takes effect in the frame after the present one. The motion is there when this returns;
+  // where it is refused nothing has changed.
   using Edit = std::function<Result<Spec>(const Spec&, const Moment&)>;
   Result<Done> command(const Edit& edit);
 
@@ -69,7 +70,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   void play(bool playing);
   void step(int frames);  // stops the clock; to a frame of the take
-  void restart();          // from frame 0 of the same take
+  void restart();         // from frame 0 of the same take
 
   std::string state() const;  // JSON
   std::string model() const;  // JSON
@@ -125,7 +126,8 @@ class Session : public std::enable_shared_from_this<Session> {
   PlayedTake take_;
   std::vector<Mode> modes_;
   std::int64_t revision_ = 0;  // of the take's spec; never falls
-  std::vector<std::pair<std::int64_t, std::map<Mode, int>>> changes_;  // of this take: revision, first frames that differ
+  std::vector<std::pair<std::int64_t, std::map<Mode, int>>>
+      changes_;  // of this take: revision, first frames that differ
   std::optional<PlayedTake> before_;
   std::optional<PlayedTake> next_;
   std::int64_t next_for_ = -1;  // the revision that it follows

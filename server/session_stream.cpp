@@ -8,8 +8,8 @@ namespace contort::server {
 
 namespace {
 
-constexpr double kLead_s = 1.5;       // frames are sent so far ahead of the clock
-constexpr double kRefill_s = 1.0;     // when there is less than this, more is sent
+constexpr double kLead_s = 1.5;    // frames are sent so far ahead of the clock
+constexpr double kRefill_s = 1.0;  // when there is less than this, more is sent
 constexpr int kMostFramesAtOnce = 240;
 constexpr auto kClockEvery = std::chrono::seconds(1);
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
@@ -46,7 +46,8 @@ void Session::add_events(StreamState& stream, std::vector<Event>& events, Time n
   if (stream.take != take_.number) add_take(stream, events);
   if (stream.clock != clock_version_ || (clock_.playing() && now - stream.clock_sent > kClockEvery)) {
     stream.clock = clock_version_, stream.clock_sent = now;
-    events.push_back({"clock", "{\"take\":" + std::to_string(take_.number) + ",\"frame\":" + std::to_string(frame_now()) +
+    events.push_back({"clock", "{\"take\":" + std::to_string(take_.number) +
+                                   ",\"frame\":" + std::to_string(frame_now()) +
                                    ",\"playing\":" + (clock_.playing() ? "true" : "false") + "}"});
   }
   add_frames(stream, events);

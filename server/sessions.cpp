@@ -31,8 +31,8 @@ Result<Done> Sessions::room_for(const std::string& client) const {
   const Limits& limits = engine_.limits();
   const auto is_theirs = [&](const auto& entry) { return entry.second->desc().client == client; };
   const auto opening = opening_.find(client);
-  const int theirs = static_cast<int>(std::ranges::count_if(sessions_, is_theirs)) +
-                     (opening == opening_.end() ? 0 : opening->second);
+  const int theirs =
+      static_cast<int>(std::ranges::count_if(sessions_, is_theirs)) + (opening == opening_.end() ? 0 : opening->second);
   if (theirs >= limits.sessions_of_client)
     return Issue{"limit.sessions", "", "this client has " + std::to_string(theirs) + " sessions already"};
   if (static_cast<int>(sessions_.size()) + sum(opening_) >= limits.sessions)

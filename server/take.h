@@ -1,5 +1,5 @@
-// Commands of a terminal as edits of a spec. Plain functions: a spec, and where its motion stands, in; a spec out. An edit
-// at a frame changes no frame before it, but for what dynamic control foresees (docs/server.md).
+// Commands of a terminal as edits of a spec. Plain functions: a spec, and where its motion stands, in; a spec out. An
+// edit at a frame changes no frame before it, but for what dynamic control foresees (docs/server.md).
 #pragma once
 
 #include <span>
@@ -35,9 +35,9 @@ Result<Spec> with_aim(const Spec& spec, const AimCommand& aim, const Moment& now
 
 struct PushCommand {
   std::string slot;
-  std::string joint;           // of that slot's part, by its own name; "": its first one
-  Vec3 point_m{0.0};           // in the joint's frame
-  Vec3 impulse_N_s{0.0};       // in the world
+  std::string joint;      // of that slot's part, by its own name; "": its first one
+  Vec3 point_m{0.0};      // in the joint's frame
+  Vec3 impulse_N_s{0.0};  // in the world
 };
 
 // Strikes in the next frame. Code take.full.

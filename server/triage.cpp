@@ -1,12 +1,11 @@
 #include "server/triage.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
+#include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
@@ -102,7 +101,7 @@ Result<std::string> Triage::change(const std::string& name, const Corpus::Change
 }
 
 Result<std::string> Triage::keep(const Case& shown) const {
-  const Result<Corpus> corpus = Corpus::create(folder_);
+  const Result<Corpus> corpus = Corpus::open(folder_);
   if (!corpus) return corpus.issue();
   const Result<Corpus::Added> added = corpus->add({shown, shown, kRun});
   if (!added) return added.issue();
@@ -143,9 +142,8 @@ Result<Jobs::Outcome> Triage::shrink(const std::string& name, Jobs::Running& run
   const std::string input = corpus->folder_of(*bucket) + "/" + file;
   const Result<Case> original = read_case_of(corpus->folder_of(*bucket), file);
   if (!original) return original.issue();
-  const std::string output =
-      (fs::temp_directory_path() / ("contort-shrink-" + std::to_string(::getpid()) + "-" + bucket->id + ".json"))
-          .string();
+  if (const Result<Done> made = make_folder(scratch_); !made) return made.issue();
+  const std::string output = scratch_ + "/shrink-" + bucket->id + ".json";
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"shrink", input, "-o", output, "--json"});
   const Result<Ran> ran = run_job(command, kShrink_s, running);

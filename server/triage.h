@@ -12,8 +12,10 @@ namespace contort::server {
 
 class Triage {
  public:
-  // `program` is how contort is called, with the options that all its commands take.
-  Triage(std::string folder, std::vector<std::string> program) : folder_(std::move(folder)), program_(std::move(program)) {}
+  // `program` is how contort is called, with the options that all its commands take; `scratch` is a folder for files
+  // that pass, made when it is needed.
+  Triage(std::string folder, std::vector<std::string> program, std::string scratch)
+      : folder_(std::move(folder)), program_(std::move(program)), scratch_(std::move(scratch)) {}
 
   const std::string& folder() const { return folder_; }
 
@@ -38,10 +40,12 @@ class Triage {
  private:
   Result<Bucket> find(const Corpus& corpus, const std::string& name) const;
   Result<Jobs::Outcome> shrink(const std::string& bucket, Jobs::Running& running) const;
-  Result<Jobs::Outcome> store(const Corpus& corpus, const Bucket& from, const Case& original, const Case& minimal) const;
+  Result<Jobs::Outcome> store(const Corpus& corpus, const Bucket& from, const Case& original,
+                              const Case& minimal) const;
 
   std::string folder_;
   std::vector<std::string> program_;
+  std::string scratch_;
 };
 
 }  // namespace contort::server

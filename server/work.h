@@ -1,5 +1,5 @@
-// What worker processes do: everything that generates. A task says all that is needed, so any worker can do any task, and
-// do it again.
+// What worker processes do: everything that generates. A task says all that is needed, so any worker can do any task,
+// and do it again.
 #pragma once
 
 #include <memory>
@@ -13,21 +13,21 @@
 namespace contort::server {
 
 enum class TaskKind {
-  model,      // the character and what is around it
-  play,       // frames
-  judge,      // margins and findings
-  evaluate,   // motion hash and findings
-  model_file, // .glb of the motion
-  make_case,  // of one finding
+  model,       // the character and what is around it
+  play,        // frames
+  judge,       // margins and findings
+  evaluate,    // motion hash and findings
+  model_file,  // .glb of the motion
+  make_case,   // of one finding
 };
 
 struct Task {
   TaskKind kind = TaskKind::evaluate;
   Spec spec;
-  int take_frames = 0;    // play: the motion holds still at its end until it has so many frames; else as the spec says
-  int most_frames = 0;    // longer motions are refused
-  std::string library;    // folder of a registered library; "": none
-  std::string check;      // make_case, and whose curve comes first
+  int take_frames = 0;  // play: the motion holds still at its end until it has so many frames; else as the spec says
+  int most_frames = 0;  // longer motions are refused
+  std::string library;  // folder of a registered library; "": none
+  std::string check;    // make_case, and whose curve comes first
   std::string subject;
   bool operator==(const Task&) const = default;
 };
@@ -48,11 +48,10 @@ std::string print_reply(const Result<Reply>& reply);
 Result<Reply> parse_reply(const std::string& text);
 
 // Heads:
-//   model     {joints: [{name, parent, slot}], glb, colliders, ground, obstacles, aims: [{slot, action, points}], rest: [x, y, z, w]}
-//   play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes: compact frames
-//   judge     {curves, findings}
-//   evaluate  {motion_hash, frame_count, rate_hz, findings}
-//   make_case the case as corpus files have it
+//   model     {joints: [{name, parent, slot}], glb, colliders, ground, obstacles, aims: [{slot, action, points}], rest:
+//   [x, y, z, w]} play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes:
+//   compact frames judge     {curves, findings} evaluate  {motion_hash, frame_count, rate_hz, findings} make_case the
+//   case as corpus files have it
 // docs/server.md has their fields and what a compact frame is.
 class Worker {
  public:

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "generator/core/nearest.h"
+#include "generator/core/number_text.h"
+
 namespace contort {
 
 #define X(name, layer, timing, spread, help)                          \
@@ -62,7 +65,8 @@ void for_points(const Character& character, const Part& part, ParamType type, Vi
     const std::string name = socket.name.substr(socket.name.find('/') + 1);
     const bool of_object = socket.name.starts_with("object:");
     const bool mine = hangs_on(character, character.joints()[static_cast<std::size_t>(socket.joint)].part, own);
-    if (type == ParamType::object_point ? of_object && !mine : mine && (of_object || name == "grip" || faces(part, static_cast<int>(s))))
+    if (type == ParamType::object_point ? of_object && !mine
+                                        : mine && (of_object || name == "grip" || faces(part, static_cast<int>(s))))
       visit(name, static_cast<int>(s));
   }
 }
@@ -108,13 +112,6 @@ std::string_view layer_name(Layer layer) {
 
 namespace {
 
-std::string number_text(double value) {
-  std::string text = std::to_string(value);  // "1.500000"
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 Issue param_issue(const char* code, const std::string& name, std::string text) {
   return {std::string("spec.") + code, "/params/" + name, std::move(text)};
 }
@@ -136,7 +133,8 @@ Result<Done> append_point(const Character& character, const Part& part, const Pa
   });
   if (found < 0)
     return param_issue("unknown_point", def.name,
-                       "found \"" + std::get<std::string>(value) + "\", allowed are " + names);
+                       "found \"" + std::get<std::string>(value) + "\", allowed are " + names +
+                           did_you_mean(std::get<std::string>(value), names));
   bound.push_back(found);
   return Done{};
 }
@@ -185,7 +183,8 @@ Result<std::vector<double>> bind_params(const Action& action, const Character& c
   for (const auto& value : values)
     if (std::none_of(defs.begin(), defs.end(), [&](const ParamDef& def) { return def.name == value.first; }))
       return param_issue("unknown_param", value.first,
-                         "part " + part.name + " with action " + std::string(action.name) + " takes " + names_of(defs));
+                         "part " + part.name + " with action " + std::string(action.name) + " takes " + names_of(defs) +
+                             did_you_mean(value.first, names_of(defs)));
   std::vector<double> bound;
   for (const ParamDef& def : defs) {
     const auto given = values.find(def.name);
@@ -194,8 +193,9 @@ Result<std::vector<double>> bind_params(const Action& action, const Character& c
       continue;
     }
     const ParamValue& value = given == values.end() ? def.preset : given->second;
-    const Result<Done> done = def.type == ParamType::object_point || def.type == ParamType::own_point ? append_point(character, part, def, value, bound)
-                                                                  : append(def, value, bound);
+    const Result<Done> done = def.type == ParamType::object_point || def.type == ParamType::own_point
+                                  ? append_point(character, part, def, value, bound)
+                                  : append(def, value, bound);
     if (!done) return done.issue();
   }
   return bound;

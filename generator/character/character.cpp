@@ -6,6 +6,7 @@
 
 #include "generator/character/assembly.h"
 #include "generator/character/part_rules.h"
+#include "generator/core/nearest.h"
 
 namespace contort {
 
@@ -63,7 +64,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 Issue unknown(const std::string& code, const std::string& pointer, const std::string& found,
               const std::string& allowed) {
-  return {"character." + code, pointer, "found \"" + found + "\", allowed are " + (allowed.empty() ? "none" : allowed)};
+  return {
+      "character." + code, pointer,
+      "found \"" + found + "\", allowed are " + (allowed.empty() ? "none" : allowed) + did_you_mean(found, allowed)};
 }
 
 Issue in_file(const std::string& name, Issue issue) {

@@ -9,6 +9,8 @@
 #include "generator/character/action_rules.h"
 #include "generator/character/part_rules.h"
 #include "generator/character/stock_files.h"
+#include "generator/core/file_kind.h"
+#include "generator/core/files.h"
 #include "generator/core/inside_folder.h"
 #include "generator/core/json_fields.h"
 
@@ -90,7 +92,9 @@ Result<Done> load_folder(const std::string& folder, Library& into) {
   if (error) return Issue{"library.unreadable", "", folder + ": " + error.message()};
   std::sort(paths.begin(), paths.end());
   for (const std::string& path : paths) {
-    const Result<std::string> text = read_beside(path, json_fields::kMaxDocumentBytes);
+    if (const Result<Done> inside = check_inside(std::filesystem::path(path).parent_path().string(), path); !inside)
+      return inside.issue();
+    const Result<std::string> text = read_json_file(path, "a part, an object, a character or an action (JSON)");
     if (!text) return text.issue();
     if (const Result<Done> added = add_description(*text, into); !added) {
       Issue issue = added.issue();

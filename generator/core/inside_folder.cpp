@@ -80,7 +80,7 @@ Result<std::string> read_inside(const std::string& folder, const std::string& na
   const Result<std::string> path = place_inside(folder, name);
   if (!path) return path;
   if (const Result<Done> inside = check_inside(folder, *path); !inside) return inside.issue();
-  return read_regular_file(*path, max_bytes);
+  return read_file(*path, max_bytes);
 }
 
 Result<std::string> read_beside(const std::string& path, std::size_t max_bytes) {

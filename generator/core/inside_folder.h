@@ -26,7 +26,7 @@ Result<Done> check_inside(const std::string& folder, const std::string& path);
 Result<std::string> place_inside(const std::string& folder, const std::string& name);
 
 // The bytes of FOLDER/NAME, of a regular file; here the last entry must stay in the folder, too. Codes file.bad_name,
-// file.outside and those of read_regular_file.
+// file.outside and those of read_file.
 Result<std::string> read_inside(const std::string& folder, const std::string& name, std::size_t max_bytes);
 
 // The same for the file at `path`, which was found by looking into its folder.

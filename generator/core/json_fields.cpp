@@ -4,6 +4,7 @@
 #include <set>
 
 #include "generator/core/inside_folder.h"
+#include "generator/core/nearest.h"
 
 namespace contort::json_fields {
 
@@ -216,7 +217,8 @@ bool read_choice(const Json& in, std::span<const std::string_view> names, int& o
     return context.fail("wrong_type", "found " + kind_of(in) + ", expected one of " + joined(names)), false;
   const auto found = std::find(names.begin(), names.end(), in.get_ref<const std::string&>());
   if (found == names.end())
-    return context.fail("unknown_name", "found " + quoted(in.get<std::string>()) + ", allowed are " + joined(names)),
+    return context.fail("unknown_name", "found " + quoted(in.get<std::string>()) + ", allowed are " + joined(names) +
+                                            did_you_mean(in.get_ref<const std::string&>(), joined(names))),
            false;
   out = static_cast<int>(found - names.begin());
   return true;
@@ -240,7 +242,8 @@ void refuse_unknown(const Json& in, std::span<const std::string_view> known, Rea
   for (const auto& [key, value] : in.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     context.push(key);
-    context.fail("unknown_field", "found " + quoted(key) + ", allowed are " + joined(known));
+    context.fail("unknown_field",
+                 "found " + quoted(key) + ", allowed are " + joined(known) + did_you_mean(key, joined(known)));
     context.pop();
     return;
   }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/gltf/buffers.h"
 #include "generator/gltf/container.h"
@@ -77,8 +78,12 @@ Result<SkinnedAsset> read_container(const GltfContainer& container, const std::s
 }
 
 Result<std::string> read_bytes(const std::string& path) {
-  const Result<std::string> bytes = read_regular_file(path, kMaxGltfBytes);
-  if (bytes) return bytes;
+  const Result<std::string> bytes = read_file(path, kMaxGltfBytes);
+  if (bytes && is_glb(std::as_bytes(std::span(*bytes)))) return bytes;
+  if (bytes) {
+    const std::optional<Issue> other = other_kind(path, *bytes, "a glTF model (.glb, .gltf)");
+    return other ? Issue{"gltf.wrong_kind", "", other->text} : bytes;
+  }
   return Issue{bytes.issue().code == "file.too_large" ? "gltf.too_large" : "gltf.unreadable", "", bytes.issue().text};
 }
 

@@ -7,7 +7,7 @@
 #include <exception>
 #include <sstream>
 
-#include "generator/core/files.h"
+#include "generator/core/output.h"
 #include "generator/gltf/write_parts.h"
 
 namespace contort {
@@ -156,7 +156,7 @@ Result<Done> save_glb(const std::string& path, const Character& character, const
                       const GltfExtras& extras) {
   const auto bytes = write_glb(character, motion, extras);
   if (!bytes) return bytes.issue();
-  return write_file(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  return write_output(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 }  // namespace contort

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "generator/asset/labels.h"
+#include "generator/core/number_text.h"
 #include "generator/mocap/limits.h"
 #include "generator/mocap/words.h"
 
@@ -220,7 +221,7 @@ AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const std::
   words.expect("Time:");
   const double frame_time_s = words.number(3600.0);
   if (words.ok() && !(frame_time_s >= 1e-9))
-    words.fail("bad_frame_time", "found " + std::to_string(frame_time_s) + " s, allowed is more than 0");
+    words.fail("bad_frame_time", "found " + number_text(frame_time_s) + " s, allowed is more than 0");
   if (words.ok() && frames > 0) read_frames(words, hierarchy, frames, frame_time_s, clip);
   if (words.has_more()) {
     words.next();

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "generator/core/file_kind.h"
 #include "generator/core/files.h"
 #include "generator/core/json_fields.h"
 #include "generator/mocap/limits.h"
@@ -145,8 +146,13 @@ bool is_same_word(std::string_view a, std::string_view b) {
 std::string quoted_word(std::string_view word) { return json_fields::quoted(std::string(word.substr(0, 100))); }
 
 Result<std::string> read_mocap_text(const std::string& path, const std::string& area) {
-  const Result<std::string> text = read_regular_file(path, kMaxMocapBytes);
-  if (text) return text;
+  const Result<std::string> text = read_file(path, kMaxMocapBytes);
+  if (text) {
+    const std::string_view mark = area == "bvh" ? "HIERARCHY" : "#!OML:ASF";  // of the kind that is wanted
+    const std::string expected = "an animation file of the kind " + area;
+    const std::optional<Issue> other = text->starts_with(mark) ? std::nullopt : other_kind(path, *text, expected);
+    return other ? Issue{area + ".wrong_kind", "", other->text} : text;
+  }
   const bool is_large = text.issue().code == "file.too_large";
   return Issue{area + (is_large ? ".too_large" : ".unreadable"), "", text.issue().text};
 }

@@ -61,7 +61,7 @@ bool is_same_word(std::string_view a, std::string_view b);
 // For messages: in quotes, bounded, without control characters.
 std::string quoted_word(std::string_view word);
 
-// The file's text, under the limits of limits.h. Codes <area>.unreadable, <area>.too_large.
+// The file's text, under the limits of limits.h. Codes <area>.unreadable, <area>.too_large, <area>.wrong_kind.
 Result<std::string> read_mocap_text(const std::string& path, const std::string& area);
 
 }  // namespace contort

@@ -101,7 +101,7 @@ Result<Done> save_aim_table(const AimTable& table, const std::string& path) {
 Result<AimTable> load_aim_table(const std::string& path, const AimGeometry& geometry, const AimTableOptions& options) {
   const std::size_t most = kHeaderBytes + kHashBytes +
                            most_postures(options) * static_cast<std::size_t>(geometry.coord_count) * sizeof(double);
-  const Result<std::string> bytes = read_regular_file(path, most);
+  const Result<std::string> bytes = read_file(path, most);
   if (!bytes) return bytes.issue();
   return aim_table_from_bytes(*bytes, geometry, options);
 }

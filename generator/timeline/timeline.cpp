@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/actions/hand.h"
+#include "generator/core/nearest.h"
 #include "generator/motion/aim_tables.h"
 
 namespace contort {
@@ -144,10 +145,13 @@ class Layout {
   Result<Done> resolve(const ActionUse& use, PlannedAction& planned) const {
     if (!is_action_name(character_, use.action))
       return Issue{"spec.unknown_action", "/action",
-                   "found \"" + use.action + "\", allowed are " + all_action_names(character_)};
+                   "found \"" + use.action + "\", allowed are " + all_action_names(character_) +
+                       did_you_mean(use.action, all_action_names(character_))};
     planned.named = character_.find_part(use.slot);
     if (planned.named < 0)
-      return Issue{"spec.unknown_slot", "/slot", "found \"" + use.slot + "\", allowed are " + slots_of(character_)};
+      return Issue{"spec.unknown_slot", "/slot",
+                   "found \"" + use.slot + "\", allowed are " + slots_of(character_) +
+                       did_you_mean(use.slot, slots_of(character_))};
     const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
     const std::optional<Action> action = find_action(character_, part, use.action);
     if (!action)
@@ -213,7 +217,8 @@ class Layout {
       planned.part = character_.find_part(desc.when.slot);
       if (planned.part < 0)
         return Issue{"spec.unknown_slot", pointer + "/when/slot",
-                     "found \"" + desc.when.slot + "\", allowed are " + slots_of(character_)};
+                     "found \"" + desc.when.slot + "\", allowed are " + slots_of(character_) +
+                         did_you_mean(desc.when.slot, slots_of(character_))};
     }
     out_.interrupts.push_back(std::move(planned));
     return add_sequence(desc.sequence, pointer + "/sequence");

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/core/files.h"
+#include "generator/core/output.h"
 #include "renders/frames.h"
 #include "renders/raster/auto_camera.h"
 #include "renders/raster/picture.h"
@@ -16,8 +16,8 @@ namespace contort {
 namespace {
 
 Story story_of(const StripInput& input) {
-  return {input.character, input.motion, input.finding, input.ghost, input.environment, input.dynamics,
-          input.colliders, input.skin};
+  return {input.character,   input.motion,   input.finding,   input.ghost,
+          input.environment, input.dynamics, input.colliders, input.skin};
 }
 
 Result<Done> check_input(const StripInput& input) {
@@ -104,12 +104,12 @@ Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View&
     images.push_back(std::move(image).value());
   }
   const Result<std::string> bytes = webp_bytes(images, clip.milliseconds_per_frame);
-  return bytes ? write_file(path, *bytes) : bytes.issue();
+  return bytes ? write_output(path, *bytes) : bytes.issue();
 }
 
 Result<Done> write_png(const Image& image, const std::string& comment, const std::string& path) {
   const Result<std::string> bytes = png_bytes(image, comment);
-  return bytes ? write_file(path, *bytes) : bytes.issue();
+  return bytes ? write_output(path, *bytes) : bytes.issue();
 }
 
 }  // namespace

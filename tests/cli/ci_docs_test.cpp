@@ -1,6 +1,6 @@
-// docs/ci and docs/scale: files that people copy must parse, and each command in them must exist with all of its options.
+// docs/ci and docs/scale: files that people copy must parse, and each command in them must exist with all of its
+// options.
 #include <gtest/gtest.h>
-
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -125,10 +125,11 @@ class NightScript : public testing::Test {
   // "4: fuzz replay corpus report"
   std::string night(int fuzz, int replay, int report) {
     std::filesystem::remove(folder_ / "calls");
-    const std::string codes = "FUZZ=" + std::to_string(fuzz) + " REPLAY=" + std::to_string(replay) +
-                              " REPORT=" + std::to_string(report);
+    const std::string codes =
+        "FUZZ=" + std::to_string(fuzz) + " REPLAY=" + std::to_string(replay) + " REPORT=" + std::to_string(report);
     const int status = std::system(("PATH='" + folder_.path() + "':$PATH " + codes + " bash '" + kFolder +
-                                    "/night.sh' '" + (folder_ / "night") + "' 2>/dev/null").c_str());
+                                    "/night.sh' '" + (folder_ / "night") + "' 2>/dev/null")
+                                       .c_str());
     std::string said = std::to_string(WEXITSTATUS(status)) + ":";
     for (const std::string& call : lines_of(slurp(folder_ / "calls"))) said += " " + call;
     return said;

@@ -97,7 +97,8 @@ TEST_F(Commands, FuzzLogsEveryFailingCaseForAnyNumberOfWorkers) {
 TEST_F(Commands, FuzzDoesNotBeginWhereItsLogCannotBeWritten) {
   const Ran ran = fuzz(folder_ / "corpus", {"--log", folder_ / "no/such/folder.jsonl"});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_EQ(ran.err, "contort: file.unwritable: " + (folder_ / "no/such/folder.jsonl") + ": cannot be written\n");
+  EXPECT_EQ(ran.err, "contort: file.unwritable: cannot write " + (folder_ / "no/such/folder.jsonl") + ": " +
+                         (folder_ / "no/such") + ": No such file or directory\n");
   EXPECT_EQ(ran.out, "");
 }
 

@@ -45,6 +45,22 @@ TEST_F(ImportCommand, MakesALibraryThatFuzzesAtOnce) {
   EXPECT_NE(fuzz.out.find("cases=5"), std::string::npos) << fuzz.out;
 }
 
+TEST_F(ImportCommand, IsNotMixedIntoOtherPeoplesFiles) {
+  const std::string path = model(fixtures::rigged(fixtures::person()));
+  fs::create_directories(folder_ / "sources");
+  spill(folder_ / "sources/main.cpp", "int main() {}");
+  spill(folder_ / "sources/package.json", "{}");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--force"}}) {
+    std::vector<std::string> call = {"import", path, "-o", folder_ / "sources"};
+    call.insert(call.end(), more.begin(), more.end());
+    const Ran ran = contort_program(call);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_NE(ran.err.find("folder.other_files"), std::string::npos) << ran.err;
+    EXPECT_EQ(tree_of(folder_ / "sources").size(), 2U);
+  }
+  EXPECT_EQ(contort_program({"import", path, "-o", folder_.path()}).code, 0) << "beside the model itself";
+}
+
 TEST_F(ImportCommand, TakesTheModelAlongForPictures) {
   const std::string path = model(fixtures::rigged(fixtures::person()));
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);
@@ -91,6 +107,7 @@ TEST_F(ImportCommand, WritesNothingThroughALinkThatLeadsOut) {
   for (const char* own : {"maps", "skins"}) {
     fs::create_directories(library());
     fs::create_directory_symlink(folder_ / "elsewhere", library() + "/" + own);
+    spill(library() + "/walk.bvh", "HIERARCHY");
     const Ran ran = contort_program({"import", path, "-o", library(), "--force"});
     EXPECT_EQ(ran.code, 2) << ran.err;
     EXPECT_NE(ran.err.find("file.outside"), std::string::npos) << ran.err;

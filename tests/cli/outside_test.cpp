@@ -132,6 +132,7 @@ TEST_F(StrangersCorpusFolder, AReportIsNotWrittenIntoAFolderThatIsALink) {
     spill(folder_ / "elsewhere/part-1.js", "contortRows([]);");  // as if it was of an old report
     spill(folder_ / "elsewhere/joint_range-0123456789ab.js", kSecret);
     fs::create_directory_symlink(folder_ / "elsewhere", out + "/" + own);
+    spill(out + "/report.json", R"({"format":"contort.report/1"})");
     const Ran ran = run({"--gl", "none", "report", corpus_.folder(), "-o", out}, 2);
     EXPECT_TRUE(it_says(ran.err, "file.outside") && it_says(ran.err, own)) << ran.err;
   }

@@ -24,12 +24,13 @@ struct Ran {
   double peak_MB = 0.0;  // resident memory, that of this process at the fork included
 };
 
-// A running contort whose outputs go to files.
+// A running contort whose outputs go to files; or its standard output to a descriptor, or nowhere where that is closed.
 class Program {
  public:
-  Program(const std::vector<std::string>& arguments, const std::string& folder) : folder_(folder) {
+  static constexpr int kToFile = -1, kClosed = -2;
+  Program(const std::vector<std::string>& arguments, const std::string& folder, int out = kToFile) : folder_(folder) {
     child_ = ::fork();
-    if (child_ == 0) exec(arguments);
+    if (child_ == 0) exec(arguments, out);
   }
   void send(int signal) const { ::kill(child_, signal); }
   Ran wait() const {
@@ -50,13 +51,15 @@ class Program {
     const int file = ::open((folder_ + name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(file, to);
   }
-  [[noreturn]] void exec(const std::vector<std::string>& arguments) const {
+  [[noreturn]] void exec(const std::vector<std::string>& arguments, int out) const {
     static std::string program = CONTORT_BINARY_DIR "/contort";
     std::vector<char*> argv = {program.data()};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    redirect("/stdout", STDOUT_FILENO);
-    redirect("/stderr", STDERR_FILENO);
+    redirect("/stderr", STDERR_FILENO);  // first: a file that is opened later would get the number of a closed stream
+    if (out == kToFile) redirect("/stdout", STDOUT_FILENO);
+    if (out == kClosed) ::close(STDOUT_FILENO);
+    if (out >= 0) ::dup2(out, STDOUT_FILENO);
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
@@ -68,6 +71,12 @@ class Program {
 inline Ran contort_program(const std::vector<std::string>& arguments) {
   const TempFolder folder;
   return Program(arguments, folder.path()).wait();
+}
+
+// `out` as in Program.
+inline Ran contort_into(int out, const std::vector<std::string>& arguments) {
+  const TempFolder folder;
+  return Program(arguments, folder.path(), out).wait();
 }
 
 inline std::vector<std::string> lines_of(const std::string& text) {

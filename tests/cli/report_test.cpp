@@ -55,7 +55,8 @@ TEST_F(ReportOfCorpus, HasWhatTheViewerShowsOfEachBucket) {
   EXPECT_NE(script.find("\"role\":\"original\""), std::string::npos);
   const std::string page = slurp(folder_ / "out/index.html");
   EXPECT_NE(page.find("data-case='" + key() + "'"), std::string::npos);
-  EXPECT_NE(page.find("data-phase='" + failing_case(bent_elbow(158), "joint_range", kElbow).expect.phase + "'"), std::string::npos);
+  EXPECT_NE(page.find("data-phase='" + failing_case(bent_elbow(158), "joint_range", kElbow).expect.phase + "'"),
+            std::string::npos);
 }
 
 // To play it would end whoever plays it.
@@ -92,8 +93,7 @@ TEST_F(ReportOfCorpus, MakesEachCaseOnceOfTheSame) {
   const auto plant = [&] { spill(path, made.substr(0, made.find('\n')) + "\nplanted"); };
   const auto is_planted = [&] { return slurp(path).ends_with("planted"); };
   const auto report_with = [&](const std::string& option, const std::string& value) {
-    const Ran ran =
-        contort_program({"--gl", "none", option, value, "report", corpus_.folder(), "-o", folder_ / "out"});
+    const Ran ran = contort_program({"--gl", "none", option, value, "report", corpus_.folder(), "-o", folder_ / "out"});
     EXPECT_EQ(ran.code, 0) << ran.err;
   };
   plant();
@@ -126,6 +126,9 @@ TEST_F(ReportOfCorpus, LeavesOtherPeoplesFilesAlone) {
   const std::string ours[] = {"cases/" + kOld + ".js", "strips/" + kOld + "-01234567.png"};
   for (const std::string& name : theirs) std::ofstream(folder_ / ("out/" + name)) << name;
   for (const std::string& name : ours) std::ofstream(folder_ / ("out/" + name)) << name;
+  EXPECT_EQ(report({}, "auto").code, 2) << "nothing says that this folder holds a report";
+  for (const std::string& name : ours) EXPECT_TRUE(fs::exists(folder_ / ("out/" + name))) << name;
+  std::ofstream(folder_ / "out/report.json") << R"({"format":"contort.report/1"})";
   ASSERT_EQ(report({}, "auto").code, 0);
   for (const std::string& name : theirs) EXPECT_TRUE(fs::exists(folder_ / ("out/" + name))) << name;
   for (const std::string& name : ours) EXPECT_FALSE(fs::exists(folder_ / ("out/" + name))) << name;

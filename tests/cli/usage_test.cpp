@@ -11,8 +11,8 @@ namespace contort {
 
 namespace {
 
-const char* const kCommands[] = {"fuzz",   "replay", "generate", "check",  "shrink",   "render", "report",
-                                 "corpus", "list",   "schema",   "import", "contacts", "merge",  "version"};
+const char* const kCommands[] = {"fuzz", "replay", "generate", "check",    "shrink", "render",  "report", "corpus",
+                                 "list", "schema", "import",   "contacts", "merge",  "version", "help"};
 
 // One line for people, and no motion found to be clean.
 void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& needle = "") {
@@ -76,6 +76,95 @@ TEST_F(Usage, ABadTimeIsRefused) {
     EXPECT_EQ(ran.err.rfind("contort: ", 0), 0U) << ran.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "corpus"));
   }
+}
+
+TEST_F(Usage, ATimeIsANumberOfSecondsOrHasAUnit) {
+  for (const std::string time : {"45", "45s", "1.5m", "0.5h", "1e1s"}) {
+    const Ran ran = contort_program({"fuzz", "--time", time, "--corpus", folder_ / "corpus", "--cases", "0"});
+    EXPECT_EQ(ran.code, 0) << time << ran.err;
+  }
+  expect_refused({"fuzz", "--time", "45x", "--cases", "0"}, 2, "--time: found \"45x\"");
+  expect_refused({"fuzz", "--case-timeout", "nan", "--cases", "0"}, 2, "nan");
+}
+
+TEST_F(Usage, AMisspelledNameIsToldTheNearest) {
+  expect_refused({"chek", good_spec()}, 2, "did you mean \"check\"?");
+  expect_refused({"corpus", "lst", folder_.path()}, 2, "did you mean \"list\"?");
+  expect_refused({"check", good_spec(), "--charcter", "human"}, 2, "did you mean \"--character\"?");
+  expect_refused({"--libary", "x", "check", good_spec()}, 2, "did you mean \"--library\"?");
+  expect_refused({"list", "actoins"}, 2, "did you mean \"actions\"?");
+  expect_refused({"schema", "settngs"}, 2, "did you mean \"settings\"?");
+  expect_refused({"fuzz", "--character", "mehc", "--corpus", folder_ / "corpus"}, 2, "did you mean \"mech\"?");
+  expect_refused({"fuzz", "--profile", "nightyl", "--corpus", folder_ / "corpus"}, 2, "did you mean \"nightly\"?");
+  expect_refused({"contacts", "humna"}, 2, "did you mean \"human\"?");
+  const auto with = [&](const std::string& what, const std::string& instead) {
+    std::string text = pretty_spec(bent_elbow(190));
+    text.replace(text.find(what), what.size(), instead);
+    return file("misspelled.json", text);
+  };
+  expect_refused({"check", with("\"pose\"", "\"psoe\"")}, 2, "did you mean \"pose\"?");
+  expect_refused({"check", with("\"arm_left\"", "\"arm_letf\"")}, 2, "did you mean \"arm_left\"?");
+  expect_refused({"check", with("\"elbow_deg\"", "\"elbw_deg\"")}, 2, "did you mean \"elbow_deg\"?");
+  expect_refused({"check", with("\"duration_frames\"", "\"duration_frame\"")}, 2, "did you mean \"duration_frames\"?");
+  const std::string settings = file(
+      "s.json", R"({"format":"contort.settings/1","limits":[{"check":"joint_rnage","use":"ignore","reason":"x"}]})");
+  expect_refused({"--settings", settings, "check", good_spec()}, 2, "did you mean \"joint_range\"?");
+}
+
+TEST_F(Usage, HelpAndTheVersionAreThereInEveryCustomaryWay) {
+  EXPECT_EQ(contort_program({"help"}).out, contort_program({"--help"}).out);
+  EXPECT_EQ(contort_program({"help", "fuzz"}).out, contort_program({"fuzz", "--help"}).out);
+  EXPECT_EQ(contort_program({"help", "corpus", "list"}).out, contort_program({"corpus", "list", "--help"}).out);
+  EXPECT_EQ(contort_program({"--version"}).out, contort_program({"version"}).out);
+  for (const std::vector<std::string>& call : {std::vector<std::string>{"help"}, {"help", "fuzz"}, {"--version"}})
+    EXPECT_EQ(contort_program(call).code, 0) << call.front();
+  expect_refused({"help", "fuz"}, 2, "did you mean \"fuzz\"?");
+}
+
+TEST_F(Usage, AFileOfAnotherKindIsCalledThat) {
+  const std::string png = file("a.json", "\x89PNG\r\n\x1a\n"), zip = file("a.glb", "PK\x03\x04");
+  for (const char* command : {"check", "replay", "shrink"})
+    expect_refused({command, png}, 2, "file.wrong_kind: " + png + " is a PNG image, expected a ");
+  expect_refused({"--settings", png, "check", good_spec()}, 2, png + " is a PNG image, expected a settings file");
+  expect_refused({"fuzz", "--profile", png, "--cases", "0"}, 2, png + " is a PNG image, expected a fuzzing profile");
+  expect_refused({"check", zip}, 2, "gltf.wrong_kind: " + zip + " is a ZIP archive");
+  expect_refused({"import", zip, "-o", folder_ / "figures"}, 2, zip + " is a ZIP archive");
+  expect_refused({"check", file("a.bvh", "Kaydara FBX Binary")}, 2, "a.bvh is an FBX model");
+  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "b.json is a BVH animation");
+  expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json is a glTF model");
+  expect_refused({"check", file("d.json", R"({"format": "contort.bucket/1"})")}, 2, "found \"contort.bucket/1\"");
+  const std::string library = folder_ / "library";
+  std::filesystem::create_directories(library);
+  spill(library + "/part.json", "version https://git-lfs.github.com/spec/v1\n");
+  expect_refused({"--library", library, "list", "parts"}, 2, "part.json is a Git LFS pointer");
+}
+
+TEST_F(Usage, WhatIsWrongWithAFileIsSaidWithItsName) {
+  Spec nobody = bent_elbow(190);
+  nobody.character.name = "nobody";
+  const std::string spec = file("spec.json", pretty_spec(nobody));
+  expect_refused({"check", spec}, 2, spec);
+  expect_refused({"generate", spec, "-o", folder_ / "a.glb"}, 2, spec);
+  expect_refused({"contacts", spec}, 2, spec);
+  expect_refused({"render", spec, "-o", folder_ / "a.png"}, 2, spec);
+  Case stored = elbow_case();
+  stored.spec.character.name = "nobody";
+  const std::string lost = file("case.json", print_case(stored));
+  expect_refused({"shrink", lost}, 2, lost);
+  const std::string broken = file("a.glb", "glTF"), folder = folder_ / "library";
+  expect_refused({"check", broken}, 2, broken);
+  expect_refused({"import", broken, "-o", folder_ / "figures"}, 2, broken);
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy(broken, folder + "/a.glb");
+  expect_refused({"--library", folder, "list", "parts"}, 2, folder + "/a.glb");
+}
+
+TEST_F(Usage, NumbersThatAreHugeAreShownInShort) {
+  std::string text = pretty_spec(bent_elbow(190));
+  text.replace(text.find("190.0"), 5, "1e308");
+  const Ran ran = contort_program({"check", file("huge.json", text)});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("found 1e+308, allowed is ["), std::string::npos) << ran.err;
 }
 
 TEST_F(Usage, SeedsThatWouldTestNothingAreRefused) {

@@ -1,11 +1,15 @@
 #include "generator/core/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
+
+#include "generator/core/descriptor.h"
 
 namespace contort {
 namespace {
@@ -29,13 +33,81 @@ class Files : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Files, PipesDevicesAndLargeFilesAreNotOpenedForStrangers) {
+TEST_F(Files, PipesDevicesFoldersAndLargeFilesAreRefusedAtOnce) {
   ASSERT_TRUE(write_file(at("x.txt"), "12345").ok());
-  EXPECT_EQ(*read_regular_file(at("x.txt"), 5), "12345");
-  EXPECT_EQ(read_regular_file(at("x.txt"), 4).issue().code, "file.too_large");
+  EXPECT_EQ(*read_file(at("x.txt"), 5), "12345");
+  EXPECT_EQ(read_file(at("x.txt"), 4).issue().code, "file.too_large");
   ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
   for (const std::string& path : {at("pipe"), at("nothing"), folder_.string(), std::string("/dev/zero")})
-    EXPECT_EQ(read_regular_file(path, 5).issue().code, "file.unreadable") << path;
+    EXPECT_EQ(read_file(path, 5).issue().code, "file.unreadable") << path;
+}
+
+TEST_F(Files, AnIssueSaysWhatKindOfThingThePathNames) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  EXPECT_NE(read_file(at("pipe"), 5).issue().text.find(at("pipe") + " is a named pipe"), std::string::npos);
+  EXPECT_NE(read_file("/dev/zero", 5).issue().text.find("/dev/zero is a device"), std::string::npos);
+  EXPECT_NE(read_named_file("/dev/zero", 5).issue().text.find("/dev/zero is a device"), std::string::npos);
+  fs::create_symlink(at("pipe"), at("link"));
+  EXPECT_EQ(read_file(at("link"), 5).issue().code, "file.unreadable");
+}
+
+// The writer has a second to come.
+TEST_F(Files, APipeThatIsNamedIsReadToItsEnd) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  const std::string text(200'000, 'x');  // more than a pipe holds
+  std::thread writer([&] {
+    const int pipe = ::open(at("pipe").c_str(), O_WRONLY);
+    EXPECT_TRUE(write_all(pipe, text));
+    ::close(pipe);
+  });
+  const Result<std::string> read = read_named_file(at("pipe"), 1 << 20);
+  writer.join();
+  ASSERT_TRUE(read.ok()) << to_line(read.issue());
+  EXPECT_EQ(*read, text);
+}
+
+TEST_F(Files, APipeIsReadNoFartherThanAllowed) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_TRUE(write_all(ends[1], "123456"));
+  EXPECT_EQ(read_named_file("/dev/fd/" + std::to_string(ends[0]), 5).issue().code, "file.too_large");
+  ::close(ends[0]), ::close(ends[1]);
+}
+
+TEST_F(Files, APipeThatNobodyWritesIntoIsRefused) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  const Result<std::string> read = read_named_file(at("pipe"), 5);
+  ASSERT_FALSE(read.ok());
+  EXPECT_EQ(read.issue().code, "file.unreadable");
+  EXPECT_NE(read.issue().text.find("no program writes into this pipe"), std::string::npos) << read.issue().text;
+}
+
+TEST_F(Files, AReplacedFileKeepsItsPermissions) {
+  ASSERT_TRUE(write_file(at("x"), "old").ok());
+  ASSERT_EQ(::chmod(at("x").c_str(), 0640), 0);
+  ASSERT_TRUE(write_file(at("x"), "new").ok());
+  struct stat now {};
+  ASSERT_EQ(::stat(at("x").c_str(), &now), 0);
+  EXPECT_EQ(now.st_mode & 07777U, 0640U);
+  EXPECT_EQ(*read_file(at("x")), "new");
+}
+
+// In the program's own folders, which may come from strangers: what a link leads to is somebody else's.
+TEST_F(Files, ALinkInAnOwnFolderIsReplacedAndNotFollowed) {
+  ASSERT_TRUE(write_file(at("precious"), "keep me").ok());
+  fs::create_symlink(at("precious"), at("x"));
+  ASSERT_TRUE(write_file(at("x"), "new").ok());
+  EXPECT_FALSE(fs::is_symlink(at("x")));
+  EXPECT_EQ(*read_file(at("precious")), "keep me");
+  fs::create_symlink(at("precious"), at("y." + std::to_string(::getpid()) + ".part"));
+  ASSERT_TRUE(write_file(at("y"), "new").ok());
+  EXPECT_EQ(*read_file(at("precious")), "keep me") << "nor is one at the temporary name";
+}
+
+TEST_F(Files, APipeInAnOwnFolderIsLeftAlone) {
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(write_file(at("pipe"), "x").issue().code, "file.unwritable");
+  EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
 
 TEST_F(Files, WhatIsWrittenIsRead) {

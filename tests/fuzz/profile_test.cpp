@@ -118,7 +118,8 @@ TEST(Profile, RulesThatWouldTestNothingAreRefused) {
   EXPECT_EQ(refused(R"("rules":[{"param":"lead","low":[0],"high":[1]}])"), "profile.bad_rule at /rules/0/param");
   EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[1,1,1],"high":[1,1,1]}])"),
             "profile.bad_rule at /rules/0/low");
-  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[900],"high":[950]}])"), "profile.no_range at /rules/0/low/0");
+  EXPECT_EQ(refused(R"("rules":[{"param":"speed_m_s","low":[900],"high":[950]}])"),
+            "profile.no_range at /rules/0/low/0");
   EXPECT_EQ(refused(R"("rules":[{"slots":["head"],"param":"speed_m_s","low":[1],"high":[1]}])"),
             "profile.unknown_name at /rules/0/param");
   for (const char* rule : {R"("never":true)", R"("param":"blend_in_frames","low":[1],"high":[2])"})
@@ -135,8 +136,9 @@ TEST(Profile, RulesThatWouldTestNothingAreRefused) {
 TEST(Profile, ARuleIsKeptWithinWhatTheActionDeclares) {
   int seen = 0;
   for (const char* range : {R"("low":[-900],"high":[900])", R"("low":[0.33],"high":[0.36])"}) {
-    const Profile walks = profile(R"("slots":["waist"],"actions":["walk"],"rules":[{"actions":["walk"],"param":"speed_m_s",)" +
-                                  std::string(range) + "}]");
+    const Profile walks =
+        profile(R"("slots":["waist"],"actions":["walk"],"rules":[{"actions":["walk"],"param":"speed_m_s",)" +
+                std::string(range) + "}]");
     for (int i = 0; i < 200; ++i) {
       const Spec spec = draw_spec({{"human"}, walks}, stock_library(), 1, i);
       EXPECT_TRUE(build_stage(spec, stock_library())) << print_spec(spec);
@@ -169,7 +171,8 @@ TEST(Profile, WhatCannotBeMeantIsRefused) {
 
 TEST(Profile, WhatAFileSaysNothingOfIsAsInItsBase) {
   const Profile tame = load_profile("tame").value();
-  const Profile mine = profile(R"("base":"tame","range":0.25,"grounds":[],"rules":[{"param":"elbow_deg","low":[5],"high":[6]}])");
+  const Profile mine =
+      profile(R"("base":"tame","range":0.25,"grounds":[],"rules":[{"param":"elbow_deg","low":[5],"high":[6]}])");
   EXPECT_EQ(mine.name, "x");
   EXPECT_EQ(mine.base + mine.about, "");
   EXPECT_EQ(mine.range, 0.25);
@@ -178,15 +181,18 @@ TEST(Profile, WhatAFileSaysNothingOfIsAsInItsBase) {
   EXPECT_EQ(mine.longest_frames, tame.longest_frames);
   ASSERT_EQ(mine.rules.size(), tame.rules.size() + 1);
   EXPECT_EQ(mine.rules.front(), tame.rules.front());
-  EXPECT_EQ(mine.rule_for("arm_left", "pose", "elbow_deg")->high, std::vector<double>{6.0}) << "its own rules come last";
+  EXPECT_EQ(mine.rule_for("arm_left", "pose", "elbow_deg")->high, std::vector<double>{6.0})
+      << "its own rules come last";
   EXPECT_EQ(profile(R"("base":"tame","grounds":["plane"])").rules, tame.rules) << "a file without rules";
 }
 
 TEST(Profile, ABaseThatIsNotBuiltInIsRefused) {
   EXPECT_EQ(refused(R"("base":"tamer")"), "profile.unknown at /base");
   EXPECT_EQ(refused(R"("base":"../tame.json")"), "profile.bad_text at /base");
-  EXPECT_EQ(refused(R"("base":"tame","longest_frames":7)"), "profile.no_range at /longest_frames") << "checked as a whole";
-  EXPECT_EQ(load_profile("tamer").issue().text, "no profile is called \"tamer\"; there are nightly, pr, smoke, tame, and files");
+  EXPECT_EQ(refused(R"("base":"tame","longest_frames":7)"), "profile.no_range at /longest_frames")
+      << "checked as a whole";
+  EXPECT_EQ(load_profile("tamer").issue().text,
+            "no profile is called \"tamer\"; there are nightly, pr, smoke, tame, and files; did you mean \"tame\"?");
 }
 
 // What it finds is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.

@@ -1,14 +1,12 @@
 // Who may call, and what of the disk they may see.
-#include "server/guard.h"
-
 #include <gtest/gtest.h>
-
 #include <sys/stat.h>
 
 #include <filesystem>
 
 #include "server/allowance.h"
 #include "server/files.h"
+#include "server/guard.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort::server {
@@ -40,7 +38,8 @@ TEST(Guard, LetsInWhoCallsTheServerByItsName) {
 }
 
 TEST(Guard, RefusesANameOfElsewhereThatResolvesHere) {
-  for (const char* host : {"evil.example", "evil.example:8080", "127.0.0.1", "127.0.0.1:80", "", "127.0.0.1:8080.evil.example"}) {
+  for (const char* host :
+       {"evil.example", "evil.example:8080", "127.0.0.1", "127.0.0.1:80", "", "127.0.0.1:8080.evil.example"}) {
     Request request = get();
     request.headers["host"] = host;
     EXPECT_EQ(code(admit(request, kOpen)), "guard.host") << host;
@@ -51,7 +50,8 @@ TEST(Guard, RefusesANameOfElsewhereThatResolvesHere) {
 }
 
 TEST(Guard, RefusesPagesOfOtherServers) {
-  for (const char* origin : {"http://evil.example", "null", "http://localhost:8080", "http://127.0.0.1:8081", "https://127.0.0.1"}) {
+  for (const char* origin :
+       {"http://evil.example", "null", "http://localhost:8080", "http://127.0.0.1:8081", "https://127.0.0.1"}) {
     Request request = post();
     request.headers["origin"] = origin;
     EXPECT_EQ(code(admit(request, kOpen)), "guard.origin") << origin;
@@ -63,10 +63,16 @@ TEST(Guard, RefusesPagesOfOtherServers) {
 
 // What a form of another page can send without asking first.
 TEST(Guard, RefusesWritesThatAFormCouldSend) {
-  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"}) {
+  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x",
+                           "application/json-seq", "application/jsonp", "text/plain; application/json"}) {
     Request request = post();
     request.headers["content-type"] = type;
-    EXPECT_EQ(code(admit(request, kOpen)), "call.wrong_type") << type;
+    EXPECT_EQ(code(admit(request, kOpen)), "call.content_type") << type;
+  }
+  for (const char* type : {"application/json", "application/json; charset=utf-8", "Application/JSON ;charset=utf-8"}) {
+    Request request = post();
+    request.headers["content-type"] = type;
+    EXPECT_EQ(code(admit(request, kOpen)), "") << type;
   }
   Request elsewhere = post();
   elsewhere.headers["sec-fetch-site"] = "cross-site";
@@ -75,7 +81,8 @@ TEST(Guard, RefusesWritesThatAFormCouldSend) {
 
 TEST(Guard, WantsTheTokenWhereThereIsOne) {
   EXPECT_EQ(code(admit(get(), kClosed)), "guard.token");
-  for (const char* wrong : {"Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdeg", "Bearer 0123456789abcdef0", "0123456789abcdef"}) {
+  for (const char* wrong : {"Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdeg", "Bearer 0123456789abcdef0",
+                            "0123456789abcdef"}) {
     Request request = get();
     request.headers["authorization"] = wrong;
     EXPECT_EQ(code(admit(request, kClosed)), "guard.token") << wrong;
@@ -95,9 +102,28 @@ TEST(Guard, WantsTheTokenWhereThereIsOne) {
   EXPECT_EQ(code(admit(asked, kClosed)), "guard.token") << "addresses are written down in too many places";
 }
 
-TEST(Guard, RefusesLongAddresses) {
-  EXPECT_EQ(code(admit(get("/" + std::string(5000, 'a')), kOpen)), "call.too_long");
+TEST(Guard, RefusesBodiesThatWouldGrow) {
+  for (const char* encoding : {"gzip", "deflate", "br", "x-gzip", "zstd", "gzip, br", "identity, gzip"}) {
+    Request request = post();
+    request.headers["content-encoding"] = encoding;
+    const Result<Done> admitted = admit(request, kOpen);
+    EXPECT_EQ(code(admitted), "call.content_encoding") << encoding;
+    EXPECT_EQ(status_of(admitted.issue()), 415);
+  }
+  Request plain = post();
+  plain.headers["content-encoding"] = "identity";
+  EXPECT_EQ(code(admit(plain, kOpen)), "");
 }
+
+// Who may not call learns that first, and nothing about the rest of the request.
+TEST(Guard, AsksForTheTokenBeforeAllElse) {
+  Request request = get();
+  request.method = "POST";
+  request.headers["content-encoding"] = "gzip";
+  EXPECT_EQ(code(admit(request, kClosed)), "guard.token");
+}
+
+TEST(Guard, RefusesLongAddresses) { EXPECT_EQ(code(admit(get("/" + std::string(5000, 'a')), kOpen)), "call.too_long"); }
 
 TEST(Allowance, RefillsAsTimeGoesBy) {
   Allowance calls(10, 3);
@@ -150,14 +176,25 @@ TEST_F(Folder, PlainFilesBelowItAreRead) {
 }
 
 TEST_F(Folder, NothingElseIs) {
-  for (const std::string path :
-       {"../secret.txt", "sub/../../secret.txt", "sub/../index.html", "./index.html", "/etc/passwd", "", "sub", "sub/", "link.txt",
-        "up/secret.txt", ".hidden", "pipe", "index.html/", "index.html/x", "..\\secret.txt", "none", "sub//a.png"}) {
+  for (const std::string path : {"../secret.txt", "sub/../../secret.txt", "sub/../index.html", "./index.html",
+                                 "/etc/passwd", "", "sub", "sub/", "link.txt", "up/secret.txt", ".hidden", "pipe",
+                                 "index.html/", "index.html/x", "..\\secret.txt", "none", "sub//a.png"}) {
     const Result<std::string> bytes = read_below(folder / "page", path);
     ASSERT_FALSE(bytes) << path;
     EXPECT_EQ(bytes.issue().code, "call.not_found") << path;
   }
   EXPECT_FALSE(read_below(folder / "page", std::string("index.html\0.png", 15)));
+}
+
+TEST_F(Folder, AFileIsReadPieceByPiece) {
+  const Result<std::shared_ptr<PlainFile>> file = open_below(folder / "page", "sub/a.png");
+  ASSERT_TRUE(file);
+  EXPECT_EQ((*file)->left(), 7u);
+  EXPECT_EQ((*file)->read(4), "pict");
+  spill(folder / "page/sub/a.png", "pictu");  // somebody cuts it meanwhile
+  EXPECT_EQ((*file)->read(100), "u");
+  EXPECT_EQ((*file)->left(), 0u);
+  EXPECT_EQ((*file)->read(100), "");
 }
 
 }  // namespace

@@ -1,13 +1,7 @@
 // The server on its sockets, as a program: what arrives over the wire, good and bad.
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -19,115 +13,12 @@
 #include "generator/core/files.h"
 #include "generator/core/hash.h"
 #include "tests/corpus/temp_folder.h"
+#include "tests/server/program.h"
 
 namespace contort {
 namespace {
 
 using Json = nlohmann::json;
-
-// contort serve on a free port, ended with the test.
-class Program {
- public:
-  explicit Program(const std::vector<std::string>& options) {
-    int out[2];
-    EXPECT_EQ(::pipe(out), 0);
-    pid_ = ::fork();
-    if (pid_ == 0) {
-      ::dup2(out[1], 1);
-      std::vector<std::string> words = {CONTORT_BINARY_DIR "/contort", "--gl", "none", "serve", "--port", "0"};
-      words.insert(words.end(), options.begin(), options.end());
-      std::vector<char*> arguments;
-      for (std::string& word : words) arguments.push_back(word.data());
-      arguments.push_back(nullptr);
-      ::execv(arguments[0], arguments.data());
-      ::_exit(127);
-    }
-    ::close(out[1]);
-    std::string line;
-    for (char c = 0; ::read(out[0], &c, 1) == 1 && c != '\n';) line += c;
-    ::close(out[0]);
-    port_ = std::atoi(line.c_str() + line.rfind(':') + 1);
-    EXPECT_GT(port_, 0) << line;
-  }
-  ~Program() { end(SIGTERM); }
-
-  int port() const { return port_; }
-  httplib::Client client() const {
-    httplib::Client client("127.0.0.1", port_);
-    client.set_read_timeout(60);
-    return client;
-  }
-  // Its exit code, or 128 + the signal.
-  int end(int signal) {
-    if (pid_ <= 0) return -1;
-    ::kill(pid_, signal);
-    int status = 0;
-    ::waitpid(std::exchange(pid_, -1), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-  bool lives() const { return ::kill(pid_, 0) == 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0; }
-  // Of the front and all processes below it, bytes.
-  long resident() const {
-    long pages = 0;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      if (entry.path().filename().string().find_first_not_of("0123456789") != std::string::npos) continue;
-      std::ifstream group(entry.path() / "stat");
-      std::string text((std::istreambuf_iterator<char>(group)), {});
-      const std::size_t at = text.rfind(')');
-      if (at == std::string::npos) continue;
-      int parent = 0;
-      char state = 0;
-      std::sscanf(text.c_str() + at + 1, " %c %d", &state, &parent);
-      const int own = std::atoi(text.c_str());
-      if (own != pid_ && parent != pid_ && !below(parent)) continue;
-      long all = 0, resident = 0;
-      std::ifstream(entry.path() / "statm") >> all >> resident;
-      pages += resident;
-    }
-    return pages * ::sysconf(_SC_PAGESIZE);
-  }
-
- private:
-  bool below(int pid) const {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-    std::string text((std::istreambuf_iterator<char>(file)), {});
-    const std::size_t at = text.rfind(')');
-    int parent = 0;
-    char state = 0;
-    return at != std::string::npos && std::sscanf(text.c_str() + at + 1, " %c %d", &state, &parent) == 2 && parent == pid_;
-  }
-  pid_t pid_ = -1;
-  int port_ = 0;
-};
-
-const std::string kSpec = R"({"format":"contort.spec/1","character":{"name":"mech"},"rate_hz":30})";
-
-int status(const httplib::Result& result) { return result ? result->status : -1; }
-
-httplib::Result post(httplib::Client& client, const std::string& path, const std::string& body,
-                     const httplib::Headers& headers = {}) {
-  return client.Post(path, headers, body, "application/json");
-}
-
-// Sends bytes as they are; what comes back within a second.
-std::string raw(int port, const std::string& bytes, bool hang_up = false) {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET, to.sin_port = htons(static_cast<std::uint16_t>(port)), to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  std::string answer;
-  if (::connect(socket, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0) {
-    (void)!::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    const timeval second{1, 0};
-    ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &second, sizeof second);
-    char buffer[4096];
-    for (ssize_t got = 0; !hang_up && (got = ::recv(socket, buffer, sizeof buffer, 0)) > 0;) {
-      answer.append(buffer, static_cast<std::size_t>(got));
-      if (answer.find("\r\n\r\n") != std::string::npos) break;
-    }
-  }
-  ::close(socket);
-  return answer;
-}
 
 TEST(Serve, AnswersAndEndsWhenItIsTold) {
   Program server({});
@@ -143,12 +34,15 @@ TEST(Serve, AnswersAndEndsWhenItIsTold) {
 TEST(Serve, RefusesWhatDoesNotBelongHere) {
   Program server({});
   httplib::Client client = server.client();
-  const auto get = [&](const std::string& path, const httplib::Headers& headers = {}) { return status(client.Get(path, headers)); };
+  const auto get = [&](const std::string& path, const httplib::Headers& headers = {}) {
+    return status(client.Get(path, headers));
+  };
   EXPECT_EQ(get("/api/health", {{"Host", "evil.example"}}), 403);
   EXPECT_EQ(get("/api/health", {{"Origin", "http://evil.example"}}), 403);
   EXPECT_EQ(status(client.Post("/api/evaluate", kSpec, "text/plain")), 415);
-  for (const char* path : {"/page/../../contort", "/page/%2e%2e/contort", "/page/..%2f..%2fcontort", "/report/../index.html",
-                           "/../../etc/passwd", "/page//etc/passwd", "/page/%00", "/page/..%5c..%5ccontort"}) {
+  for (const char* path :
+       {"/page/../../contort", "/page/%2e%2e/contort", "/page/..%2f..%2fcontort", "/report/../index.html",
+        "/../../etc/passwd", "/page//etc/passwd", "/page/%00", "/page/..%5c..%5ccontort"}) {
     const std::string answer = raw(server.port(), "GET " + std::string(path) + " HTTP/1.1\r\nHost: 127.0.0.1:" +
                                                       std::to_string(server.port()) + "\r\nConnection: close\r\n\r\n");
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 404") || answer.starts_with("HTTP/1.1 400")) << path << "\n" << answer;
@@ -175,7 +69,8 @@ TEST(Serve, TheTokenOpensItAndACookieKeepsItOpen) {
 }
 
 int exit_code(const std::string& options) {
-  const int status = std::system((std::string(CONTORT_BINARY_DIR "/contort serve ") + options + " 2>/dev/null >/dev/null").c_str());
+  const int status =
+      std::system((std::string(CONTORT_BINARY_DIR "/contort serve ") + options + " 2>/dev/null >/dev/null").c_str());
   return WEXITSTATUS(status);
 }
 
@@ -201,7 +96,10 @@ TEST(Serve, MakesTheMotionsThatTheTerminalMakes) {
     const auto answer = post(client, "/api/evaluate", R"({"spec":)" + text + "}");
     ASSERT_EQ(status(answer), 200) << entry.path() << (answer ? answer->body : "");
     const std::string out = folder / "motion.json";
-    ASSERT_EQ(std::system((CONTORT_BINARY_DIR "/contort generate " + entry.path().string() + " -o " + out + " > /dev/null").c_str()), 0);
+    ASSERT_EQ(
+        std::system(
+            (CONTORT_BINARY_DIR "/contort generate " + entry.path().string() + " -o " + out + " > /dev/null").c_str()),
+        0);
     EXPECT_EQ(Json::parse(answer->body)["motion_hash"], Json::parse(slurp(out))["motion_hash"]) << entry.path();
     ++compared;
   }
@@ -214,8 +112,9 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   ASSERT_TRUE(Corpus::create(folder / "corpus"));
   Program server({"--corpus", folder / "corpus"});
   httplib::Client client = server.client();
-  const std::string broken = R"({"format":"contort.spec/1","character":{"name":"human"},"sequences":[{"clips":[{"actions":[)"
-                             R"({"action":"pose","slot":"arm_left","params":{"elbow_deg":-40}}]}]}]})";
+  const std::string broken =
+      R"({"format":"contort.spec/1","character":{"name":"human"},"sequences":[{"clips":[{"actions":[)"
+      R"({"action":"pose","slot":"arm_left","params":{"elbow_deg":-40}}]}]}]})";
   const auto opened = post(client, "/api/sessions", R"({"spec":)" + broken + "}");
   ASSERT_EQ(status(opened), 201);
   const std::string session = Json::parse(opened->body)["session"];
@@ -223,12 +122,14 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   std::string subject, check;
   for (int i = 0; i < 1200 && check.empty(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    const Json findings = Json::parse(client.Get("/api/sessions/" + session)->body)["findings"].value("kinematic", Json::array());
+    const Json findings =
+        Json::parse(client.Get("/api/sessions/" + session)->body)["findings"].value("kinematic", Json::array());
     if (!findings.empty()) check = findings[0]["check"], subject = findings[0]["subject"];
   }
   std::map<std::string, std::string> bodies = {
       {"post_libraries", R"({"files":{"a.json":{"format":"contort.action/1"}}})"},
-      {"post_evaluate", R"({"spec":)" + kSpec + "}"}, {"post_generate", R"({"spec":)" + kSpec + "}"},
+      {"post_evaluate", R"({"spec":)" + kSpec + "}"},
+      {"post_generate", R"({"spec":)" + kSpec + "}"},
       {"post_sessions", R"({"spec":)" + kSpec + "}"},
       {"post_sessions_session_enqueue", R"({"sequence":)" + sequence + "}"},
       {"post_sessions_session_interrupt", R"({"sequence":)" + sequence + "}"},
@@ -254,7 +155,8 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   std::ranges::sort(calls);
   ASSERT_GT(calls.size(), 25u);
   for (auto [order, path, method, name] : calls) {
-    for (const auto& [id, value] : {std::pair("{session}", session), std::pair("{bucket}", bucket), std::pair("{job}", job)})
+    for (const auto& [id, value] :
+         {std::pair("{session}", session), std::pair("{bucket}", bucket), std::pair("{job}", job)})
       if (const std::size_t at = path.find(id); at != std::string::npos) path.replace(at, std::strlen(id), value);
     const bool streams = name.ends_with("stream") || name.ends_with("events");
     int pieces = 0;
@@ -286,9 +188,11 @@ TEST(ServeSlow, NoAcknowledgedWriteIsLostByAKill) {
     Program server({"--corpus", folder / "corpus", "--calls-per-second", "100000"});
     if (bucket.empty()) {
       httplib::Client client = server.client();
-      const std::string broken = R"({"format":"contort.spec/1","character":{"name":"human"},"sequences":[{"clips":[{"actions":[)"
-                                 R"({"action":"pose","slot":"arm_left","params":{"elbow_deg":-40}}]}]}]})";
-      const std::string session = Json::parse(post(client, "/api/sessions", R"({"spec":)" + broken + "}")->body)["session"];
+      const std::string broken =
+          R"({"format":"contort.spec/1","character":{"name":"human"},"sequences":[{"clips":[{"actions":[)"
+          R"({"action":"pose","slot":"arm_left","params":{"elbow_deg":-40}}]}]}]})";
+      const std::string session =
+          Json::parse(post(client, "/api/sessions", R"({"spec":)" + broken + "}")->body)["session"];
       const auto kept = post(client, "/api/sessions/" + session + "/case",
                              R"({"check":"joint_range","subject":"arm_left/elbow min","mode":"kinematic"})");
       ASSERT_EQ(status(kept), 201) << kept->body;
@@ -343,7 +247,11 @@ TEST(ServeSlow, StandsWhatItIsGiven) {
   const auto one = [&](httplib::Client& http, std::mt19937& random) {
     const std::string session = "/api/sessions/" + sessions[random() % sessions.size()];
     switch (random() % 16) {
-      case 0: return count(post(http, session + "/enqueue", R"({"sequence":{"clips":[{"actions":[{"action":"crouch","slot":"waist","duration_frames":20}]}]}})"), true);
+      case 0:
+        return count(
+            post(http, session + "/enqueue",
+                 R"({"sequence":{"clips":[{"actions":[{"action":"crouch","slot":"waist","duration_frames":20}]}]}})"),
+            true);
       case 1: return count(post(http, session + "/push", R"({"slot":"torso","impulse_N_s":[20,0,5]})"), true);
       case 2: return count(post(http, session + "/push", R"({"slot":"torso","impulse_N_s":[1e300,0,"x"]})"), false);
       case 3: return count(http.Get(session), true);
@@ -352,9 +260,14 @@ TEST(ServeSlow, StandsWhatItIsGiven) {
       case 6: return count(post(http, "/api/evaluate", std::string(1100000, 'x')), false);
       case 7: return count(http.Get("/api/sessions/" + std::string(random() % 1000, 'f')), false);
       case 8: return void(raw(server.port(), "GARBAGE \x01\xff\r\n\r\n"));
-      case 9: return void(raw(server.port(), "POST /api/evaluate HTTP/1.1\r\n" + host + "Content-Length: 99999\r\n\r\nshort", true));
+      case 9:
+        return void(
+            raw(server.port(), "POST /api/evaluate HTTP/1.1\r\n" + host + "Content-Length: 99999\r\n\r\nshort", true));
       case 10: return void(raw(server.port(), "GET /api/catalogue HTTP/1.1\r\n" + host + "\r\n", true));
-      case 11: return void(raw(server.port(), "POST /api/evaluate HTTP/1.1\r\n" + host + "Content-Length: 99999999999999999999\r\n\r\n", true));
+      case 11:
+        return void(raw(server.port(),
+                        "POST /api/evaluate HTTP/1.1\r\n" + host + "Content-Length: 99999999999999999999\r\n\r\n",
+                        true));
       case 12: return count(http.Get("/metrics"), true);
       case 13: return count(post(http, session + "/clock", R"({"play":true})"), true);
       case 14: return count(http.Get("/api/health", {{"Host", "evil.example"}}), false);
@@ -382,8 +295,9 @@ TEST(ServeSlow, StandsWhatItIsGiven) {
   EXPECT_EQ(lost, 0);
   EXPECT_GT(good, 2000);
   const long after = server.resident();
-  std::printf("good %d, refused %d; resident %.0f MB at first, %.0f with 200 sessions, %.0f after 10,000 calls\n", good.load(),
-              refused.load(), 1e-6 * static_cast<double>(before), 1e-6 * static_cast<double>(opened), 1e-6 * static_cast<double>(after));
+  std::printf("good %d, refused %d; resident %.0f MB at first, %.0f with 200 sessions, %.0f after 10,000 calls\n",
+              good.load(), refused.load(), 1e-6 * static_cast<double>(before), 1e-6 * static_cast<double>(opened),
+              1e-6 * static_cast<double>(after));
   EXPECT_LT(after, 4L << 30);
   EXPECT_EQ(server.end(SIGTERM), 0);
 }

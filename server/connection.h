@@ -1,0 +1,77 @@
+// One connection, as the HTTP library reads and writes it. What is read has bounds in bytes and in time, whatever the
+// library asks for: no more than the head and the body of one request, and nothing from somebody who is too slow.
+#pragma once
+
+#include <httplib.h>
+
+#include <string>
+
+#include "server/connections.h"
+#include "server/head.h"
+#include "server/request.h"
+
+namespace contort::server {
+
+// How long the server waits for a client. A body or an answer may stand still for `rest_s` and needs `bytes_per_s` on
+// average after that; the time that the server itself takes does not count.
+struct Patience {
+  double next_request_s = 10.0;
+  double head_s = 5.0;  // from its first byte on
+  double rest_s = 10.0;
+  double bytes_per_s = 16 << 10;
+  double lingering_s = 2.0;
+};
+
+class Connection final : public httplib::Stream {
+ public:
+  // The socket stays the caller's. `most_chunked` bounds bodies that do not say how long they are.
+  Connection(int socket, Connections::Seat& seat, std::size_t most_chunked, const Patience& patience = {});
+
+  // The head of the next request; what the library then reads is this head and its body. Code connection.over where
+  // nobody asks any more, call.too_slow, and those of read_head.
+  Result<Head> next_request();
+
+  // Whether the body has not been read to its end, so that the next request cannot be found.
+  bool has_unread() const { return is_chunked_ || body_left_ > 0; }
+  // Writes an answer past the library.
+  void refuse(const Issue& issue);
+  // Tells the client that nothing more comes, and throws away what it still sends. Else the kernel would answer these
+  // bytes with a reset, and a client that is still sending would not see the answer.
+  void linger();
+
+  bool is_readable() const override;
+  bool is_writable() const override;
+  ssize_t read(char* bytes, std::size_t size) override;
+  ssize_t write(const char* bytes, std::size_t size) override;
+  void get_remote_ip_and_port(std::string& ip, int& port) const override;
+  void get_local_ip_and_port(std::string& ip, int& port) const override;
+  socket_t socket() const override { return socket_; }
+
+ private:
+  Result<std::size_t> receive_head();
+  bool receive(Time until);
+  ssize_t read_body(char* bytes, std::size_t size);
+  std::string_view not_taken() const { return std::string_view(received_).substr(taken_); }
+  Time end_of_patience(Time since) const;
+
+  int socket_;
+  Connections::Seat& seat_;
+  std::size_t most_chunked_;
+  Patience patience_;
+  std::string received_;        // from the network
+  std::size_t taken_ = 0;       // of these bytes
+  std::string head_;            // for the library
+  std::size_t head_taken_ = 0;  // of it
+  std::size_t body_left_ = 0;
+  bool is_chunked_ = false;
+  double waited_s_ = 0.0;  // for the rest of this request and for its answer to be taken
+  std::size_t moved_ = 0;  // bytes of both
+};
+
+// Of somebody for whom there is no seat: the refusal, within a fifth of a second.
+void turn_away(int socket, const Issue& issue);
+
+// "127.0.0.1", the other end of a connection; "" where it has gone.
+std::string client_of(int socket);
+
+}  // namespace contort::server
