@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# page_test.sh PROJECT BINARIES: the report's page in a browser. First a made-up report that has everything, then one of
-# real failures as contort writes it, then that one as a single file.
+# page_test.sh PROJECT BINARIES [NAMES]: the report's page in a browser. First a made-up report that has everything, then one
+# of real failures as contort writes it, then that one as a single file. NAMES: a regular expression; only the tests of the
+# made-up report whose names match it.
 set -euo pipefail
 
 project=$1
 binaries=$2
+names=${3:-}
 chromium=${CHROMIUM:-/usr/bin/chromium}
 for needed in npm node "$chromium"; do
   command -v "$needed" >/dev/null || { echo "skipped: there is no $needed"; exit 77; }
@@ -17,9 +19,11 @@ cp "$project"/tests/page/package*.json "$modules/"
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-browse() { node --test-reporter=spec "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
+browse() { node --test-reporter=spec ${names:+--test-name-pattern="$names"} "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
 
-browse --contort "$binaries/contort" --viewer "$binaries/page"
+browse --contort "$binaries/contort" --viewer "$binaries/page" | tee "$scratch/log"
+grep -qE '^. pass [1-9]' "$scratch/log" || { echo "no test ran"; exit 1; }
+if [ -n "$names" ]; then exit 0; fi
 
 # Seed 13 of the profile smoke: two dozen failures of the human in two cases, dynamics among them.
 "$binaries/contort" fuzz --profile smoke --character human --seed 13 --cases 2 --shrink-evaluations 30 \

@@ -18,7 +18,9 @@ let url;
 before(async () => {
   if (need.skip) return;
   scratch = mkdtempSync(join(tmpdir(), 'serve_'));
-  server = spawn(options.contort, ['serve', '--corpus', join(scratch, 'corpus'), '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const corpus = join(scratch, 'corpus');
+  execFileSync(options.contort, ['fuzz', '--cases', '0', '--corpus', corpus], { stdio: 'ignore' });  // an empty one
+  server = spawn(options.contort, ['serve', '--corpus', corpus, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
   url = await new Promise((done, failed) => {
     let said = '';
     server.stdout.on('data', (text) => {

@@ -10,6 +10,11 @@ set_tests_properties(Scripts.Packages Scripts.Run Scripts.Test Scripts.ReadmeExt
 set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600 COST 300)
 add_test(NAME Page.Browser
   COMMAND bash ${CMAKE_SOURCE_DIR}/tests/page/page_test.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
+# A list, a case and what a stranger may have written, from the file system: what ./test has the time for.
+add_test(NAME Page.Small COMMAND bash ${CMAKE_SOURCE_DIR}/tests/page/page_test.sh ${CMAKE_SOURCE_DIR}
+  $<TARGET_FILE_DIR:contort> "^file: (filters show|the button opens|hostile names)|one file holds|without scripts the page is")
+set_tests_properties(Page.Small PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 COST 400 RESOURCE_LOCK page_modules)
+set_tests_properties(Page.Browser PROPERTIES RESOURCE_LOCK page_modules)
 set_tests_properties(Page.Browser PROPERTIES TIMEOUT 1800 SKIP_RETURN_CODE 77 COST 1000 LABELS slow)
 add_test(NAME Scripts.Mutants COMMAND ${CMAKE_SOURCE_DIR}/bench/mutants/run.py --check)
 set_tests_properties(Scripts.Mutants PROPERTIES TIMEOUT 180)
