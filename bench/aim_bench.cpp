@@ -9,9 +9,9 @@
 #include <functional>
 
 #include "checks/check.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/aim_ik.h"
 #include "generator/motion/aim_tables.h"
+#include "model/core/detmath.h"
 #include "tests/motion/aim_scenes.h"
 
 namespace contort {

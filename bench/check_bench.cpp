@@ -7,7 +7,7 @@
 #include "checks/check.h"
 #include "fuzz/draw.h"
 #include "generator/generate.h"
-#include "generator/motion/place_frames.h"
+#include "model/motion/place_frames.h"
 #include "tests/dynamics/mujoco_model.h"
 
 namespace contort {

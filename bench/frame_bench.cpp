@@ -4,7 +4,7 @@
 
 #include "checks/evaluate.h"
 #include "fuzz/draw.h"
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 #include "tests/scenes.h"
 
 namespace contort {

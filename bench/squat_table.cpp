@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "generator/core/files.h"
 #include "generator/generate.h"
+#include "model/core/files.h"
 
 namespace contort {
 

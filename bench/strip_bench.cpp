@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "checks/evaluate.h"
+#include "formats/gltf/write.h"
 #include "generator/generate.h"
-#include "generator/gltf/write.h"
 #include "generator/stage.h"
 #include "renders/case_data.h"
 #include "renders/frames.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/index.h"
-#include "generator/core/math.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/core/math.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/core/assert.h"
+#include "model/core/assert.h"
 
 namespace contort {
 

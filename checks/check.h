@@ -11,9 +11,9 @@
 
 #include "checks/fold.h"
 #include "checks/settings.h"
-#include "generator/character/character.h"
-#include "generator/motion/motion.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/motion/motion.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

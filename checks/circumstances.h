@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/motion/motion.h"
 #include "generator/stage.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

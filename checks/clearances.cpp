@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "checks/round_distances.h"
-#include "generator/core/index.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "checks/distance.h"
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 
 #include "checks/check.h"
 #include "checks/pop.h"
-#include "generator/asset/sample.h"
+#include "model/asset/sample.h"
 
 namespace contort {
 

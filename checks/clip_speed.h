@@ -10,7 +10,7 @@
 
 #include "checks/fold.h"
 #include "checks/settings.h"
-#include "generator/asset/asset.h"
+#include "model/asset/asset.h"
 
 namespace contort {
 

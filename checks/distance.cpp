@@ -6,7 +6,7 @@
 
 #include "checks/hull_distance.h"
 #include "checks/segment_distance.h"
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

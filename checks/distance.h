@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

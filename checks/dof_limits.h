@@ -8,7 +8,7 @@
 
 #include "checks/fold.h"
 #include "checks/settings.h"
-#include "generator/mocap/amc.h"
+#include "formats/mocap/amc.h"
 
 namespace contort {
 

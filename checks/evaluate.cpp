@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "checks/limits.h"
-#include "generator/motion/place_frames.h"
+#include "model/motion/place_frames.h"
 
 namespace contort {
 

@@ -16,8 +16,8 @@
 #include <span>
 
 #include "checks/segment_distance.h"
-#include "generator/core/index.h"
-#include "generator/core/math.h"
+#include "model/core/index.h"
+#include "model/core/math.h"
 
 namespace contort {
 

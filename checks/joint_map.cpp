@@ -1,6 +1,6 @@
 #include "checks/joint_map.h"
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "checks/check.h"
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

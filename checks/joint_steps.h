@@ -2,7 +2,7 @@
 #pragma once
 
 #include "checks/check.h"
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/asset/sample.h"
+#include "model/asset/sample.h"
 
 namespace contort {
 

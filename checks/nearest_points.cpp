@@ -10,7 +10,7 @@
 
 #include "checks/segment_distance.h"
 #include "checks/solid_points.h"
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

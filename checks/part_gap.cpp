@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "generator/asset/sample.h"
+#include "model/asset/sample.h"
 
 namespace contort {
 

@@ -14,8 +14,8 @@
 #include <cstddef>
 #include <span>
 
-#include "generator/asset/sample.h"
-#include "generator/motion/motion.h"
+#include "model/asset/sample.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

@@ -7,8 +7,8 @@
 #include "checks/check.h"
 #include "checks/circumstances.h"
 #include "checks/clip_checks.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/nearest.h"
+#include "model/core/json_fields.h"
+#include "model/core/nearest.h"
 
 namespace contort {
 

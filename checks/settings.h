@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

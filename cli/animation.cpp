@@ -5,9 +5,9 @@
 #include <cctype>
 #include <filesystem>
 
-#include "generator/core/inside_folder.h"
-#include "generator/gltf/read.h"
-#include "generator/mocap/bvh.h"
+#include "formats/gltf/read.h"
+#include "formats/mocap/bvh.h"
+#include "model/core/inside_folder.h"
 
 namespace contort::cli {
 

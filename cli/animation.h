@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/asset/asset.h"
-#include "generator/core/result.h"
-#include "generator/mocap/amc.h"
+#include "formats/mocap/amc.h"
+#include "model/asset/asset.h"
+#include "model/core/result.h"
 
 namespace contort::cli {
 

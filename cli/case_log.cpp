@@ -1,6 +1,6 @@
 #include "cli/case_log.h"
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

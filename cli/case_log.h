@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fuzz/run.h"
-#include "generator/core/output.h"
+#include "model/core/output.h"
 
 namespace contort::cli {
 

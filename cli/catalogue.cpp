@@ -6,7 +6,7 @@
 #include "cli/variants.h"
 #include "fuzz/profile.h"
 #include "generator/actions/action.h"
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort::cli {
 

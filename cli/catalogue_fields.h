@@ -1,8 +1,8 @@
 // What there is, from the manifests and a library, as JSON. Included from .cpp files only.
 #pragma once
 
-#include "generator/character/library.h"
-#include "generator/core/json_fields.h"
+#include "model/character/library.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

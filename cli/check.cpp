@@ -7,9 +7,9 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/print.h"
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

@@ -15,11 +15,11 @@
 #include "checks/waive.h"
 #include "cli/clip_report.h"
 #include "cli/print.h"
-#include "generator/character/character.h"
-#include "generator/core/file_kind.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/character/character.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

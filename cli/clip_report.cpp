@@ -5,7 +5,7 @@
 
 #include "checks/check.h"
 #include "cli/print.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

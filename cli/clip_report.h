@@ -8,7 +8,7 @@
 #include "checks/clip_speed.h"
 #include "checks/dof_limits.h"
 #include "cli/animation.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::cli {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "checks/settings.h"
-#include "generator/character/library.h"
-#include "generator/core/result.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
 
 namespace CLI {
 class App;

@@ -9,10 +9,10 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/nearest.h"
-#include "generator/core/output.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
+#include "model/core/nearest.h"
+#include "model/core/output.h"
 
 namespace contort::cli {
 

@@ -13,7 +13,7 @@
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
 #include "corpus/sides.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

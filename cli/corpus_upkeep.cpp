@@ -6,7 +6,7 @@
 #include "cli/print.h"
 #include "corpus/fsck.h"
 #include "corpus/upkeep.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

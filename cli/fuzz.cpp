@@ -26,10 +26,10 @@
 #include "corpus/search_progress.h"
 #include "fuzz/run.h"
 #include "fuzz/run_state.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/output.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
+#include "model/core/output.h"
 #include "renders/search_html.h"
 
 namespace contort::cli {

@@ -7,11 +7,11 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/output.h"
-#include "generator/gltf/write.h"
+#include "formats/gltf/write.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/json_fields.h"
+#include "model/core/output.h"
 
 namespace contort::cli {
 

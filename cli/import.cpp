@@ -9,10 +9,10 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/library_folder.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

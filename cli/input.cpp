@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "generator/core/file_kind.h"
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

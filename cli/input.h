@@ -7,9 +7,9 @@
 
 #include "checks/settings.h"
 #include "corpus/case.h"
-#include "generator/character/library.h"
-#include "generator/core/result.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
+#include "model/spec/spec.h"
 
 namespace contort::cli {
 

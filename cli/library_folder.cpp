@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "cli/animation.h"
-#include "generator/core/files.h"
-#include "generator/core/own_folder.h"
+#include "model/core/files.h"
+#include "model/core/own_folder.h"
 
 namespace contort::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::cli {
 

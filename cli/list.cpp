@@ -11,9 +11,9 @@
 #include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "fuzz/profile.h"
-#include "generator/character/skin_desc.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/nearest.h"
+#include "model/character/skin_desc.h"
+#include "model/core/json_fields.h"
+#include "model/core/nearest.h"
 
 namespace contort::cli {
 

@@ -6,8 +6,8 @@
 
 #include "cli/commands.h"
 #include "cli/print.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "generator/core/output.h"
+#include "model/core/output.h"
 #include "renders/ci_outputs.h"
 
 namespace contort::cli {

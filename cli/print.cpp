@@ -5,7 +5,7 @@
 
 #include "corpus/lifecycle.h"
 #include "corpus/upkeep.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::cli {
 

@@ -16,7 +16,7 @@
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
 #include "corpus/verify.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::cli {
 

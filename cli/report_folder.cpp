@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/core/files.h"
-#include "generator/core/own_folder.h"
+#include "model/core/files.h"
+#include "model/core/own_folder.h"
 
 namespace contort::cli {
 

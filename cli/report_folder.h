@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::cli {
 

@@ -5,9 +5,9 @@
 
 #include "cli/input.h"
 #include "corpus/isolate.h"
-#include "generator/core/file_kind.h"
-#include "generator/core/inside_folder.h"
 #include "generator/stage.h"
+#include "model/core/file_kind.h"
+#include "model/core/inside_folder.h"
 
 namespace contort::cli {
 

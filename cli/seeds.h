@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/library.h"
-#include "generator/core/result.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
+#include "model/spec/spec.h"
 
 namespace contort::cli {
 

@@ -12,9 +12,9 @@
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
 #include "fuzz/departures.h"
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/output.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
+#include "model/core/output.h"
 
 namespace contort::cli {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/output.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/output.h"
 #include "renders/case_data.h"
 #include "renders/page_call.h"
 

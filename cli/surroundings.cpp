@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <set>
 
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
 
 namespace contort::cli {
 

@@ -9,9 +9,9 @@
 #include "cli/library_folder.h"
 #include "cli/variants.h"
 #include "generator/actions/action.h"
-#include "generator/core/inside_folder.h"
 #include "generator/motion/aim_table_file.h"
 #include "generator/motion/aim_tables.h"
+#include "model/core/inside_folder.h"
 
 namespace contort::cli {
 

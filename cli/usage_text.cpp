@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "generator/core/nearest.h"
+#include "model/core/nearest.h"
 
 namespace contort::cli {
 

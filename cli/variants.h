@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "generator/character/character.h"
-#include "generator/character/library.h"
+#include "model/character/character.h"
+#include "model/character/library.h"
 
 namespace contort::cli {
 

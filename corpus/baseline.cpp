@@ -5,9 +5,9 @@
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
 #include "corpus/replay.h"
-#include "generator/core/file_kind.h"
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -7,7 +7,7 @@
 
 #include "corpus/bucket.h"
 #include "corpus/leads.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

@@ -5,10 +5,10 @@
 #include <set>
 #include <tuple>
 
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

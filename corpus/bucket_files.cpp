@@ -6,8 +6,8 @@
 
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "checks/circumstances.h"
-#include "generator/core/hash.h"
-#include "generator/spec_fields.h"
+#include "model/core/hash.h"
+#include "model/spec/spec_fields.h"
 
 namespace contort {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "checks/evaluate.h"
-#include "generator/core/result.h"
-#include "generator/spec.h"
+#include "model/core/result.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -10,10 +10,10 @@
 #include "corpus/bucket_files.h"
 #include "corpus/lifecycle.h"
 #include "corpus/lock.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/own_folder.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
+#include "model/core/own_folder.h"
 
 namespace contort {
 

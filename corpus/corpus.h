@@ -20,7 +20,7 @@
 
 #include "corpus/bucket.h"
 #include "corpus/case.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

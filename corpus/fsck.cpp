@@ -11,8 +11,8 @@
 #include "corpus/fsck_files.h"
 #include "corpus/lock.h"
 #include "corpus/runs.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

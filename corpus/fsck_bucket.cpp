@@ -4,8 +4,8 @@
 
 #include "corpus/bucket_files.h"
 #include "corpus/fsck_files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

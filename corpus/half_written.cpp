@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "corpus/lock.h"
-#include "generator/core/inside_folder.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "corpus/case.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

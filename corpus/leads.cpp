@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

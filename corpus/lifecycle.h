@@ -4,7 +4,7 @@
 #include <string>
 
 #include "corpus/bucket.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

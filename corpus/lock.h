@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

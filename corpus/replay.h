@@ -6,8 +6,8 @@
 
 #include "corpus/case.h"
 #include "corpus/isolate.h"
-#include "generator/character/library.h"
 #include "generator/level.h"
+#include "model/character/library.h"
 
 namespace contort {
 

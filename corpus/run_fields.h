@@ -2,7 +2,7 @@
 #pragma once
 
 #include "corpus/runs.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "corpus/run_fields.h"
-#include "generator/core/inside_folder.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

@@ -5,9 +5,9 @@
 
 #include "corpus/bucket_files.h"
 #include "corpus/lock.h"
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

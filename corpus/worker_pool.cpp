@@ -19,7 +19,7 @@
 #include "corpus/clock.h"
 #include "corpus/process.h"
 #include "corpus/whole_bytes.h"
-#include "generator/core/assert.h"
+#include "model/core/assert.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include "corpus/run_fields.h"
 #include "fuzz/case_work.h"
 #include "fuzz/run_state.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 

@@ -11,7 +11,7 @@
 #include "fuzz/departures.h"
 #include "fuzz/labels.h"
 #include "fuzz/precursor.h"
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

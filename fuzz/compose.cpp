@@ -11,10 +11,10 @@
 #include "fuzz/compose_turns.h"
 #include "fuzz/features.h"
 #include "generator/actions/action.h"
-#include "generator/character/character.h"
-#include "generator/core/detmath.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "model/character/character.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

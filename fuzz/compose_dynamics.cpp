@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fuzz/raw.h"
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

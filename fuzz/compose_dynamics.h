@@ -5,8 +5,8 @@
 
 #include "fuzz/features.h"
 #include "fuzz/raw.h"
-#include "generator/character/character.h"
-#include "generator/spec.h"
+#include "model/character/character.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/core/math.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/detmath.h"
+#include "model/core/math.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

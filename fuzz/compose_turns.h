@@ -1,8 +1,8 @@
 // Actions that do not get into each other's way.
 #pragma once
 
-#include "generator/character/character.h"
-#include "generator/timeline/clip.h"
+#include "model/character/character.h"
+#include "model/spec/clip.h"
 
 namespace contort {
 

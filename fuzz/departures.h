@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "fuzz/profile.h"
-#include "generator/character/library.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -7,8 +7,8 @@
 
 #include "fuzz/profile.h"
 #include "fuzz/raw.h"
-#include "generator/character/library.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

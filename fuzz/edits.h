@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "generator/spec.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 

@@ -1,6 +1,6 @@
 #include "fuzz/features.h"
 
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

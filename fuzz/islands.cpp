@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

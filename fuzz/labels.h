@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/library.h"
-#include "generator/motion/motion.h"
-#include "generator/spec.h"
 #include "generator/stage.h"
+#include "model/character/library.h"
+#include "model/motion/motion.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

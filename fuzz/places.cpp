@@ -6,7 +6,7 @@
 #include <set>
 
 #include "generator/actions/action.h"
-#include "generator/spec_fields.h"
+#include "model/spec/spec_fields.h"
 
 namespace contort {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/character.h"
-#include "generator/spec.h"
+#include "model/character/character.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

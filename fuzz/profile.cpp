@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "fuzz/profile_files.h"
-#include "generator/core/file_kind.h"
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/nearest.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
+#include "model/core/nearest.h"
 
 namespace contort {
 

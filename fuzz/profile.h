@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/character/library.h"
-#include "generator/core/result.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
 
 namespace contort {
 

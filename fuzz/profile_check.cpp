@@ -5,9 +5,9 @@
 
 #include "fuzz/profile.h"
 #include "generator/actions/action.h"
-#include "generator/core/json_fields.h"
-#include "generator/core/nearest.h"
-#include "generator/spec_fields.h"
+#include "model/core/json_fields.h"
+#include "model/core/nearest.h"
+#include "model/spec/spec_fields.h"
 
 namespace contort {
 

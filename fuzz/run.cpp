@@ -9,7 +9,7 @@
 #include "fuzz/compose.h"
 #include "fuzz/run_state.h"
 #include "fuzz/settling.h"
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

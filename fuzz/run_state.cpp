@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "fuzz/case_fields.h"
-#include "generator/core/inside_folder.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

@@ -13,7 +13,7 @@
 #include "corpus/case.h"
 #include "corpus/isolate.h"
 #include "fuzz/trial.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 

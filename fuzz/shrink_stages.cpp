@@ -9,7 +9,7 @@
 #include "fuzz/edits.h"
 #include "fuzz/places.h"
 #include "fuzz/shrink_state.h"
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

@@ -9,7 +9,7 @@
 #include "checks/evaluate.h"
 #include "corpus/case.h"
 #include "corpus/isolate.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 

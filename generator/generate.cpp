@@ -5,8 +5,8 @@
 #include "generator/actions/hand.h"
 #include "generator/happened.h"
 #include "generator/motion/blend.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/root_blend.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 // each by its own stack of layers (base, ik, additive); docs/timeline.md has the rules of both.
 #pragma once
 
-#include "generator/motion/motion.h"
 #include "generator/stage.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/gltf/read.h"
-#include "generator/mocap/bvh.h"
+#include "formats/gltf/read.h"
+#include "formats/mocap/bvh.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

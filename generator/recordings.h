@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "generator/character/library.h"
-#include "generator/core/result.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
 
 namespace contort {
 

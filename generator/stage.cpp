@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "generator/core/number_text.h"
 #include "generator/motion/recording.h"
+#include "model/core/number_text.h"
 
 namespace contort {
 

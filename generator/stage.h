@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "generator/character/character.h"
 #include "generator/dynamics/simulate.h"
 #include "generator/motion/legs.h"
-#include "generator/spec.h"
 #include "generator/timeline/timeline.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/spec/spec.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

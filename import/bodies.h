@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "generator/character/inertia.h"
 #include "import/figure.h"
+#include "model/character/inertia.h"
 
 namespace contort {
 

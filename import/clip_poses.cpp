@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "generator/asset/sample.h"
-#include "generator/core/index.h"
 #include "import/limits.h"
+#include "model/asset/sample.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -6,11 +6,11 @@
 #include <random>
 
 #include "checks/distance.h"
-#include "generator/core/detmath.h"
-#include "generator/core/index.h"
 #include "generator/motion/joint_clamp.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/recording.h"
+#include "model/core/detmath.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/asset/asset.h"
-#include "generator/character/character.h"
+#include "model/asset/asset.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <set>
 
-#include "generator/core/index.h"
 #include "import/names.h"
 #include "import/parts.h"
 #include "import/roles.h"
+#include "model/core/index.h"
 
 namespace contort {
 

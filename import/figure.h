@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/asset/skinned.h"
-#include "generator/character/desc.h"
-#include "generator/core/math.h"
+#include "model/asset/skinned.h"
+#include "model/character/desc.h"
+#include "model/core/math.h"
 
 namespace contort {
 

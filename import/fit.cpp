@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

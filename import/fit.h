@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "generator/character/inertia.h"
-#include "generator/character/shape.h"
+#include "model/character/inertia.h"
+#include "model/character/shape.h"
 
 namespace contort {
 

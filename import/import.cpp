@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "checks/joint_map.h"
-#include "generator/character/library.h"
-#include "generator/character/skin_desc.h"
 #include "import/names.h"
 #include "import/roles.h"
 #include "import/skeleton.h"
 #include "import/skinning.h"
+#include "model/character/library.h"
+#include "model/character/skin_desc.h"
 
 namespace contort {
 

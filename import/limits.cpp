@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "generator/core/detmath.h"
 #include "import/fit.h"
 #include "import/roles.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <set>
 
-#include "generator/core/index.h"
 #include "import/names.h"
 #include "import/roles.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/core/result.h"
 #include "import/bodies.h"
 #include "import/limits.h"
+#include "model/core/result.h"
 
 namespace contort {
 

@@ -5,10 +5,10 @@
 #include <limits>
 #include <set>
 
-#include "generator/core/index.h"
-#include "generator/core/number_text.h"
 #include "import/names.h"
 #include "import/skinning.h"
+#include "model/core/index.h"
+#include "model/core/number_text.h"
 
 namespace contort {
 

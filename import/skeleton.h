@@ -1,8 +1,8 @@
 // From the file's nodes and skins to a figure's bones.
 #pragma once
 
-#include "generator/core/result.h"
 #include "import/figure.h"
+#include "model/core/result.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/core/index.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -1,8 +1,8 @@
 // Arrows, as triangles.
 #pragma once
 
-#include "generator/character/shape.h"
-#include "generator/core/math.h"
+#include "model/character/shape.h"
+#include "model/core/math.h"
 
 namespace contort {
 

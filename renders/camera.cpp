@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "checks/evaluate.h"
-#include "generator/core/base64.h"
-#include "generator/gltf/write.h"
+#include "formats/gltf/write.h"
+#include "model/core/base64.h"
 #include "renders/gzip.h"
 #include "renders/highlight.h"
 #include "renders/needs.h"

@@ -7,8 +7,8 @@
 
 #include "checks/settings.h"
 #include "corpus/case.h"
-#include "generator/character/library.h"
-#include "generator/core/result.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
 
 namespace contort {
 

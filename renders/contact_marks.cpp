@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/index.h"
+#include "model/core/index.h"
 
 namespace contort {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "checks/nearest_points.h"
-#include "generator/character/character.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/world/environment.h"
 #include "renders/draw_list.h"
 
 namespace contort {

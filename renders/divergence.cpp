@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "checks/solid_points.h"
-#include "generator/core/index.h"
-#include "generator/core/json_fields.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/core/json_fields.h"
+#include "model/motion/kinematics.h"
 #include "renders/wording.h"
 
 namespace contort {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/character.h"
-#include "generator/core/result.h"
-#include "generator/motion/motion.h"
+#include "model/character/character.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

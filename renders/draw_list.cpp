@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "checks/distance.h"
-#include "generator/core/index.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "renders/wires.h"
 
 namespace contort {

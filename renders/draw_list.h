@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "generator/character/character.h"
-#include "generator/core/math.h"
+#include "model/character/character.h"
+#include "model/core/math.h"
 #include "renders/highlight.h"
 
 namespace contort {

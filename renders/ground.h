@@ -1,8 +1,8 @@
 // The ground's shape as triangles. A pure function of the environment and a region.
 #pragma once
 
-#include "generator/character/shape.h"
-#include "generator/world/environment.h"
+#include "model/character/shape.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "generator/core/index.h"
+#include "model/core/index.h"
 
 namespace contort {
 namespace {

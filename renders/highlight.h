@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "checks/fold.h"
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

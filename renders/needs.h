@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/spec.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "generator/character/stock_files.h"
+#include "model/character/stock_files.h"
 
 namespace contort {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/core/index.h"
+#include "model/core/detmath.h"
+#include "model/core/index.h"
 #include "renders/response_marks.h"
 
 namespace contort {

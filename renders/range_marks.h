@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/character/character.h"
+#include "model/character/character.h"
 #include "renders/draw_list.h"
 
 namespace contort {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "generator/core/files.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 #include "renders/report_rest.h"
 #include "renders/tested_html.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "corpus/search_progress.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <span>
 
-#include "generator/core/base64.h"
+#include "model/core/base64.h"
 #include "renders/html.h"
 #include "renders/wording.h"
 

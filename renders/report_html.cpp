@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 #include "renders/html.h"
 #include "renders/page_files.h"
 #include "renders/report.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/json_fields.h"
 #include "renders/html.h"
 #include "renders/wording.h"
 

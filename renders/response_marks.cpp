@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/dynamics.h"
 #include "generator/dynamics/ground.h"
+#include "model/core/index.h"
 #include "renders/arrow.h"
 
 namespace contort {

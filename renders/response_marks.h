@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "generator/dynamics/dynamics_desc.h"
 #include "generator/dynamics/figure.h"
-#include "generator/motion/motion.h"
+#include "model/motion/motion.h"
+#include "model/spec/dynamics_desc.h"
 #include "renders/draw_list.h"
 
 namespace contort {

@@ -2,7 +2,7 @@
 #include <map>
 
 #include "checks/check.h"
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 #include "renders/ci_outputs.h"
 #include "renders/html.h"
 #include "renders/wording.h"

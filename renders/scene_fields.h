@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "checks/evaluate.h"
-#include "generator/core/json_fields.h"
 #include "generator/stage.h"
+#include "model/core/json_fields.h"
 #include "renders/highlight.h"
 
 namespace contort::scene {

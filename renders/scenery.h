@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/world/environment.h"
+#include "model/world/environment.h"
 #include "renders/camera.h"
 #include "renders/draw_list.h"
 #include "renders/ground.h"

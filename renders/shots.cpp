@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "generator/core/index.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "renders/contact_marks.h"
 #include "renders/range_marks.h"
 #include "renders/response_marks.h"

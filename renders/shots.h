@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "checks/fold.h"
-#include "generator/dynamics/dynamics_desc.h"
-#include "generator/motion/motion.h"
-#include "generator/world/environment.h"
+#include "model/motion/motion.h"
+#include "model/spec/dynamics_desc.h"
+#include "model/world/environment.h"
 #include "renders/camera.h"
 #include "renders/draw_list.h"
 #include "renders/skin.h"

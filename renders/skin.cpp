@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
-#include "generator/core/index.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "renders/draw_list.h"
 
 namespace contort {

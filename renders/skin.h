@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "generator/asset/skinned.h"
-#include "generator/character/character.h"
-#include "generator/character/skin_desc.h"
-#include "generator/core/result.h"
+#include "model/asset/skinned.h"
+#include "model/character/character.h"
+#include "model/character/skin_desc.h"
+#include "model/core/result.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/core/json_fields.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
 #include "renders/page_call.h"
 
 namespace contort {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "renders/camera.h"
 
 namespace contort {

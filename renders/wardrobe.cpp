@@ -1,12 +1,12 @@
 #include <filesystem>
 #include <map>
 
-#include "generator/core/file_kind.h"
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
-#include "generator/core/inside_folder.h"
-#include "generator/core/json_fields.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
+#include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 #include "renders/skin.h"
 
 namespace contort {

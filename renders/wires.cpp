@@ -1,7 +1,7 @@
 #include "renders/wires.h"
 
-#include "generator/character/polyhedron.h"
-#include "generator/core/detmath.h"
+#include "model/character/polyhedron.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 namespace {

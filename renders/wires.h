@@ -1,7 +1,7 @@
 // Shapes as the wires that show their form and hide little.
 #pragma once
 
-#include "generator/character/shape.h"
+#include "model/character/shape.h"
 
 namespace contort {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <exception>
 
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
 #include "server/routes.h"
 
 namespace contort::server {

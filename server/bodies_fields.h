@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/spec_fields.h"
-#include "generator/world/environment_fields.h"
+#include "model/spec/spec_fields.h"
+#include "model/world/environment_fields.h"
 
 namespace contort::json_fields {
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "corpus/worker_pool.h"
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::server {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::server {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::server {
 

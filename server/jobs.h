@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "server/played.h"
 
 namespace contort::server {

@@ -1,7 +1,7 @@
 // The OpenAPI document, from the table of calls.
 #include <sstream>
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 #include "server/routes.h"
 
 namespace contort::server {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/core/math.h"
-#include "generator/motion/motion.h"
+#include "model/core/math.h"
+#include "model/motion/motion.h"
 #include "server/work.h"
 
 namespace contort::server {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::server {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 
 namespace contort::server {
 

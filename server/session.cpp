@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace contort::server {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/dynamics/dynamics_desc.h"
+#include "model/spec/dynamics_desc.h"
 #include "server/engine.h"
 #include "server/played.h"
 #include "server/take.h"

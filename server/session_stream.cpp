@@ -1,7 +1,7 @@
 // What a session's streams send.
 #include <algorithm>
 
-#include "generator/core/base64.h"
+#include "model/core/base64.h"
 #include "server/session.h"
 
 namespace contort::server {

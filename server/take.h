@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "generator/core/result.h"
-#include "generator/motion/motion.h"
-#include "generator/spec.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
+#include "model/spec/spec.h"
 
 namespace contort::server {
 

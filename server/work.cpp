@@ -5,12 +5,12 @@
 #include <cstring>
 
 #include "corpus/case.h"
-#include "generator/core/base64.h"
-#include "generator/core/hash.h"
-#include "generator/core/index.h"
-#include "generator/gltf/write.h"
-#include "generator/motion/kinematics.h"
-#include "generator/spec_fields.h"
+#include "formats/gltf/write.h"
+#include "model/core/base64.h"
+#include "model/core/hash.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+#include "model/spec/spec_fields.h"
 #include "renders/scene_fields.h"
 
 namespace contort::server {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "generator/spec.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 

@@ -201,7 +201,7 @@ def check_patches():
     bad = []
     for mutant in map(Mutant, sorted(HERE.glob("*.patch"))):
         files = [line[6:] for line in mutant.path.read_text().split("\n") if line.startswith("+++ b/")]
-        if not mutant.about or mutant.about.startswith("---") or not all(f.startswith("generator/") for f in files):
+        if not mutant.about or mutant.about.startswith("---") or not all(f.startswith(("generator/", "model/", "formats/")) for f in files):
             bad.append(f"{mutant.name}: no first line, or not of the generator")
         if not (PROFILES / f"{mutant.profile}.json").exists():
             bad.append(f"{mutant.name}: its first line ends with no profile of bench/mutants/profiles")

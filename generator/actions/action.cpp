@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/core/nearest.h"
-#include "generator/core/number_text.h"
+#include "model/core/nearest.h"
+#include "model/core/number_text.h"
 
 namespace contort {
 

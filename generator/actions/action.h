@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/actions/action_use.h"
 #include "generator/actions/key_poses.h"
-#include "generator/character/character.h"
-#include "generator/core/result.h"
 #include "generator/motion/aim_ik.h"
 #include "generator/motion/gait.h"
-#include "generator/motion/motion.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
+#include "model/spec/action_use.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "generator/actions/hand.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

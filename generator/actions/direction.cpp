@@ -1,7 +1,7 @@
 // direction: the part faces a direction, given as azimuth and elevation in the character's frame.
 #include "generator/actions/action.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/ik.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "generator/motion/ik.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 // blow and the vertical, as far as its own axes allow.
 #include "generator/actions/action.h"
 #include "generator/actions/pulse.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/turn.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

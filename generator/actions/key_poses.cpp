@@ -4,7 +4,7 @@
 #include <array>
 
 #include "generator/actions/action.h"
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

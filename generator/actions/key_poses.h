@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "generator/actions/action.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/foot_roll.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

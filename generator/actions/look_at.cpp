@@ -1,7 +1,7 @@
 // look_at: the part keeps facing a point while the character moves.
 #include "generator/actions/action.h"
 #include "generator/motion/ik.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

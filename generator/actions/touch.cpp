@@ -1,7 +1,7 @@
 // touch: the hand lightly touches the nearest obstacle while something else goes on. Where none is near enough, the arm
 // does what it did.
 #include "generator/actions/hand.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -1,7 +1,7 @@
 // weapon_hold: a second hand on an attached object. The wrist straightens, and the arm keeps the grip on a point of the
 // object while whatever carries the object moves it.
 #include "generator/actions/hand.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
+#include "model/core/detmath.h"
+#include "model/core/index.h"
 
 namespace contort {
 

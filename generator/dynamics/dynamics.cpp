@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "generator/core/detmath.h"
-#include "generator/core/index.h"
 #include "generator/dynamics/recursions.h"
+#include "model/core/detmath.h"
+#include "model/core/index.h"
 
 namespace contort {
 

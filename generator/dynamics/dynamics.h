@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "generator/core/detmath.h"
 #include "generator/dynamics/multibody.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/index.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

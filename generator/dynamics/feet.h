@@ -7,8 +7,8 @@
 
 #include "generator/dynamics/figure.h"
 #include "generator/dynamics/support.h"
-#include "generator/motion/motion.h"
-#include "generator/world/environment.h"
+#include "model/motion/motion.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/control.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/tracking.h"
+#include "model/core/index.h"
 
 namespace contort {
 

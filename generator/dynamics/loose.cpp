@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
+#include "model/core/index.h"
 
 namespace contort {
 

@@ -10,7 +10,7 @@
 
 #include "generator/dynamics/dynamics.h"
 #include "generator/dynamics/figure.h"
-#include "generator/world/environment.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

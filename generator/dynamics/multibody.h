@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "generator/character/character.h"
 #include "generator/dynamics/spatial.h"
+#include "model/character/character.h"
 
 namespace contort {
 

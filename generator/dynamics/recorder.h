@@ -4,7 +4,7 @@
 #include <span>
 
 #include "generator/dynamics/ground.h"
-#include "generator/motion/motion.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/linear.h"
+#include "model/core/index.h"
 
 namespace contort {
 

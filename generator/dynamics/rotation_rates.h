@@ -3,7 +3,7 @@
 // robotics", 2018, equations 143 and 144).
 #pragma once
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/closed_chain.h"
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/racing.h"
 #include "generator/dynamics/strength.h"
+#include "model/core/index.h"
 
 namespace contort {
 

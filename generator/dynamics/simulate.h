@@ -5,14 +5,14 @@
 #include <functional>
 
 #include "generator/dynamics/control.h"
-#include "generator/dynamics/dynamics_desc.h"
 #include "generator/dynamics/feet.h"
 #include "generator/dynamics/impact.h"
 #include "generator/dynamics/loose.h"
 #include "generator/dynamics/recorder.h"
 #include "generator/dynamics/target.h"
 #include "generator/dynamics/tracker.h"
-#include "generator/world/environment.h"
+#include "model/spec/dynamics_desc.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

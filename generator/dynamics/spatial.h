@@ -2,7 +2,7 @@
 // Body Dynamics Algorithms", 2008, chapter 2. The angular part comes first.
 #pragma once
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 

@@ -6,7 +6,7 @@
 
 #include "generator/dynamics/multibody.h"
 #include "generator/dynamics/tracking.h"
-#include "generator/motion/motion.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "generator/core/assert.h"
-#include "generator/core/hash.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/assert.h"
+#include "model/core/hash.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

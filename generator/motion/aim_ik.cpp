@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 
-#include "generator/core/assert.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/joint_clamp.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/assert.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

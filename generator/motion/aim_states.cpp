@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
 #include "generator/motion/joint_clamp.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

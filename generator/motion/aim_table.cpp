@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "generator/core/assert.h"
-#include "generator/core/detmath.h"
-#include "generator/core/hash.h"
 #include "generator/motion/joint_clamp.h"
+#include "model/core/assert.h"
+#include "model/core/detmath.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

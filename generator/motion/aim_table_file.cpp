@@ -3,9 +3,9 @@
 #include <bit>
 #include <vector>
 
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
 #include "generator/motion/joint_clamp.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
 
 namespace contort {
 

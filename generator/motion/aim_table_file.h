@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "generator/core/result.h"
 #include "generator/motion/aim_table.h"
+#include "model/core/result.h"
 
 namespace contort {
 

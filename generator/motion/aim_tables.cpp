@@ -1,8 +1,8 @@
 #include "generator/motion/aim_tables.h"
 
-#include "generator/core/hash.h"
-#include "generator/core/inside_folder.h"
 #include "generator/motion/aim_table_file.h"
+#include "model/core/hash.h"
+#include "model/core/inside_folder.h"
 
 namespace contort {
 

@@ -2,8 +2,8 @@
 // root's place linearly. The root belongs to the first part.
 #pragma once
 
-#include "generator/character/character.h"
-#include "generator/motion/motion.h"
+#include "model/character/character.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/motion/legs.h"
-#include "generator/world/environment.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
 #include "generator/motion/foot_roll.h"
 #include "generator/motion/foothold.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -8,7 +8,7 @@
 
 #include "generator/motion/foothold.h"
 #include "generator/motion/legs.h"
-#include "generator/world/environment.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 namespace contort {
 

@@ -2,7 +2,7 @@
 // not promise it do not clamp (docs/architecture.md); the check that judges ranges has its own arithmetic.
 #pragma once
 
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 namespace contort {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "generator/character/character.h"
-#include "generator/motion/motion.h"
+#include "model/character/character.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/asset/sample.h"
-#include "generator/core/detmath.h"
-#include "generator/core/index.h"
 #include "generator/motion/ik.h"
-#include "generator/motion/kinematics.h"
+#include "model/asset/sample.h"
+#include "model/core/detmath.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 

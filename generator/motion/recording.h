@@ -13,9 +13,9 @@
 #include <map>
 #include <string>
 
-#include "generator/asset/asset.h"
-#include "generator/core/result.h"
-#include "generator/motion/motion.h"
+#include "model/asset/asset.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

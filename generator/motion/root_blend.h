@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "generator/character/character.h"
 #include "generator/motion/legs.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/world/environment.h"
 
 namespace contort {
 

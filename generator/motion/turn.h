@@ -1,8 +1,8 @@
 // Turning one joint about an axis in the world, as far as its own axes allow.
 #pragma once
 
-#include "generator/character/character.h"
-#include "generator/motion/motion.h"
+#include "model/character/character.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/motion/motion.h"
-#include "generator/timeline/clip.h"
+#include "model/motion/motion.h"
+#include "model/spec/clip.h"
 
 namespace contort {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "generator/actions/hand.h"
-#include "generator/core/nearest.h"
 #include "generator/motion/aim_tables.h"
+#include "model/core/nearest.h"
 
 namespace contort {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "generator/actions/action.h"
-#include "generator/character/character.h"
-#include "generator/core/result.h"
-#include "generator/timeline/clip.h"
 #include "generator/timeline/queue.h"
+#include "model/character/character.h"
+#include "model/core/result.h"
+#include "model/spec/clip.h"
 
 namespace contort {
 

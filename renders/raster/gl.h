@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "renders/raster/gl_backend.h"
 
 namespace contort {

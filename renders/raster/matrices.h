@@ -3,7 +3,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 #include "renders/camera.h"
 
 namespace contort {

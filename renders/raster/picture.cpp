@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/core/assert.h"
+#include "model/core/assert.h"
 #include "renders/wording.h"
 
 namespace contort {

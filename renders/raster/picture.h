@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "renders/image.h"
 
 namespace contort {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/shape.h"
-#include "generator/core/result.h"
+#include "model/character/shape.h"
+#include "model/core/result.h"
 #include "renders/camera.h"
 #include "renders/draw_list.h"
 #include "renders/image.h"

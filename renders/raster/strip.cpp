@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "generator/core/output.h"
+#include "model/core/output.h"
 #include "renders/frames.h"
 #include "renders/raster/auto_camera.h"
 #include "renders/raster/picture.h"

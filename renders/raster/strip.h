@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "checks/fold.h"
-#include "generator/character/character.h"
-#include "generator/core/result.h"
-#include "generator/dynamics/dynamics_desc.h"
-#include "generator/motion/motion.h"
-#include "generator/world/environment.h"
+#include "model/character/character.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
+#include "model/spec/dynamics_desc.h"
+#include "model/world/environment.h"
 #include "renders/image.h"
 #include "renders/raster/gl_backend.h"
 #include "renders/shots.h"

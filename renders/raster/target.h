@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "renders/image.h"
 #include "renders/raster/gl.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "generator/core/result.h"
+#include "model/core/result.h"
 #include "renders/image.h"
 
 namespace contort {

@@ -1,4 +1,4 @@
-#include "generator/asset/sample.h"
+#include "model/asset/sample.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

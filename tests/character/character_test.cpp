@@ -1,5 +1,5 @@
 // Assembly: refusals, bodies, pairs, fixed masses, mirrored sides, the hash.
-#include "generator/character/character.h"
+#include "model/character/character.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "generator/character/inertia.h"
-#include "generator/motion/kinematics.h"
+#include "model/character/inertia.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 #include "tests/core/random_space.h"
 

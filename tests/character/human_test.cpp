@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
 namespace contort {

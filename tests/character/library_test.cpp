@@ -1,14 +1,14 @@
 // Descriptions as files: the stock ones, and those of a user's folder.
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "generator/character/part_rules.h"
-#include "generator/character/stock_files.h"
-#include "generator/core/files.h"
+#include "model/character/part_rules.h"
+#include "model/character/stock_files.h"
+#include "model/core/files.h"
 #include "tests/character/stock.h"
 
 namespace contort {

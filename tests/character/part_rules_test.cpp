@@ -1,5 +1,5 @@
 // A small good part and a small good object, then one broken copy for each rule.
-#include "generator/character/part_rules.h"
+#include "model/character/part_rules.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "generator/character/polyhedron.h"
+#include "model/character/polyhedron.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "generator/character/shape.h"
-#include "generator/core/math.h"
+#include "model/character/shape.h"
+#include "model/core/math.h"
 #include "tests/checks/solids.h"
 
 namespace contort {

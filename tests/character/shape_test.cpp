@@ -1,5 +1,5 @@
 // What is drawn is closed, faces outward and fills what collides.
-#include "generator/character/shape.h"
+#include "model/character/shape.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "generator/character/polyhedron.h"
+#include "model/character/polyhedron.h"
 #include "tests/core/random_space.h"
 
 namespace contort {

@@ -5,7 +5,7 @@
 
 #include "checks/distance.h"
 #include "checks/evaluate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
 namespace contort::fixtures {

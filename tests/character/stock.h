@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/character.h"
-#include "generator/core/math.h"
+#include "model/character/character.h"
+#include "model/core/math.h"
 
 namespace contort::fixtures {
 

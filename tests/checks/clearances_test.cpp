@@ -6,7 +6,7 @@
 
 #include "fuzz/draw.h"
 #include "generator/generate.h"
-#include "generator/motion/place_frames.h"
+#include "model/motion/place_frames.h"
 #include "tests/checks/small_character.h"
 #include "tests/checks/solids.h"
 

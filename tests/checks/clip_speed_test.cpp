@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 
 namespace contort {
 

@@ -5,7 +5,7 @@
 
 #include "checks/check.h"
 #include "checks/evaluate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 
 namespace contort {

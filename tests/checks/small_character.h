@@ -10,8 +10,8 @@
 
 #include "checks/check.h"
 #include "checks/evaluate.h"
-#include "generator/character/library.h"
-#include "generator/motion/kinematics.h"
+#include "model/character/library.h"
+#include "model/motion/kinematics.h"
 
 namespace contort::small {
 

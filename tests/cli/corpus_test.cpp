@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/lifecycle.h"
-#include "generator/core/files.h"
+#include "model/core/files.h"
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_corpus.h"
 

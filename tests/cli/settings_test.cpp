@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "generator/spec.h"
+#include "model/spec/spec.h"
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_cases.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "generator/character/library.h"
+#include "model/character/library.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/temp_folder.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "generator/core/descriptor.h"
+#include "model/core/descriptor.h"
 #include "tests/cli/program.h"
 #include "tests/corpus/sample_corpus.h"
 

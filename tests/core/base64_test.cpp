@@ -1,4 +1,4 @@
-#include "generator/core/base64.h"
+#include "model/core/base64.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The bounds that detmath.h states, against long double (64 bits of mantissa: its own error is 1000 times smaller).
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,11 +1,11 @@
-#include "generator/core/file_kind.h"
+#include "model/core/file_kind.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <thread>
 
-#include "generator/core/descriptor.h"
+#include "model/core/descriptor.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort {

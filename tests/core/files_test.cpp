@@ -1,4 +1,4 @@
-#include "generator/core/files.h"
+#include "model/core/files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "generator/core/descriptor.h"
+#include "model/core/descriptor.h"
 
 namespace contort {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

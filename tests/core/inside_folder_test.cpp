@@ -1,11 +1,11 @@
 // Names and links that lead out of a folder are refused, and nothing outside is read or written.
-#include "generator/core/inside_folder.h"
+#include "model/core/inside_folder.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "generator/character/library.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 namespace {

@@ -1,11 +1,11 @@
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 #include "tests/core/random_space.h"
 
 namespace contort {

@@ -1,4 +1,4 @@
-#include "generator/core/nearest.h"
+#include "model/core/nearest.h"
 
 #include <gtest/gtest.h>
 

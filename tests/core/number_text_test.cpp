@@ -1,4 +1,4 @@
-#include "generator/core/number_text.h"
+#include "model/core/number_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Files that a user names to be written: what is there is neither destroyed nor replaced by something else.
-#include "generator/core/output.h"
+#include "model/core/output.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-#include "generator/core/descriptor.h"
+#include "model/core/descriptor.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort {

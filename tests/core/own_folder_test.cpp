@@ -1,4 +1,4 @@
-#include "generator/core/own_folder.h"
+#include "model/core/own_folder.h"
 
 #include <gtest/gtest.h>
 

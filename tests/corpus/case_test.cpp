@@ -10,7 +10,7 @@
 #include "checks/circumstances.h"
 #include "corpus/isolate.h"
 #include "fuzz/draw.h"
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 #include "tests/corpus/sample_cases.h"
 
 namespace contort {

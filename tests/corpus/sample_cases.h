@@ -10,7 +10,7 @@
 
 #include "corpus/case.h"
 #include "corpus/corpus.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 

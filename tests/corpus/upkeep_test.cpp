@@ -12,7 +12,7 @@
 #include "corpus/fsck.h"
 #include "corpus/lifecycle.h"
 #include "corpus/lock.h"
-#include "generator/core/files.h"
+#include "model/core/files.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {

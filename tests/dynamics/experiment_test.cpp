@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "generator/core/files.h"
 #include "generator/generate.h"
+#include "model/core/files.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "generator/character/library.h"
+#include "model/character/library.h"
 #include "tests/character/stock.h"
 #include "tests/dynamics/states.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "generator/core/detmath.h"
+#include "model/core/detmath.h"
 #include "tests/character/stock.h"
 
 namespace contort {

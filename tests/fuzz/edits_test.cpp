@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "fuzz/draw.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 #include "tests/corpus/sample_cases.h"
 
 namespace contort {

@@ -13,7 +13,7 @@
 #include "corpus/runs.h"
 #include "fuzz/departures.h"
 #include "fuzz/run_state.h"
-#include "generator/core/files.h"
+#include "model/core/files.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
 

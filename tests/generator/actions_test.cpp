@@ -5,7 +5,7 @@
 
 #include "checks/evaluate.h"
 #include "generator/generate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <set>
 
-#include "generator/core/files.h"
 #include "generator/generate.h"
+#include "model/core/files.h"
 
 namespace contort {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "fuzz/draw.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 #include "tests/core/random_space.h"
 

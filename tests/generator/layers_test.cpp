@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "generator/generate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

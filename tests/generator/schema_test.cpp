@@ -9,10 +9,10 @@
 #include "corpus/bucket.h"
 #include "corpus/case.h"
 #include "fuzz/profile.h"
-#include "generator/character/library.h"
-#include "generator/character/skin_desc.h"
-#include "generator/core/files.h"
-#include "generator/spec.h"
+#include "model/character/library.h"
+#include "model/character/skin_desc.h"
+#include "model/core/files.h"
+#include "model/spec/spec.h"
 
 namespace contort {
 namespace {

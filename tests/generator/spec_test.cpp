@@ -1,5 +1,5 @@
 // The JSON form of a spec: round trips, canonical text, identity.
-#include "generator/spec.h"
+#include "model/spec/spec.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "fuzz/draw.h"
-#include "generator/character/library.h"
 #include "generator/stage.h"
+#include "model/character/library.h"
 #include "tests/core/random_space.h"
 #include "tests/generator/scenes_of_one.h"
 

@@ -6,7 +6,7 @@
 
 #include "fuzz/draw.h"
 #include "generator/generate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

@@ -10,8 +10,8 @@
 #include <map>
 #include <sstream>
 
-#include "generator/asset/sample.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
+#include "model/asset/sample.h"
 
 namespace contort {
 namespace {

@@ -1,5 +1,5 @@
 // Which files a glTF file may make us open.
-#include "generator/gltf/buffers.h"
+#include "formats/gltf/buffers.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort {

@@ -1,9 +1,9 @@
-#include "generator/gltf/container.h"
+#include "formats/gltf/container.h"
 
 #include <gtest/gtest.h>
 
-#include "generator/gltf/limits.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/limits.h"
+#include "formats/gltf/read.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 
-#include "generator/gltf/limits.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/limits.h"
+#include "formats/gltf/read.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort {

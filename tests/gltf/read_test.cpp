@@ -1,4 +1,4 @@
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "generator/asset/labels.h"
-#include "generator/gltf/from_model.h"
+#include "formats/gltf/from_model.h"
+#include "model/asset/labels.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort {

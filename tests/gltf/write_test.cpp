@@ -1,4 +1,4 @@
-#include "generator/gltf/write.h"
+#include "formats/gltf/write.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <set>
 
-#include "generator/asset/sample.h"
-#include "generator/core/detmath.h"
-#include "generator/gltf/read.h"
-#include "generator/motion/kinematics.h"
+#include "formats/gltf/read.h"
+#include "model/asset/sample.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort {

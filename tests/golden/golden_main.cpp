@@ -9,9 +9,9 @@
 #include "checks/round_distances.h"
 #include "fuzz/draw.h"
 #include "fuzz/parallel.h"
-#include "generator/core/detmath.h"
-#include "generator/core/hash.h"
 #include "generator/dynamics/recursions.h"
+#include "model/core/detmath.h"
+#include "model/core/hash.h"
 #include "tests/dynamics/states.h"
 #include "tests/scenes.h"
 

@@ -71,10 +71,11 @@ constexpr std::array<std::string_view, 6> kClockFiles = {"corpus/clock.cpp",   "
                                                          "fuzz/run.cpp",       "fuzz/trial.cpp"};
 
 Scope scope_of(std::string_view path) {
-  constexpr std::array<std::string_view, 4> kFolders = {"generator/", "checks/", "corpus/", "fuzz/"};
+  constexpr std::array<std::string_view, 6> kFolders = {"model/",  "formats/", "generator/",
+                                                        "checks/", "corpus/",  "fuzz/"};
   if (std::ranges::none_of(kFolders, [&](std::string_view folder) { return path.starts_with(folder); })) return {};
   const bool clock = std::ranges::find(kClockFiles, path) != kClockFiles.end();
-  return {.maths = !path.starts_with("generator/core/detmath."), .chance = true, .clock = !clock, .order = true};
+  return {.maths = !path.starts_with("model/core/detmath."), .chance = true, .clock = !clock, .order = true};
 }
 
 // One identifier of the code and what stands around it.
@@ -134,7 +135,7 @@ std::string refusal(const Use& use, const Scope& scope) {
     if (kPlatformMaths.contains(plain) && (platform || bare_call))
       return "its bits change with the CPU; use det::" + plain;
     if (kGlmMaths.contains(use.name) && (use.qualifier == "glm" || bare_call)) {
-      return "glm's uses platform maths, and arguments find it; see generator/core/math.h, or choose another name";
+      return "glm's uses platform maths, and arguments find it; see model/core/math.h, or choose another name";
     }
     if (kGlmOther.contains(use.name) && use.qualifier == "glm") return "glm's uses platform maths";
   }
@@ -193,7 +194,7 @@ struct Example {
 TEST(Determinism, RefusesPlantedViolations) {
   constexpr Example kBad[] = {
       {"generator/actions/walk.cpp", "y = std::sin(t);"},
-      {"generator/core/math.cpp", "y = std::sin(t);"},
+      {"model/core/math.cpp", "y = std::sin(t);"},
       {"generator/actions/walk.cpp", "y = sin(t);"},
       {"generator/actions/walk.cpp", "return cos (t);"},
       {"generator/actions/walk.cpp", "return ::cosf(t);"},
@@ -216,8 +217,8 @@ TEST(Determinism, RefusesPlantedViolations) {
       {"checks/joint_range.cpp", "y = acos(x);"},
       {"fuzz/mutate.cpp", "y = std::pow(2.0, x);"},
       {"corpus/bucket.cpp", "y = std::log2(x);"},
-      {"generator/core/random.h", "std::mt19937 engine;"},
-      {"generator/core/random.h", "#include <random>\n"},
+      {"model/core/random.h", "std::mt19937 engine;"},
+      {"model/core/random.h", "#include <random>\n"},
       {"fuzz/draw.cpp", "std::uniform_int_distribution<int> d;"},
       {"fuzz/draw.cpp", "int i = rand();"},
       {"fuzz/draw.cpp", "std::srand(1);"},
@@ -228,7 +229,7 @@ TEST(Determinism, RefusesPlantedViolations) {
       {"corpus/store.cpp", "auto t = std::time(nullptr);"},
       {"corpus/store.cpp", "auto t = ::time(nullptr);"},
       {"corpus/store.cpp", "clock_gettime(CLOCK_REALTIME, &t);"},
-      {"generator/core/hash.cpp", "std::unordered_map<int, int> m;"},
+      {"model/core/hash.cpp", "std::unordered_map<int, int> m;"},
       {"fuzz/run.cpp", "#include <unordered_set>\n"},
       {"corpus/store.cpp", "h = std::hash<std::string>{}(s);"},
   };
@@ -246,7 +247,7 @@ TEST(Determinism, AllowsWhatIsRight) {
       {"generator/actions/walk.cpp", "single(x); cosine(x); log_line(x); my_exp(x); Foo::log(x);"},
       {"generator/actions/walk.cpp",
        "v = glm::normalize(glm::cross(a, b)); q = glm::conjugate(q); m = glm::mat3_cast(q);"},
-      {"generator/core/detmath.cpp", "double sin(double x) { return sincos(x).sin; }"},
+      {"model/core/detmath.cpp", "double sin(double x) { return sincos(x).sin; }"},
       {"corpus/clock.cpp", "const auto start = std::chrono::steady_clock::now();"},
       {"renders/camera.cpp", "y = std::tan(x);"},
       {"cli/fuzz.cpp", "#include <chrono>\nstd::unordered_map<int, int> m;"},

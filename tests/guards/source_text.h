@@ -14,7 +14,7 @@
 namespace contort::guards {
 
 struct SourceFile {
-  std::string path;  // from the project's root, "generator/core/math.h"
+  std::string path;  // from the project's root, "model/core/math.h"
   std::string text;
 };
 
@@ -124,7 +124,7 @@ inline std::string code_of(std::string_view text) { return CodeOf(text).take(); 
 struct Include {
   int line = 0;
   char open = 0;     // '"', '<', or 0 for a macro
-  std::string name;  // "generator/core/math.h", "vector"
+  std::string name;  // "model/core/math.h", "vector"
 };
 
 inline std::vector<Include> includes_of(std::string_view text) {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "checks/evaluate.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 #include "generator/motion/recording.h"
 #include "import/import.h"
 

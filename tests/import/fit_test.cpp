@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "generator/core/math.h"
+#include "model/core/math.h"
 
 namespace contort {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "checks/evaluate.h"
 #include "generator/actions/action.h"
-#include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "model/motion/kinematics.h"
 #include "tests/import/rigged_model.h"
 
 namespace contort {

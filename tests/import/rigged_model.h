@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "generator/core/math.h"
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 #include "import/import.h"
+#include "model/core/math.h"
 #include "tests/gltf/glb_builder.h"
 
 namespace contort::fixtures {

@@ -6,8 +6,8 @@
 #include "checks/circumstances.h"
 #include "checks/clip_speed.h"
 #include "checks/evaluate.h"
-#include "generator/asset/sample.h"
 #include "generator/motion/recording.h"
+#include "model/asset/sample.h"
 #include "tests/libfuzzer/targets.h"
 
 namespace contort::hostile {

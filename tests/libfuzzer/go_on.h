@@ -1,10 +1,10 @@
 // What follows once an input was read, in bounded work: what `check`, `replay` and `generate` would do with it.
 #pragma once
 
-#include "generator/asset/asset.h"
-#include "generator/character/library.h"
-#include "generator/core/result.h"
-#include "generator/spec.h"
+#include "model/asset/asset.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
+#include "model/spec/spec.h"
 
 namespace contort::hostile {
 

@@ -1,17 +1,17 @@
 // Inputs that want time or memory: as large as is allowed, and one larger. Small files that would cost minutes.
-#include "generator/gltf/limits.h"
+#include "formats/gltf/limits.h"
 
 #include <gtest/gtest.h>
 
 #include <ctime>
 #include <filesystem>
 
-#include "generator/character/assembly.h"
-#include "generator/gltf/read.h"
-#include "generator/mocap/amc.h"
-#include "generator/mocap/bvh.h"
-#include "generator/mocap/limits.h"
+#include "formats/gltf/read.h"
+#include "formats/mocap/amc.h"
+#include "formats/mocap/bvh.h"
+#include "formats/mocap/limits.h"
 #include "generator/stage.h"
+#include "model/character/assembly.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/gltf/glb_builder.h"
 

@@ -9,7 +9,7 @@
 
 #include "checks/joint_map.h"
 #include "corpus/case.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/gltf/glb_builder.h"
 #include "tests/mocap/asf_text.h"

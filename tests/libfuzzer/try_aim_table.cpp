@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "generator/core/hash.h"
 #include "generator/motion/aim_table_file.h"
+#include "model/core/hash.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"
 

@@ -1,5 +1,5 @@
 #include "checks/dof_limits.h"
-#include "generator/mocap/amc.h"
+#include "formats/mocap/amc.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"
 

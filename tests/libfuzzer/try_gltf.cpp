@@ -1,4 +1,4 @@
-#include "generator/gltf/read.h"
+#include "formats/gltf/read.h"
 #include "tests/gltf/glb_builder.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"

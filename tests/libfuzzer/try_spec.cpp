@@ -1,4 +1,4 @@
-#include "generator/mocap/bvh.h"
+#include "formats/mocap/bvh.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"
 #include "tests/mocap/bvh_text.h"

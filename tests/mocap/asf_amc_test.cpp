@@ -5,8 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "generator/asset/sample.h"
-#include "generator/mocap/amc.h"
+#include "formats/mocap/amc.h"
+#include "model/asset/sample.h"
 #include "tests/mocap/asf_text.h"
 #include "tests/mocap/bvh_text.h"
 

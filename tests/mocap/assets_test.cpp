@@ -8,8 +8,8 @@
 
 #include "checks/clip_speed.h"
 #include "checks/dof_limits.h"
-#include "generator/asset/sample.h"
-#include "generator/mocap/bvh.h"
+#include "formats/mocap/bvh.h"
+#include "model/asset/sample.h"
 
 namespace contort {
 namespace {

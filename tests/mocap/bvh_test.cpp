@@ -1,5 +1,5 @@
 // BVH: what is read, in texts made by hand and at random.
-#include "generator/mocap/bvh.h"
+#include "formats/mocap/bvh.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <array>
 #include <clocale>
 
-#include "generator/asset/sample.h"
+#include "model/asset/sample.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/mocap/bvh_text.h"
 

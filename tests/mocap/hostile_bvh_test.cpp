@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "generator/mocap/bvh.h"
-#include "generator/mocap/limits.h"
+#include "formats/mocap/bvh.h"
+#include "formats/mocap/limits.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/mocap/bvh_text.h"
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "generator/core/hash.h"
 #include "generator/motion/aim_table_file.h"
+#include "model/core/hash.h"
 #include "tests/motion/aim_scenes.h"
 
 namespace contort {

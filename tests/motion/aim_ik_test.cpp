@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "checks/check.h"
-#include "generator/core/detmath.h"
 #include "generator/motion/aim_tables.h"
+#include "model/core/detmath.h"
 #include "tests/motion/aim_scenes.h"
 
 namespace contort {

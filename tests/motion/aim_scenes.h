@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "generator/character/character.h"
 #include "generator/motion/aim_chain.h"
 #include "generator/motion/aim_table.h"
 #include "generator/motion/joint_clamp.h"
-#include "generator/motion/kinematics.h"
+#include "model/character/character.h"
+#include "model/motion/kinematics.h"
 
 namespace contort::fixtures {
 

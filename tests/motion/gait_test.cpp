@@ -8,7 +8,7 @@
 
 #include "checks/evaluate.h"
 #include "generator/generate.h"
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
 namespace contort {

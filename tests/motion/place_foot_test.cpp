@@ -1,8 +1,8 @@
 // Feet on legs in postures that walks never take.
 #include <gtest/gtest.h>
 
-#include "generator/motion/kinematics.h"
 #include "generator/motion/legs.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
 namespace contort {

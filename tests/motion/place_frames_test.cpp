@@ -1,5 +1,5 @@
 // Whole motions placed at once: the bits of one frame at a time, by every set of instructions that the machine has.
-#include "generator/motion/place_frames.h"
+#include "model/motion/place_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "generator/character/library.h"
-#include "generator/motion/kinematics.h"
+#include "model/character/library.h"
+#include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 #include "tests/checks/solids.h"
 

@@ -1,10 +1,10 @@
 // Animations made elsewhere as motions of a character.
 #include "generator/motion/recording.h"
 
+#include "formats/gltf/write.h"
 #include "generator/generate.h"
-#include "generator/gltf/write.h"
-#include "generator/motion/kinematics.h"
 #include "generator/recordings.h"
+#include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/scenes.h"

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "generator/core/detmath.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/detmath.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {

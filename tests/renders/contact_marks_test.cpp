@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "generator/character/library.h"
-#include "generator/motion/kinematics.h"
+#include "model/character/library.h"
+#include "model/motion/kinematics.h"
 #include "renders/shots.h"
 
 namespace contort {

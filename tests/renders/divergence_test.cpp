@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 namespace {

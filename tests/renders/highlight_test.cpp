@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "generator/character/library.h"
+#include "model/character/library.h"
 
 namespace contort {
 namespace {

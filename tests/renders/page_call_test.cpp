@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "generator/core/json_fields.h"
+#include "model/core/json_fields.h"
 #include "renders/strip_views.h"
 
 namespace contort {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/motion/kinematics.h"
+#include "model/motion/kinematics.h"
 #include "renders/response_marks.h"
 #include "renders/shots.h"
 

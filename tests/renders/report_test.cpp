@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "generator/core/files.h"
+#include "model/core/files.h"
 #include "renders/html.h"
 
 namespace contort {

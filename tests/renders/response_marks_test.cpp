@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/core/index.h"
 #include "generator/dynamics/dynamics.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "renders/arrow.h"
 #include "renders/shots.h"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "generator/core/files.h"
 #include "generator/generate.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/files.h"
+#include "model/motion/kinematics.h"
 #include "renders/response_marks.h"
 
 namespace contort {

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "generator/core/files.h"
-#include "generator/motion/kinematics.h"
+#include "model/core/files.h"
+#include "model/motion/kinematics.h"
 #include "renders/shots.h"
 #include "tests/import/rigged_model.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "checks/distance.h"
-#include "generator/character/library.h"
+#include "model/character/library.h"
 #include "renders/shots.h"
 
 namespace contort {

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "corpus/corpus.h"
-#include "generator/core/files.h"
-#include "generator/core/hash.h"
+#include "model/core/files.h"
+#include "model/core/hash.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/server/program.h"
 

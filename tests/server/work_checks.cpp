@@ -4,7 +4,7 @@
 #include <csignal>
 #include <thread>
 
-#include "generator/core/hash.h"
+#include "model/core/hash.h"
 #include "server/broker.h"
 #include "server/work.h"
 #include "tests/scenes.h"

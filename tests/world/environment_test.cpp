@@ -1,5 +1,5 @@
 // Ground and obstacles: what queries answer, by exemplars and against brute force.
-#include "generator/world/environment.h"
+#include "model/world/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "generator/core/math.h"
-#include "generator/spec.h"
+#include "model/core/math.h"
+#include "model/spec/spec.h"
 #include "tests/character/stock.h"
 
 namespace contort {

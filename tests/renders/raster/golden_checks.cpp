@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "generator/core/files.h"
 #include "generator/generate.h"
 #include "generator/stage.h"
+#include "model/core/files.h"
 #include "renders/raster/strip.h"
-#include "tests/renders/raster/png.h"
 #include "tests/corpus/temp_folder.h"
+#include "tests/renders/raster/png.h"
 #include "tests/scenes.h"
 
 namespace contort {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "generator/character/library.h"
 #include "generator/dynamics/multibody.h"
+#include "model/character/library.h"
 #include "renders/image.h"
 #include "renders/raster/picture.h"
 #include "renders/raster/strip.h"

@@ -9,8 +9,8 @@
 #include <memory>
 #include <set>
 
-#include "generator/character/library.h"
-#include "generator/core/files.h"
+#include "model/character/library.h"
+#include "model/core/files.h"
 #include "renders/frames.h"
 #include "renders/image.h"
 #include "renders/raster/picture.h"

@@ -1,0 +1,52 @@
+// Numbers out of accessors: every format, offset, stride and length is checked before a byte is read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/gltf/limits.h"
+#include "model/core/result.h"
+
+namespace tinygltf {
+class Model;
+struct Accessor;
+}  // namespace tinygltf
+
+namespace contort {
+
+enum class ElementKind : std::uint8_t { scalar, vec3, vec4, mat4 };
+
+// Where an accessor stands in the file, for messages.
+inline std::string accessor_pointer(int accessor) { return "/accessors/" + std::to_string(accessor); }
+
+class AccessorReader {
+ public:
+  explicit AccessorReader(const tinygltf::Model& model) : model_(model) {}
+
+  // Elements of an accessor, and whether it has bytes of its own; without, it is all zeros. The index must be valid;
+  // anything else may be wrong with the accessor.
+  std::size_t count(int accessor) const;
+  bool has_data(int accessor) const;
+
+  // The first `count` elements (at most all), component by component, all finite. 32-bit floats; where
+  // `normalized_integers`, also integers that stand for [-1, 1]. Codes gltf.bad_accessor, .bad_index, .truncated,
+  // .not_finite, .too_large (see kMaxGltfNumbers).
+  Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count, bool normalized_integers = false);
+
+  // All elements of unsigned integers that count something: indices of vertices, numbers of joints. Codes as above, and
+  // gltf.unsupported for sparse ones.
+  Result<std::vector<int>> read_indices(int accessor, ElementKind kind);
+
+ private:
+  Result<Done> take_numbers(std::size_t count, const std::string& pointer);
+  Result<Done> check_format(int accessor, ElementKind kind, bool normalized_integers) const;
+  Result<std::vector<double>> read_dense(const tinygltf::Accessor& accessor, const std::string& pointer,
+                                         std::size_t components, std::size_t count) const;
+  Result<Done> apply_sparse(const tinygltf::Accessor& accessor, const std::string& pointer,
+                            std::vector<double>& values) const;
+  const tinygltf::Model& model_;
+  std::uint64_t numbers_left_ = kMaxGltfNumbers;
+};
+
+}  // namespace contort

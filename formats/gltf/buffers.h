@@ -1,0 +1,27 @@
+// The bytes behind a document's buffers: the GLB's binary chunk, data: URIs, and files beside the asset. The only code
+// that opens a file because another file says so.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/gltf/document.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+struct BufferSource {
+  std::span<const std::byte> bin;  // Of the GLB.
+  bool has_bin = false;
+  // Where external files may lie: here or below, after every symbolic link has been followed. "" allows none.
+  std::string folder;
+};
+
+// One entry per buffer, exactly byte_length long; empty for a buffer without data, which is an error only where
+// something reads from it. Codes gltf.bad_uri, gltf.missing_file, gltf.truncated, gltf.too_large.
+Result<std::vector<std::vector<unsigned char>>> load_buffers(std::span<const BufferRef> buffers,
+                                                             const BufferSource& source);
+
+}  // namespace contort

@@ -1,0 +1,27 @@
+// The outermost layer: bytes to JSON text and binary chunk. Trusts nothing.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "model/core/result.h"
+
+namespace contort {
+
+struct GltfContainer {
+  std::string_view json;
+  std::span<const std::byte> bin;  // The GLB's binary chunk.
+  bool has_bin = false;
+};
+
+bool is_glb(std::span<const std::byte> bytes);
+
+// Views into `bytes`. Codes gltf.truncated, gltf.bad_header, gltf.bad_chunk, gltf.unsupported.
+Result<GltfContainer> split_glb(std::span<const std::byte> bytes);
+
+// Refuses JSON that would exhaust a parser's stack or memory, before any parser sees it. Codes gltf.too_deep,
+// gltf.too_large, gltf.bad_json (does not begin with an object).
+Result<Done> scan_json(std::string_view json);
+
+}  // namespace contort

@@ -1,0 +1,32 @@
+// The JSON layer: every value that we read has the type, range and target that glTF asks for, or the file is refused
+// with a pointer to it. tinygltf drops such values in silence, and crashes on some.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/core/result.h"
+
+namespace contort {
+
+struct BufferRef {
+  std::string uri;
+  bool has_uri = false;
+  std::uint64_t byte_length = 0;  // >= 1
+};
+
+struct GltfDocument {
+  // glTF again, but only what we read: no images, extensions or extras, and meshes only where they are asked for, so
+  // that no parser meets a hostile one. No buffers either; those are in `buffers`.
+  std::string json;
+  std::vector<BufferRef> buffers;
+};
+
+enum class Meshes : std::uint8_t { leave_out, read };
+
+// Codes gltf.bad_json, .wrong_type, .missing, .out_of_range, .bad_index, .too_large, .unsupported.
+Result<GltfDocument> check_document(std::string_view json, Meshes meshes = Meshes::leave_out);
+
+}  // namespace contort

@@ -1,0 +1,30 @@
+// Reads .glb and .gltf: nodes, skins and clips. Files are hostile until proven otherwise: whatever the bytes are, the
+// answer is a checked Asset or one Issue, within the limits of limits.h. Images are never opened.
+//
+// Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. What it forbids
+// and we let through, because it has one harmless meaning and exporters do it: accessors of 0 elements (a channel of 0
+// keys is left out), animation data with a byte stride, joints without a common root. Left out as well are channels
+// without a node, with morph weights, or whose times have no data. Not looked at: materials, textures, cameras, and
+// meshes only where they are asked for.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "model/asset/skinned.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+// Buffers may be files in the folder of `path` or below it. Codes "gltf.*", with JSON pointers into the glTF document.
+Result<Asset> read_gltf(const std::string& path);
+
+// A GLB in memory; all of its buffers must be inside. Reads no file.
+Result<Asset> parse_glb(std::span<const std::byte> bytes);
+
+// The same with skinned meshes and VRM's names of bones, whose faults then are faults of the file too.
+Result<SkinnedAsset> read_skinned_gltf(const std::string& path);
+Result<SkinnedAsset> parse_skinned_glb(std::span<const std::byte> bytes);
+
+}  // namespace contort

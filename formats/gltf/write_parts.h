@@ -1,0 +1,29 @@
+// The pieces of write.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "model/character/character.h"
+#include "model/core/result.h"
+#include "model/motion/motion.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace contort {
+
+// Appends numbers to the model's only buffer and returns their accessor. `components` to an element: 1, 3 or 4.
+// `with_bounds` writes the least and the greatest of each component, as the standard wants for positions and times.
+int add_floats(tinygltf::Model& model, std::span<const float> values, std::size_t components, bool with_bounds,
+               int target = 0);
+int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices);
+
+// Meshes with their materials, each on its joint's node. Nodes must be there.
+void add_meshes(tinygltf::Model& model, const Character& character);
+
+// The animation.
+Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion);
+
+}  // namespace contort

@@ -1,0 +1,261 @@
+#include "formats/mocap/bvh.h"
+
+#include <array>
+#include <filesystem>
+#include <numeric>
+#include <set>
+#include <span>
+
+#include "formats/mocap/limits.h"
+#include "formats/mocap/words.h"
+#include "model/asset/labels.h"
+#include "model/core/number_text.h"
+
+namespace contort {
+
+namespace {
+
+constexpr MocapSyntax kBvhSyntax{.area = "bvh", .alone = "{}", .blank = ""};
+constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                           "Xrotation", "Yrotation", "Zrotation"};
+
+// One number of each frame: what of which node.
+struct BvhChannel {
+  int node = 0;
+  int axis = 0;  // 0 x, 1 y, 2 z
+  bool is_rotation = false;
+};
+
+// A node whose closing brace has not come yet.
+struct OpenNode {
+  int node = 0;
+  bool is_end_site = false;
+  bool has_offset = false;
+  bool has_channels = false;
+};
+
+struct Hierarchy {
+  std::vector<AssetNode> nodes;
+  std::vector<BvhChannel> channels;
+};
+
+void open_node(MocapWords& words, std::string name, bool is_end_site, std::vector<OpenNode>& open, Hierarchy& out) {
+  if (out.nodes.size() >= kMaxMocapNodes)
+    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapNodes) + " joints");
+  if (open.size() >= kMaxMocapDepth)
+    words.fail("too_deep", "joints are nested more than the allowed " + std::to_string(kMaxMocapDepth) + " deep");
+  words.expect("{");
+  if (!words.ok()) return;
+  AssetNode node;
+  node.name = std::move(name);
+  node.parent = open.empty() ? -1 : open.back().node;
+  open.push_back({static_cast<int>(out.nodes.size()), is_end_site, false, false});
+  out.nodes.push_back(std::move(node));
+}
+
+void read_channels(MocapWords& words, OpenNode& joint, Hierarchy& out) {
+  if (joint.has_channels) words.fail("bad_channel", "this joint has channels already");
+  joint.has_channels = true;
+  const int count = words.count("channels of a joint", static_cast<std::int64_t>(kChannelNames.size()));
+  std::array<bool, kChannelNames.size()> known{};
+  for (int i = 0; i < count && words.ok(); ++i) {
+    const std::string_view word = words.next();
+    std::size_t which = 0;
+    while (which < kChannelNames.size() && !is_same_word(word, kChannelNames[which])) ++which;
+    if (which == kChannelNames.size() || known[which])
+      return words.fail("bad_channel", "found " + quoted_word(word) + ", allowed are Xposition … Zrotation, each once");
+    known[which] = true;
+    out.channels.push_back({joint.node, static_cast<int>(which % 3), which >= 3});
+  }
+}
+
+void read_offset(MocapWords& words, OpenNode& node, Hierarchy& out) {
+  if (node.has_offset) words.fail("bad_syntax", "this joint has an offset already");
+  node.has_offset = true;
+  out.nodes[static_cast<std::size_t>(node.node)].rest.translation = words.vector(kMaxMocapLength);
+}
+
+void close_node(MocapWords& words, std::vector<OpenNode>& open) {
+  if (!open.back().has_offset) words.fail("bad_syntax", "this joint has no OFFSET");
+  open.pop_back();
+}
+
+// One statement inside of a joint or an end site.
+void read_statement(MocapWords& words, std::vector<OpenNode>& open, Hierarchy& out) {
+  const std::string_view word = words.next();
+  const bool in_joint = !open.back().is_end_site;
+  if (word == "}") return close_node(words, open);
+  if (is_same_word(word, "OFFSET")) return read_offset(words, open.back(), out);
+  if (in_joint && is_same_word(word, "CHANNELS")) return read_channels(words, open.back(), out);
+  if (in_joint && is_same_word(word, "JOINT"))
+    return open_node(words, std::string(words.rest_of_line()), false, open, out);
+  if (in_joint && is_same_word(word, "End")) {
+    words.expect("Site");
+    const std::string& joint = out.nodes[static_cast<std::size_t>(open.back().node)].name;
+    return open_node(words, joint + " End Site", true, open, out);
+  }
+  words.fail("bad_syntax", "found " + quoted_word(word) + ", expected OFFSET, " +
+                               (in_joint ? "CHANNELS, JOINT, End Site or }" : "or }"));
+}
+
+Hierarchy read_hierarchy(MocapWords& words) {
+  Hierarchy out;
+  words.expect("HIERARCHY");
+  while (is_same_word(words.peek(), "ROOT") || (words.ok() && out.nodes.empty())) {
+    words.expect("ROOT");
+    std::vector<OpenNode> open;
+    open_node(words, std::string(words.rest_of_line()), false, open, out);
+    while (!open.empty() && words.has_more()) read_statement(words, open, out);
+    if (!open.empty()) words.fail("truncated", "the text ends inside of the hierarchy");
+  }
+  return out;
+}
+
+// ---- motion
+
+// Where a channel's numbers go: a node's rotation and translation in the clip, -1 where it has none.
+struct NodeTargets {
+  int rotation = -1;
+  int translation = -1;
+};
+
+std::vector<NodeTargets> make_channels(const Hierarchy& hierarchy, const std::vector<double>& times_s,
+                                       AssetClip& clip) {
+  std::vector<NodeTargets> targets(hierarchy.nodes.size());
+  for (const BvhChannel& channel : hierarchy.channels) {
+    NodeTargets& node = targets[static_cast<std::size_t>(channel.node)];
+    int& target = channel.is_rotation ? node.rotation : node.translation;
+    if (target >= 0) continue;
+    target = static_cast<int>(clip.channels.size());
+    const ChannelPath path = channel.is_rotation ? ChannelPath::rotation : ChannelPath::translation;
+    clip.channels.push_back({channel.node, path, Interpolation::linear, times_s, {}});
+    clip.channels.back().values.reserve(times_s.size() * row_size(path));
+  }
+  return targets;
+}
+
+// One key for every target of a node, from its numbers in a frame.
+void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const BvhChannel> channels,
+              std::span<const double> numbers, AssetClip& clip) {
+  constexpr std::array<Vec3, 3> kAxes = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  Quat q = kNoRotation;
+  Vec3 p = node.rest.translation;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].is_rotation)
+      q = q * axis_angle(kAxes[static_cast<std::size_t>(channels[i].axis)], numbers[i] * kRadPerDeg);
+    else
+      p[channels[i].axis] += numbers[i];
+  }
+  q = glm::normalize(q);
+  const auto append = [&clip](int target, std::initializer_list<double> row) {
+    if (target < 0) return;
+    std::vector<double>& values = clip.channels[static_cast<std::size_t>(target)].values;
+    values.insert(values.end(), row);
+  };
+  append(targets.rotation, {q.x, q.y, q.z, q.w});
+  append(targets.translation, {p.x, p.y, p.z});
+}
+
+// Checks the line's length on the way: a number too few would shift all that follow.
+void read_frame(MocapWords& words, const std::vector<BvhChannel>& channels, std::vector<double>& numbers) {
+  if (!words.has_more()) words.fail("too_few_values", "the text ends before the last frame");
+  for (std::size_t i = 0; i < channels.size() && words.ok(); ++i) {
+    if (i > 0 && words.line_ends())
+      return words.fail("too_few_values", "found " + std::to_string(i) + " numbers, this skeleton has " +
+                                              std::to_string(channels.size()) + " channels");
+    numbers[i] = words.number(channels[i].is_rotation ? kMaxMocapAngle_deg : kMaxMocapLength);
+  }
+  if (words.ok() && !words.line_ends())
+    words.fail("too_many_values",
+               "found more numbers than the " + std::to_string(channels.size()) + " channels of this skeleton");
+}
+
+void read_frames(MocapWords& words, const Hierarchy& hierarchy, int frames, double frame_time_s, AssetClip& clip) {
+  std::vector<double> times_s;
+  for (int frame = 0; frame < frames; ++frame) times_s.push_back(frame * frame_time_s);
+  const std::vector<NodeTargets> targets = make_channels(hierarchy, times_s, clip);
+  if (!clip.channels.empty()) clip.last_s = times_s.back();
+  const std::vector<BvhChannel>& channels = hierarchy.channels;
+  std::vector<double> numbers(channels.size());
+  for (int frame = 0; frame < frames && words.ok(); ++frame) {
+    read_frame(words, channels, numbers);
+    for (std::size_t first = 0, end = 0; first < channels.size() && words.ok(); first = end) {
+      while (end < channels.size() && channels[end].node == channels[first].node) ++end;
+      const auto node = static_cast<std::size_t>(channels[first].node);
+      add_keys(hierarchy.nodes[node], targets[node], std::span(channels).subspan(first, end - first),
+               std::span(numbers).subspan(first, end - first), clip);
+    }
+  }
+}
+
+// Rotations and translations that have channels.
+std::int64_t count_targets(const Hierarchy& hierarchy) {
+  std::set<std::pair<int, bool>> targets;
+  for (const BvhChannel& channel : hierarchy.channels) targets.emplace(channel.node, channel.is_rotation);
+  return static_cast<std::int64_t>(targets.size());
+}
+
+// The number of frames, or a fault where the text cannot hold them: two bytes for each number at least. So no memory is
+// taken for what a file only claims.
+int read_frame_count(MocapWords& words, const Hierarchy& hierarchy) {
+  words.expect("Frames:");
+  const int frames = words.count("frames", kMaxMocapNumbers);
+  const std::size_t channels = hierarchy.channels.size();
+  const std::int64_t numbers = static_cast<std::int64_t>(frames) * static_cast<std::int64_t>(channels);
+  if (numbers > kMaxMocapNumbers || (channels == 0 && frames > 0))
+    words.fail("too_large", "found " + std::to_string(frames) + " frames of " + std::to_string(channels) +
+                                " channels, allowed are 1 channel or more and " + std::to_string(kMaxMocapNumbers) +
+                                " numbers in all");
+  else if (frames * count_targets(hierarchy) > kMaxMocapKeys)
+    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapKeys) + " keys");
+  else if (numbers > static_cast<std::int64_t>(words.bytes_left() / 2 + 1))
+    words.fail("too_few_values", "the text is too short for " + std::to_string(frames) + " frames");
+  return words.ok() ? frames : 0;
+}
+
+AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const std::string& name) {
+  AssetClip clip{name, name.empty() ? "#0" : name, {}, 0.0, 0.0};
+  words.expect("MOTION");
+  const int frames = read_frame_count(words, hierarchy);
+  words.expect("Frame");
+  words.expect("Time:");
+  const double frame_time_s = words.number(3600.0);
+  if (words.ok() && !(frame_time_s >= 1e-9))
+    words.fail("bad_frame_time", "found " + number_text(frame_time_s) + " s, allowed is more than 0");
+  if (words.ok() && frames > 0) read_frames(words, hierarchy, frames, frame_time_s, clip);
+  if (words.has_more()) {
+    words.next();
+    words.fail("too_many_values", "found more text after the last frame");
+  }
+  return clip;
+}
+
+}  // namespace
+
+Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name) {
+  if (text.size() > kMaxMocapBytes)
+    return Issue{"bvh.too_large", "",
+                 "the text has more than the allowed " + std::to_string(kMaxMocapBytes) + " bytes"};
+  MocapWords words(kBvhSyntax, text);
+  Hierarchy hierarchy = read_hierarchy(words);
+  AssetClip clip = read_motion(words, hierarchy, clip_name);
+  if (!words.ok()) return words.issue();
+  Asset asset;
+  std::vector<std::string> names;
+  for (const AssetNode& node : hierarchy.nodes) names.push_back(node.name);
+  const std::vector<std::string> labels = unique_labels(names);
+  for (std::size_t i = 0; i < labels.size(); ++i) hierarchy.nodes[i].label = labels[i];
+  asset.nodes = std::move(hierarchy.nodes);
+  asset.order.resize(labels.size());
+  std::iota(asset.order.begin(), asset.order.end(), 0);  // a file nests children in their parents
+  if (!clip.channels.empty()) asset.clips.push_back(std::move(clip));
+  return asset;
+}
+
+Result<Asset> read_bvh(const std::string& path) {
+  const Result<std::string> text = read_mocap_text(path, "bvh");
+  if (!text) return text.issue();
+  return parse_bvh(*text, std::filesystem::path(path).stem().string());
+}
+
+}  // namespace contort

@@ -1,0 +1,27 @@
+// Reads BVH (Biovision hierarchy): a skeleton and one clip, as text. Files are hostile until proven otherwise: whatever
+// the bytes are, the answer is a checked Asset or one Issue, within the limits of limits.h. There is no standard; this
+// reader takes what the files of ten tools have in common, and where they differ, what follows.
+//
+// * Nodes are the joints and end sites in the file's order; an end site is named "<joint> End Site". Offsets are rest
+//   translations, in the file's unit of length; at rest nothing is turned.
+// * A rotation is the product of the joint's rotation channels as they are listed: Zrotation Xrotation Yrotation is
+//   Rz * Rx * Ry. Each joint has its own order, and positions may stand before, after or between.
+// * A translation is the offset plus the position channels.
+// * Each frame is one line with one number per channel. Key i is at i times the frame time, between keys it is linear.
+// * Several roots are one asset. "Frames: 0" is a skeleton without a clip.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "model/asset/asset.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+// The clip is named like the file, without its folder and ending. Codes "bvh.*"; the pointer is a line: "line 12".
+Result<Asset> read_bvh(const std::string& path);
+
+Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name);
+
+}  // namespace contort

@@ -1,0 +1,67 @@
+// The words, numbers and lines of the text formats of motion capture. Locale-independent, never beyond the text.
+//
+// The first fault stays: from then on there are no more words, so that loops end and callers ask ok() once.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "model/core/math.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+struct MocapSyntax {
+  std::string_view area;   // Of issue codes: "bvh".
+  std::string_view alone;  // Characters that are words of their own: "{}".
+  std::string_view blank;  // Skipped like white space: "()".
+  char comment = '\0';     // From here to the end of the line nothing counts; '\0': no comments.
+};
+
+class MocapWords {
+ public:
+  // A byte order mark at the beginning is skipped.
+  MocapWords(const MocapSyntax& syntax, std::string_view text);
+
+  std::string_view peek();          // The next word without taking it; "" at the end of the text, and after a fault.
+  std::string_view next();          // Takes it.
+  bool line_ends();                 // No more words in the line where we stand.
+  std::string_view rest_of_line();  // Trimmed; a character that stands alone at its end is left for next().
+  void skip_line();
+
+  // The next word, which must be what is asked for; else a fault, and 0.
+  double number(double magnitude);                      // Finite, at most so large either way.
+  int count(std::string_view what, std::int64_t high);  // In [0, high].
+  Vec3 vector(double magnitude);
+  void expect(std::string_view word);  // Upper or lower case.
+
+  bool ok() const { return issue_.code.empty(); }
+  void fail(std::string_view code, std::string text);  // At the line of the last word that was taken.
+  const Issue& issue() const { return issue_; }
+
+  // So far nothing is wrong and the next word is not the end of the text; for loops.
+  bool has_more() { return !peek().empty(); }
+  std::size_t bytes_left() const { return text_.size() - at_; }
+
+ private:
+  bool is_blank(char c) const;
+  void skip_blanks(bool and_line_ends);
+
+  MocapSyntax syntax_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;       // Of at_.
+  int word_line_ = 1;  // Of the last word that was taken.
+  Issue issue_;
+};
+
+// Equal but for the case of ASCII letters.
+bool is_same_word(std::string_view a, std::string_view b);
+
+// For messages: in quotes, bounded, without control characters.
+std::string quoted_word(std::string_view word);
+
+// The file's text, under the limits of limits.h. Codes <area>.unreadable, <area>.too_large, <area>.wrong_kind.
+Result<std::string> read_mocap_text(const std::string& path, const std::string& area);
+
+}  // namespace contort

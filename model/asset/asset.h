@@ -1,0 +1,77 @@
+// A rigged and animated model that was made elsewhere, as plain values: nodes, skins, clips. Lengths are in the file's
+// own units; glTF says metres, many files disagree. Everything that a reader hands out has been checked: indices are
+// valid, numbers finite, rotations unit, times ascending, and the nodes form a forest.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+#include "model/core/math.h"
+
+namespace contort {
+
+using Mat4 = glm::dmat4;
+
+// Translation, rotation, scale: parent_from_node(p) = translation + rotation * (scale * p).
+struct Trs {
+  Vec3 translation{0.0};
+  Quat rotation = Quat(1.0, 0.0, 0.0, 0.0);  // Unit.
+  Vec3 scale{1.0};                           // May be negative or 0.
+  bool operator==(const Trs&) const = default;
+};
+
+struct AssetNode {
+  std::string name;   // As in the file: may be empty, or the name of another node too.
+  std::string label;  // Never empty, never twice: the name, or "<name>#<index>" where that is empty or not unique.
+  int parent = -1;    // -1 for a root. Not always smaller than the own index, see Asset::order.
+  Trs rest;
+  bool is_joint = false;  // Some skin lists it.
+  bool operator==(const AssetNode&) const = default;
+};
+
+struct AssetSkin {
+  std::string name;
+  int skeleton = -1;                  // The common root that the file names, or -1.
+  std::vector<int> joints;            // Nodes.
+  std::vector<Mat4> joint_from_mesh;  // The inverse bind matrices: as many as joints, identity where the file has none.
+  bool operator==(const AssetSkin&) const = default;
+};
+
+enum class ChannelPath : std::uint8_t { translation, rotation, scale };
+enum class Interpolation : std::uint8_t { step, linear, cubic_spline };
+
+// One animated property of one node.
+struct AssetChannel {
+  int node = 0;
+  ChannelPath path = ChannelPath::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<double> times_s;  // At least one, >= 0, ascending.
+  // Per key: x y z, or for rotations x y z w (the file's order). Cubic splines have three such rows per key:
+  // in-tangent, value, out-tangent. Rotation values are unit; tangents are as in the file, in units per second.
+  std::vector<double> values;
+  bool operator==(const AssetChannel&) const = default;
+};
+
+// Numbers in a row of AssetChannel::values.
+inline std::size_t row_size(ChannelPath path) { return path == ChannelPath::rotation ? 4 : 3; }
+
+struct AssetClip {
+  std::string name;                    // As in the file.
+  std::string label;                   // Unique, made like a node's.
+  std::vector<AssetChannel> channels;  // At most one for each (node, path). Morph weights are left out.
+  double first_s = 0.0;                // The first and last key of all channels; both 0 without channels.
+  double last_s = 0.0;
+  bool operator==(const AssetClip&) const = default;
+};
+
+struct Asset {
+  std::vector<AssetNode> nodes;  // In the file's order.
+  std::vector<int> order;  // Every node once, parents before children; roots by index, children as the file lists them.
+  std::vector<AssetSkin> skins;
+  std::vector<AssetClip> clips;
+  bool operator==(const Asset&) const = default;
+};
+
+}  // namespace contort

@@ -1,0 +1,43 @@
+// Actions of a user's own, from files: key poses, and built-in rules with other values. What they mean is in
+// docs/own_actions.md; generator/actions makes Actions of them for the parts that they are for.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/core/math.h"
+
+namespace contort {
+
+// Angles in degrees, lengths in metres, as the parameter's name says.
+using ParamValue = std::variant<double, Vec3, std::string>;
+
+enum class KeyEase {
+  smooth,  // minimum jerk
+  linear,
+  step,  // stays, and is there at once
+  sine,  // half a cosine: turns round without a pause
+};
+
+struct KeyPoseDesc {
+  double at = 1.0;  // share of the action's period, (0, 1]
+  KeyEase ease = KeyEase::smooth;          // of the way from the key before
+  std::map<std::string, ParamValue> pose;  // "elbow_deg": 90, as in the parameters of `pose`
+  bool operator==(const KeyPoseDesc&) const = default;
+};
+
+// Either `keys` or `of`; for parts by their names or, less particular, by their kinds.
+struct ActionDesc {
+  std::string name;
+  std::string help;
+  std::vector<std::string> parts;
+  std::vector<std::string> kinds;
+  std::vector<KeyPoseDesc> keys;             // in the order of `at`
+  std::string of;                            // a built-in action
+  std::map<std::string, ParamValue> params;  // of `of`: the values where a spec gives none
+  bool operator==(const ActionDesc&) const = default;
+};
+
+}  // namespace contort

@@ -1,0 +1,59 @@
+// The steps of build_character, each a plain function over the character that grows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/character/character.h"
+#include "model/character/inertia.h"
+
+namespace contort {
+
+// Of a whole character. Every pair of colliders is looked at: 523,776 at most.
+inline constexpr std::size_t kMaxCharacterJoints = 1024;
+inline constexpr std::size_t kMaxCharacterColliders = 1024;
+
+// Where a part docks: a joint of what is built so far, and a frame on it.
+struct Dock {
+  int joint = 0;
+  Rigid joint_from_dock;
+};
+
+// A character while it is built.
+struct Assembly {
+  std::vector<Joint> joints;
+  std::vector<Part> parts;
+  std::vector<Collider> colliders;
+  std::vector<MeshPiece> mesh;
+  std::vector<Socket> sockets;
+  int coord_count = 0;
+};
+
+// Adds the part's joints, colliders, mesh and sockets; mirrored when the slot is on the right.
+void add_part(Assembly& assembly, const SlotDesc& slot, const PartDesc& part, const Dock& dock);
+
+// Adds an attached object, fixed to a dock.
+void add_object(Assembly& assembly, const ObjectDesc& object, const Dock& dock);
+
+// What the colliders of an assembly make: bodies, and the pairs of them that are judged.
+struct CollisionPlan {
+  std::vector<Body> bodies;
+  std::vector<AllowedPair> allowed;
+  std::vector<ColliderPair> colliders;
+  std::vector<JudgedPair> judged;
+};
+
+// Groups the colliders of a finished assembly by body (this reorders them).
+std::vector<Body> group_colliders(Assembly& assembly);
+
+// Splits all pairs of colliders into allowed (same body, neighbouring bodies, the user's list) and judged.
+CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies,
+                              const std::vector<AllowedPair>& by_user);
+
+// Over everything that can change a motion or a finding.
+std::uint64_t hash_of(const Character& character);
+
+// -1 where there is none.
+int find_socket(const Assembly& assembly, const std::string& name);
+
+}  // namespace contort

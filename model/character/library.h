@@ -1,0 +1,51 @@
+// All descriptions by name: the stock ones, which are compiled in, and those of a user's folder.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/asset/asset.h"
+#include "model/character/action_desc.h"
+#include "model/character/desc.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+struct Library {
+  std::map<std::string, PartDesc> parts;
+  std::map<std::string, ObjectDesc> objects;
+  std::map<std::string, CharacterDesc> characters;
+  std::vector<ActionDesc> actions;  // of files; those for kinds of parts before those for parts by name
+  std::map<std::string, std::shared_ptr<const Asset>> recordings;  // animations, by file name without ending
+};
+
+// `human`, `mech` and `quadruped`. Built once; always there, without any file.
+const Library& stock_library();
+
+// Adds every *.json of `folder` (parts, objects, characters, actions, told apart by their "format") to `into`. A name that
+// is there already is an error: a file never silently changes what a stored case means. Only an action may have the name
+// of another, for other parts. Whether parts can do it is for check_actions (generator/actions) to say.
+Result<Done> load_folder(const std::string& folder, Library& into);
+
+// One description from JSON text; codes "part.*", "object.*", "character.*", "action.*", "json.*".
+Result<PartDesc> parse_part(std::string_view json);
+Result<ObjectDesc> parse_object(std::string_view json);
+Result<CharacterDesc> parse_character(std::string_view json);
+Result<ActionDesc> parse_action(std::string_view json);
+
+// Indented text: sorted keys, defaults left out, shortest numbers that read back to the same bits.
+std::string print_part(const PartDesc& part);
+std::string print_object(const ObjectDesc& object);
+std::string print_character(const CharacterDesc& character);
+std::string print_action(const ActionDesc& action);
+
+// JSON Schemas (draft 2020-12), from the same field lists as the readers.
+std::string part_schema();
+std::string object_schema();
+std::string character_schema();
+std::string action_schema();
+
+}  // namespace contort

@@ -1,0 +1,384 @@
+// The one door to JSON. A struct states its fields once, as a list of member pointers with limits and help:
+//
+//   template <class V> void fields(V& v, const Clip*) {
+//     v.field("speed", &Clip::speed, {.low = 0.1, .high = 10}, "Progress speed; 2 plays twice as fast.");
+//   }
+//
+// and three visitors walk that list: a strict reader, a canonical writer, and a schema writer. So a file, its limits
+// and its published schema cannot disagree. Included from .cpp files only.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "model/core/math.h"
+#include "model/core/result.h"
+
+namespace contort::json_fields {
+
+using Json = nlohmann::json;
+
+inline constexpr std::size_t kMaxDocumentBytes = 16 << 20;
+inline constexpr int kMaxDepth = 64;
+inline constexpr std::size_t kMaxValues = 2'000'000;  // of a document, keys included
+
+// name: [a-z0-9_]{1,64} · label: 1 to 200 bytes · prose: up to 4000 bytes · hex: up to 256 KiB of digits 0-9a-f ·
+// file: a label that names an entry of a folder (inside_folder.h)
+enum class Text { name, label, prose, hex, file };
+
+struct Rule {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  std::size_t max_count = 0;                  // of a list or a map
+  std::span<const std::string_view> names{};  // of an enum, in the order of its values
+  Text text = Text::name;
+  Text key_text = Text::name;    // of a map's keys
+  std::size_t digits = 0;        // of a hex text, where their number is fixed
+  std::string_view begins = "";  // of a file's name; without characters that mean something in a pattern
+  std::string_view ends = "";    // the same
+  bool required = false;
+  bool may_be_empty = false;  // of a text
+  bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none
+};
+
+// Where the reader stands, and the first thing that it could not accept.
+class ReadContext {
+ public:
+  explicit ReadContext(std::string_view area) : area_(area) {}
+  bool ok() const { return issue_.code.empty(); }
+  void fail(std::string_view code, std::string text);  // at the present place; only the first failure is kept
+  void push(std::string_view token);
+  void pop() { path_.pop_back(); }
+  Issue take_issue() { return std::move(issue_); }
+
+ private:
+  std::string area_;
+  std::vector<std::string> path_;
+  Issue issue_;
+};
+
+// JSON text to a tree: size, depth and number of values bounded, duplicate keys refused. Codes json.syntax, .too_large,
+// .too_deep, .duplicate_key.
+Result<Json> parse_document(std::string_view text);
+
+// Shared by the visitors; the .cpp holds them once instead of in every template.
+std::string kind_of(const Json& value);       // "a text", "a number" … for messages
+std::string quoted(const std::string& text);  // for messages: bounded, without control characters
+std::string shortest(double value);           // as JSON writes it
+// On one line; bytes that are not UTF-8 become the replacement character.
+std::string compact_text(const Json& value);
+bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context);
+bool read_integer(const Json& in, const Rule& rule, int& out, ReadContext& context);
+bool read_integer64(const Json& in, const Rule& rule, std::int64_t& out, ReadContext& context);
+bool read_bool(const Json& in, bool& out, ReadContext& context);
+bool read_text(const Json& in, const Rule& rule, std::string& out, ReadContext& context);
+bool read_choice(const Json& in, std::span<const std::string_view> names, int& out, ReadContext& context);
+bool expect_array(const Json& in, std::size_t low, std::size_t high, ReadContext& context);
+bool expect_object(const Json& in, ReadContext& context);
+void refuse_unknown(const Json& in, std::span<const std::string_view> known, ReadContext& context);
+Json number_schema(const Rule& rule, bool integer);
+Json text_schema(const Rule& rule);
+Json names_schema(std::span<const std::string_view> names);
+
+template <class T>
+struct Codec;
+
+// ---- leaves
+
+template <>
+struct Codec<double> {
+  static void read(const Json& in, const Rule& r, double& out, ReadContext& c) { read_number(in, r, out, c); }
+  static Json write(double v, const Rule&) { return std::isnan(v) ? Json("nan") : Json(v); }
+  static Json schema(const Rule& r) { return number_schema(r, false); }
+};
+template <>
+struct Codec<int> {
+  static void read(const Json& in, const Rule& r, int& out, ReadContext& c) { read_integer(in, r, out, c); }
+  static Json write(int v, const Rule&) { return v; }
+  static Json schema(const Rule& r) { return number_schema(r, true); }
+};
+template <>
+struct Codec<std::int64_t> {  // up to 2^53, as in a double
+  static void read(const Json& in, const Rule& r, std::int64_t& out, ReadContext& c) { read_integer64(in, r, out, c); }
+  static Json write(std::int64_t v, const Rule&) { return v; }
+  static Json schema(const Rule& r) { return number_schema(r, true); }
+};
+template <>
+struct Codec<bool> {
+  static void read(const Json& in, const Rule&, bool& out, ReadContext& c) { read_bool(in, out, c); }
+  static Json write(bool v, const Rule&) { return v; }
+  static Json schema(const Rule&) { return {{"type", "boolean"}}; }
+};
+template <>
+struct Codec<std::string> {
+  static void read(const Json& in, const Rule& r, std::string& out, ReadContext& c) { read_text(in, r, out, c); }
+  static Json write(const std::string& v, const Rule&) { return v; }
+  static Json schema(const Rule& r) { return text_schema(r); }
+};
+
+template <class E>
+requires std::is_enum_v<E>
+struct Codec<E> {
+  static void read(const Json& in, const Rule& r, E& out, ReadContext& c) {
+    int index = 0;
+    if (read_choice(in, r.names, index, c)) out = static_cast<E>(index);
+  }
+  static Json write(E v, const Rule& r) { return std::string(r.names[static_cast<std::size_t>(v)]); }
+  static Json schema(const Rule& r) { return names_schema(r.names); }
+};
+
+// ---- sequences
+
+template <class T>
+void read_element(const Json& in, std::size_t index, const Rule& rule, T& out, ReadContext& context) {
+  context.push(std::to_string(index));
+  Codec<T>::read(in[index], rule, out, context);
+  context.pop();
+}
+
+template <>
+struct Codec<Vec3> {
+  static void read(const Json& in, const Rule& r, Vec3& out, ReadContext& c) {
+    if (!expect_array(in, 3, 3, c)) return;
+    for (int i = 0; i < 3; ++i) read_element(in, static_cast<std::size_t>(i), r, out[i], c);
+  }
+  static Json write(const Vec3& v, const Rule&) { return {v.x, v.y, v.z}; }
+  static Json schema(const Rule& r) {
+    return {{"type", "array"}, {"items", number_schema(r, false)}, {"minItems", 3}, {"maxItems", 3}};
+  }
+};
+
+template <class T, std::size_t N>
+struct Codec<std::array<T, N>> {
+  static void read(const Json& in, const Rule& r, std::array<T, N>& out, ReadContext& c) {
+    if (!expect_array(in, N, N, c)) return;
+    for (std::size_t i = 0; i < N; ++i) read_element(in, i, r, out[i], c);
+  }
+  static Json write(const std::array<T, N>& v, const Rule&) { return v; }
+  static Json schema(const Rule& r) {
+    return {{"type", "array"}, {"items", Codec<T>::schema(r)}, {"minItems", N}, {"maxItems", N}};
+  }
+};
+
+template <class T>
+struct Codec<std::vector<T>> {
+  static void read(const Json& in, const Rule& r, std::vector<T>& out, ReadContext& c) {
+    if (!expect_array(in, 0, r.max_count, c)) return;
+    out.assign(in.size(), T{});
+    for (std::size_t i = 0; i < in.size() && c.ok(); ++i) read_element(in, i, r, out[i], c);
+  }
+  static Json write(const std::vector<T>& v, const Rule& r) {
+    Json list = Json::array();
+    for (const T& element : v) list.push_back(Codec<T>::write(element, r));
+    return list;
+  }
+  static Json schema(const Rule& r) {
+    return {{"type", "array"}, {"items", Codec<T>::schema(r)}, {"maxItems", r.max_count}};
+  }
+};
+
+template <class T>
+struct Codec<std::map<std::string, T>> {
+  static void read(const Json& in, const Rule& r, std::map<std::string, T>& out, ReadContext& c) {
+    if (!expect_object(in, c)) return;
+    if (in.size() > r.max_count)
+      return c.fail("too_many",
+                    "found " + std::to_string(in.size()) + " entries, allowed are " + std::to_string(r.max_count));
+    for (const auto& [key, value] : in.items()) {
+      if (!c.ok()) return;
+      c.push(key);
+      std::string checked;
+      if (read_text(Json(key), Rule{.text = r.key_text}, checked, c)) Codec<T>::read(value, r, out[key], c);
+      c.pop();
+    }
+  }
+  static Json write(const std::map<std::string, T>& v, const Rule& r) {
+    Json object = Json::object();
+    for (const auto& [key, value] : v) object[key] = Codec<T>::write(value, r);
+    return object;
+  }
+  static Json schema(const Rule& r) {
+    return {{"type", "object"},
+            {"additionalProperties", Codec<T>::schema(r)},
+            {"maxProperties", r.max_count},
+            {"propertyNames", text_schema(Rule{.text = r.key_text})}};
+  }
+};
+
+// ---- structs: the three visitors of a field list
+
+template <class S>
+class FieldReader {
+ public:
+  FieldReader(const Json& in, S& out, ReadContext& context) : in_(in), out_(out), context_(context) {}
+
+  template <class T>
+  void field(std::string_view name, T S::*member, const Rule& rule, std::string_view) {
+    known_.push_back(name);
+    if (!context_.ok()) return;
+    const auto found = in_.find(name);
+    if (found == in_.end()) {
+      if (rule.required) context_.fail("missing_field", "\"" + std::string(name) + "\" is required");
+      return;
+    }
+    context_.push(name);
+    Codec<T>::read(*found, rule, out_.*member, context_);
+    context_.pop();
+  }
+  void constant(std::string_view name, std::string_view value) {
+    known_.push_back(name);
+    if (!context_.ok()) return;
+    const auto found = in_.find(name);
+    if (found != in_.end() && *found == value) return;
+    if (found != in_.end()) context_.push(name);
+    const std::string got = found == in_.end()   ? "nothing"
+                            : found->is_string() ? quoted(found->get<std::string>())
+                                                 : kind_of(*found);
+    context_.fail("wrong_" + std::string(name), "found " + got + ", expected \"" + std::string(value) + "\"" +
+                                                    (found == in_.end() ? " in \"" + std::string(name) + "\"" : ""));
+    if (found != in_.end()) context_.pop();
+  }
+  void finish() {
+    if (context_.ok()) refuse_unknown(in_, known_, context_);
+  }
+
+ private:
+  const Json& in_;
+  S& out_;
+  ReadContext& context_;
+  std::vector<std::string_view> known_;
+};
+
+template <class S>
+class FieldWriter {  // Fields at their default are left out: files stay short, and a new field changes no old text.
+ public:
+  explicit FieldWriter(const S& value) : value_(value) {}
+  template <class T>
+  void field(std::string_view name, T S::*member, const Rule& rule, std::string_view) {
+    static const S defaults{};
+    if (rule.required || !(value_.*member == defaults.*member))
+      out_[std::string(name)] = Codec<T>::write(value_.*member, rule);
+  }
+  void constant(std::string_view name, std::string_view value) { out_[std::string(name)] = std::string(value); }
+  Json take() { return std::move(out_); }
+
+ private:
+  const S& value_;
+  Json out_ = Json::object();
+};
+
+template <class S>
+class FieldSchema {
+ public:
+  template <class T>
+  void field(std::string_view name, T S::*member, const Rule& rule, std::string_view help) {
+    static const S defaults{};
+    Json property = Codec<T>::schema(rule);
+    property["description"] = std::string(help);
+    if (rule.required) required_.push_back(std::string(name));
+    if (!rule.required) property["default"] = Codec<T>::write(defaults.*member, rule);
+    properties_[std::string(name)] = std::move(property);
+  }
+  void constant(std::string_view name, std::string_view value) {
+    properties_[std::string(name)] = {{"const", std::string(value)}};
+    required_.push_back(std::string(name));
+  }
+  Json take() {
+    return {{"type", "object"}, {"properties", properties_}, {"required", required_}, {"additionalProperties", false}};
+  }
+
+ private:
+  Json properties_ = Json::object();
+  Json required_ = Json::array();
+};
+
+template <class S>
+struct Codec {
+  static void read(const Json& in, const Rule&, S& out, ReadContext& context) {
+    if (!expect_object(in, context)) return;
+    FieldReader<S> reader(in, out, context);
+    fields(reader, static_cast<const S*>(nullptr));
+    reader.finish();
+  }
+  static Json write(const S& value, const Rule&) {
+    FieldWriter<S> writer(value);
+    fields(writer, static_cast<const S*>(nullptr));
+    return writer.take();
+  }
+  static Json schema(const Rule&) {
+    FieldSchema<S> schema;
+    fields(schema, static_cast<const S*>(nullptr));
+    return schema.take();
+  }
+};
+
+// A variant of structs; each writes its own `constant("type", …)` and names it by type_name(const T*).
+template <class... Ts>
+struct Codec<std::variant<Ts...>> {
+  using V = std::variant<Ts...>;
+  static void read(const Json& in, const Rule& r, V& out, ReadContext& c) {
+    if (!expect_object(in, c)) return;
+    const std::array<std::string_view, sizeof...(Ts)> names = {type_name(static_cast<const Ts*>(nullptr))...};
+    const auto type = in.find("type");
+    if (type == in.end()) return c.fail("missing_field", "\"type\" is required");
+    c.push("type");
+    int index = 0;
+    const bool known = read_choice(*type, names, index, c);
+    c.pop();
+    if (known) read_alternative<Ts...>(in, r, out, index, c);
+  }
+  static Json write(const V& v, const Rule& r) {
+    return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
+  }
+  static Json schema(const Rule& r) { return {{"oneOf", Json::array({Codec<Ts>::schema(r)...})}}; }
+
+ private:
+  template <class First, class... Rest>
+  static void read_alternative(const Json& in, const Rule& r, V& out, int index, ReadContext& c) {
+    if (index == 0) return Codec<First>::read(in, r, out.template emplace<First>(), c);
+    if constexpr (sizeof...(Rest) > 0) read_alternative<Rest...>(in, r, out, index - 1, c);
+  }
+};
+
+// ---- whole documents
+
+// Fields that the text does not have are as in `value`.
+template <class S>
+Result<S> read_document(std::string_view text, std::string_view area, S value = {}) {
+  const Result<Json> tree = parse_document(text);
+  if (!tree) return tree.issue();
+  ReadContext context(area);
+  Codec<S>::read(*tree, Rule{}, value, context);
+  if (!context.ok()) return context.take_issue();
+  return value;
+}
+
+// Canonical text: keys sorted by byte, no spaces, shortest numbers that read back to the same bits.
+template <class S>
+std::string write_canonical(const S& value) {
+  return Codec<S>::write(value, Rule{}).dump();
+}
+
+// The same value for people: indented.
+template <class S>
+std::string write_pretty(const S& value) {
+  return Codec<S>::write(value, Rule{}).dump(2) + "\n";
+}
+
+template <class S>
+std::string write_schema(std::string_view title) {
+  Json schema = Codec<S>::schema(Rule{});
+  schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  schema["title"] = std::string(title);
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace contort::json_fields

@@ -1,0 +1,58 @@
+// Lane two of three for trouble: bad input (a file, a flag, a spec). Never an abort, never an exception across a
+// header.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "model/core/assert.h"
+
+namespace contort {
+
+// Why an input was refused.
+struct Issue {
+  std::string code;     // "spec.unknown_action": stable, lower case, area first. Scripts and tests use it.
+  std::string pointer;  // JSON pointer (RFC 6901) into the input, "/sequences/0/clips/1"; "" is the whole input.
+  std::string text;     // One sentence for people: what was found and what is allowed.
+  bool operator==(const Issue&) const = default;
+};
+
+// "spec.out_of_range at /sequences/0/speed: …", the one line that a user sees.
+std::string to_line(const Issue& issue);
+
+// A value, or the reason why there is none.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Issue why) : state_(std::in_place_index<1>, std::move(why)) {}
+
+  bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  const T& value() const& {
+    CONTORT_ASSERT(ok());
+    return *std::get_if<0>(&state_);
+  }
+  T&& value() && {
+    CONTORT_ASSERT(ok());
+    return std::move(*std::get_if<0>(&state_));
+  }
+  const T* operator->() const { return &value(); }
+  const T& operator*() const& { return value(); }
+
+  const Issue& issue() const {
+    CONTORT_ASSERT(!ok());
+    return *std::get_if<1>(&state_);
+  }
+
+ private:
+  std::variant<T, Issue> state_;
+};
+
+struct Done {  // Result<Done>: something that either happened or did not.
+  bool operator==(const Done&) const = default;
+};
+
+}  // namespace contort

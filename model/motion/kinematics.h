@@ -1,0 +1,23 @@
+// Forward kinematics: from coordinates to world transforms.
+#pragma once
+
+#include <span>
+
+#include "model/character/character.h"
+
+namespace contort {
+
+// joint_from_joint at the given coordinates: the joint's own motion about or along its axis.
+Rigid joint_motion(const Joint& joint, std::span<const double> row);
+
+// world_from_joint of joints [first, last). Parents of the range must be in `world` already.
+void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
+                        std::span<Rigid> world);
+
+// All joints; world[0] = root.
+void forward_kinematics(const Character& character, const Rigid& root, std::span<const double> row,
+                        std::span<Rigid> world);
+
+Rigid world_from_socket(const Character& character, std::span<const Rigid> world, int socket);
+
+}  // namespace contort

@@ -1,0 +1,120 @@
+// Motion: what the generator makes of a Spec, frame by frame. A value; flat arrays, row = frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/character/character.h"
+
+namespace contort {
+
+// One posture: all coordinates (see Character) and where the root is.
+struct Posture {
+  std::vector<double> coords;
+  Rigid root;  // world_from_root
+  bool operator==(const Posture&) const = default;
+};
+
+// In which frames an action had its layer of a part. Sequences of interrupts are numbered after those of the spec's queue.
+struct ActionSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  int sequence = 0;    // indices into the spec
+  int clip = 0;
+  int action = 0;
+  int part = 0;  // of the character
+  bool operator==(const ActionSpan&) const = default;
+};
+
+// In which frames a sequence ran. In frame f it stood at its own frame first_content + f - first_frame.
+struct QueueSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive: the frame in which it ended or was cut
+  int sequence = 0;
+  int first_content = 0;
+  bool operator==(const QueueSpan&) const = default;
+};
+
+// In which frames an aim was fully in force: come in, not fading, and nothing else on the parts that it moves.
+struct AimSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  int socket = 0;      // of the character; its +Z shall point at the target
+  Vec3 target_m{0.0};  // in the world
+  bool operator==(const AimSpan&) const = default;
+};
+
+// How a figure that dynamics moves stands in a frame.
+enum class Footing : std::uint8_t {
+  standing,  // on its soles, flat
+  airborne,  // on nothing
+  tipping,   // on edges or corners of soles
+  fallen,    // on anything else, or as good as lying
+};
+
+struct Stance {
+  Footing footing = Footing::standing;
+  bool overpowered = false;   // a joint needed more than its strength to hold the pose
+  std::uint8_t planned = 0;   // bit i: leg i stands in the target
+  std::uint8_t standing = 0;  // bit i: leg i stands
+  Vec3 zmp_m{0.0};            // zero moment point, where standing; of the tick in which it was nearest to the edge
+  double margin_m = 0.0;      // of it inside the support area, < 0 outside
+  bool operator==(const Stance&) const = default;
+};
+
+// A blow that struck.
+struct ImpactMark {
+  int frame = 0;
+  int joint = 0;
+  Vec3 point_m{0.0};      // in the world, before it moved anything
+  Vec3 impulse_N_s{0.0};  // in the world
+  bool operator==(const ImpactMark&) const = default;
+};
+
+// What dynamics did, frame by frame. Empty in kinematic motions.
+struct Response {
+  int dof_count = 0;                  // freedoms: six of the root, then those of the joints in order; see dynamics/multibody.h
+  std::vector<double> target_coords;  // frames x coord_count: the motion that was followed
+  std::vector<Rigid> target_root;     // frames
+  std::vector<double> efforts;        // frames x dof_count, N m or N, the greatest of a frame; 0 for the root
+  std::vector<double> control;        // frames x dof_count: accelerations that dynamic control added
+  std::vector<Stance> stances;        // frames
+  std::vector<ImpactMark> impacts;
+  bool operator==(const Response&) const = default;
+};
+
+struct Motion {
+  double rate_hz = 60.0;
+  int frame_count = 0;
+  int coord_count = 0;         // doubles in a row, see Character
+  std::vector<double> coords;  // frame_count * coord_count
+  std::vector<Rigid> root;     // frame_count: world_from_root
+  std::vector<ActionSpan> spans;
+  std::vector<QueueSpan> queue;  // the queue's history
+  std::vector<AimSpan> aims;     // in the order of their first frames
+  Response response;
+
+  std::span<const double> row(int frame) const {
+    return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
+                                     static_cast<std::size_t>(coord_count));
+  }
+  std::span<double> row(int frame) {
+    return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
+                                     static_cast<std::size_t>(coord_count));
+  }
+  bool operator==(const Motion&) const = default;
+};
+
+// Hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
+// (docs/determinism.md).
+std::uint64_t motion_hash(const Motion& motion);
+
+// Running hash after each frame, 16 bits each: frame f of two motions differs first where these do.
+std::vector<std::uint16_t> motion_trace(const Motion& motion);
+
+// First frame at which the traces differ, or -1. Lengths that differ count as a difference at the shorter one's end.
+int first_difference(const Motion& a, const Motion& b);
+
+}  // namespace contort

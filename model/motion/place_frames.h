@@ -1,0 +1,25 @@
+// Forward kinematics of whole motions, several frames in each instruction. The bits are those of forward_kinematics:
+// the lanes do its operations in its order, and none is fused.
+#pragma once
+
+#include <vector>
+
+#include "model/motion/motion.h"
+
+namespace contort {
+
+// How many frames at a time, and by which instructions.
+struct PlacingKernel {
+  const char* name;  // "any" or "AVX2"
+  // As many of the first frames as it can do; says how many. `world` is frame * joint_count + joint.
+  std::size_t (*place)(const Character& character, const Motion& motion, Rigid* world);
+};
+
+// Those that this machine can run, the fastest last.
+std::span<const PlacingKernel> placing_kernels();
+
+// world_from_joint of all joints in all frames: frame * joint_count + joint.
+void place_frames(const Character& character, const Motion& motion, std::vector<Rigid>& world,
+                  const PlacingKernel& kernel = placing_kernels().back());
+
+}  // namespace contort

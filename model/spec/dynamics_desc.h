@@ -1,0 +1,48 @@
+// What a Spec says about dynamics: how the motion is controlled, what is carried, what strikes.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/core/math.h"
+
+namespace contort {
+
+enum class Mode {
+  kinematic,  // the motion is what actions make of it
+  tracking,   // a figure follows that motion by joint accelerations, each joint by itself; its feet stand
+  dynamic,    // and gives way to loads and impacts, keeps its balance, and has no more strength than it has
+};
+std::span<const std::string_view> mode_names();  // in the order of the enum
+
+// A box that a part carries and that its target motion does not know of.
+struct LoadDesc {
+  std::string slot;
+  std::string socket;           // of that slot's part
+  Vec3 position_m{0.0};         // the box's centre, in the socket's frame
+  Vec3 size_m{0.3, 0.4, 0.15};  // along the socket's axes
+  double mass_kg = 5.0;         // spread evenly
+  bool operator==(const LoadDesc&) const = default;
+};
+
+// A blow: an impulse on a point of a part, in no time.
+struct ImpactDesc {
+  int frame = 0;  // before it moves on
+  std::string slot;
+  std::string joint;      // of that slot's part; "": its first one, or what the part is fixed to
+  Vec3 point_m{0.0};      // in the joint's frame
+  Vec3 impulse_N_s{0.0};  // along the axes of the start (StartDesc)
+  bool operator==(const ImpactDesc&) const = default;
+};
+
+struct DynamicsDesc {
+  Mode mode = Mode::kinematic;
+  int ticks_per_frame = 0;  // of control; 0: as many as make 120 a second
+  std::vector<LoadDesc> loads;
+  std::vector<ImpactDesc> impacts;
+  bool operator==(const DynamicsDesc&) const = default;
+};
+
+}  // namespace contort

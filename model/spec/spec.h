@@ -1,0 +1,61 @@
+// Spec: the action specification, one value that says everything about one motion. It is what the fuzzer draws, what a
+// case stores, what a person writes by hand. Its JSON form, limits and schema come from the field lists in spec.cpp.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/character/desc.h"
+#include "model/core/result.h"
+#include "model/spec/clip.h"
+#include "model/spec/dynamics_desc.h"
+#include "model/world/environment_desc.h"
+
+namespace contort {
+
+// Where the character stands in frame 0.
+struct StartDesc {
+  Vec3 position_m{0.0};      // its height is the ground's there
+  double heading_deg = 0.0;  // about +Y; 0 faces +Z
+  double ahead_m = 0.0;      // how far the hips stand before where the feet have them: legs lean from the ankles
+  double lower_m = 0.0;      // how much lower than on stretched legs they stay: knees that are never straight
+  bool operator==(const StartDesc&) const = default;
+};
+
+// An animation of the library, made elsewhere, that the character plays instead of sequences.
+struct RecordingDesc {
+  std::string name;                           // "": none
+  std::string clip;                           // of that file; "": its first one
+  double from_s = 0.0;                        // leaves out what comes before: a reference pose, say
+  std::map<std::string, std::string> joints;  // the animation's node -> the character's joint, where names differ
+  bool operator==(const RecordingDesc&) const = default;
+};
+
+struct Spec {
+  CharacterChoice character;
+  EnvironmentDesc environment;
+  StartDesc start;
+  double rate_hz = 60.0;                // [1, 1000] frames per second
+  int hold_frames = 0;                  // [0, 6000] frames after the last sequence
+  std::vector<SequenceDesc> sequences;  // played in this order
+  std::vector<InterruptDesc> interrupts;
+  RecordingDesc recording;
+  DynamicsDesc dynamics;
+  bool operator==(const Spec&) const = default;
+};
+
+// Codes "spec.*" and "json.*" with pointers. parse_spec(print_spec(x)) == x for every x that it accepts.
+Result<Spec> parse_spec(std::string_view json);
+
+// Canonical text: sorted keys, no spaces, defaults left out, shortest numbers that read back to the same bits.
+std::string print_spec(const Spec& spec);
+std::string pretty_spec(const Spec& spec);  // the same, indented for people
+
+// Name of the spec by its content: content_id of the canonical text.
+std::string spec_id(const Spec& spec);
+
+std::string spec_schema();
+
+}  // namespace contort

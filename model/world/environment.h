@@ -1,0 +1,66 @@
+// The surroundings of a character: ground as a height over the plane, and solid obstacles. Queries are pure and do not
+// allocate. World coordinates in and out.
+#pragma once
+
+#include <span>
+
+#include "model/character/polyhedron.h"
+#include "model/core/result.h"
+#include "model/world/environment_desc.h"
+
+namespace contort {
+
+// The nearest point of a surface, its outward normal there, and the signed distance of the query point: < 0 inside.
+struct Surface {
+  Vec3 point_m{0.0};
+  Vec3 normal{0.0, 1.0, 0.0};
+  double distance_m = 0.0;
+  int obstacle = -1;  // -1: the ground
+};
+
+// A ground's angles, as queries need them.
+struct GroundAngles {
+  double sin = 0.0;  // of the heading of a slope or steps
+  double cos = 1.0;
+  double rise = 0.0;  // tangent of a slope
+};
+
+class Environment {
+ public:
+  Environment() = default;  // a level plane at height 0
+
+  double height_at(double x_m, double z_m) const;
+  // Of the ground; on steps that of the tread. Unit.
+  Vec3 normal_at(double x_m, double z_m) const;
+  bool is_level() const { return level_; }
+
+  // Distance to the ground is along its normal under the point, exact for planes and slopes.
+  Surface nearest_ground(const Vec3& point_m) const;
+  // obstacle = -1 and an infinite distance where there are none.
+  Surface nearest_obstacle(const Vec3& point_m) const;
+
+  // The parts of its description, in its own frame.
+  const Rigid& world_from_environment() const { return world_from_environment_; }
+  const Ground& ground() const { return ground_; }
+  std::span<const ObstacleDesc> obstacles() const { return obstacles_; }
+  int find_obstacle(std::string_view name) const;  // -1 where there is none
+
+ private:
+  friend Result<Environment> build_environment(const EnvironmentDesc& desc);
+  explicit Environment(const EnvironmentDesc& desc);
+  Vec3 local(const Vec3& point_m) const { return environment_from_world_ * point_m; }
+
+  Rigid world_from_environment_;
+  Rigid environment_from_world_;
+  Ground ground_;
+  GroundAngles angles_;
+  std::vector<ObstacleDesc> obstacles_;  // in the environment's frame
+  std::vector<Quat> turns_;              // of obstacles that are boxes; none for the others
+  std::vector<Polyhedron> polyhedra_;    // of obstacles that are hulls; empty ones for the others
+  bool level_ = true;
+};
+
+// Codes environment.wrong_count (heights), .duplicate_name, .bad_shape; pointers from the description's root.
+Result<Environment> build_environment(const EnvironmentDesc& desc);
+
+}  // namespace contort
