@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "cli/children.h"
+#include "process/children.h"
 #include "cli/progress_line.h"
 #include "cli/render.h"
 #include "cli/report_folder.h"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 
 namespace CLI {
 class App;

@@ -2,19 +2,13 @@
 // shared libraries, 216 ms and 130 MB), so that nothing else pays for them.
 #include "cli/render.h"
 
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "cli/commands.h"
 #include "corpus/corpus.h"
+#include "process/program.h"
 
 namespace contort::cli {
 
@@ -29,26 +23,6 @@ std::vector<std::string> renderer_call(const Context& context) {
   for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
   if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
   return call;
-}
-
-Result<int> run_program(const std::vector<std::string>& command) {
-  std::vector<char*> arguments;
-  for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
-  arguments.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) return Issue{"render.no_process", "", std::string("cannot start a process: ") + std::strerror(errno)};
-  if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for its pictures
-    if (::getppid() != parent) ::_exit(kInternal);
-    ::execv(arguments[0], arguments.data());
-    std::fprintf(stderr, "contort: render.no_program: cannot start %s: %s\n", arguments[0], std::strerror(errno));
-    ::_exit(kInternal);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(kInternal);
 }
 
 namespace {
@@ -159,7 +133,7 @@ void add_render(CLI::App& app, Context& context) {
     if (!options->clip.empty()) call.insert(call.end(), {"--clip", options->clip});
     call.push_back("--");  // A file may be called --rows.
     call.insert(call.end(), options->inputs.begin(), options->inputs.end());
-    const Result<int> code = run_program(call);
+    const Result<int> code = run_in_foreground(call);
     if (!code) return context.fail(code.issue(), kInternal);
     context.exit_code = *code;
     if (*code == kClean && unreadable > 0 && !options->allow_unreadable)

@@ -15,7 +15,4 @@ std::string renderer_path();
 // The start of every call of it: its path, --gl, --library and --settings.
 std::vector<std::string> renderer_call(const Context& context);
 
-// Runs a program to its end; its exit code, or kInternal where a signal ended it. Code render.no_process.
-Result<int> run_program(const std::vector<std::string>& command);
-
 }  // namespace contort::cli

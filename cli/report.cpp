@@ -20,6 +20,7 @@
 #include "cli/variants.h"
 #include "corpus/baseline.h"
 #include "corpus/corpus.h"
+#include "process/program.h"
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
@@ -255,7 +256,7 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
         const std::size_t fixed = call.size();
         for (std::size_t i = static_cast<std::size_t>(share); i < pictures.size(); i += static_cast<std::size_t>(jobs))
           call.insert(call.end(), {pictures[i].case_path, pictures[i].png});
-        const Result<int> code = call.size() > fixed ? run_program(call) : Result<int>(0);
+        const Result<int> code = call.size() > fixed ? run_in_foreground(call) : Result<int>(0);
         codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
       },
       [&] { show_drawn(pictures, line); });

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "cli/input.h"
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 #include "generator/stage.h"
 #include "model/core/file_kind.h"
 #include "model/core/inside_folder.h"

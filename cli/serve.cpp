@@ -28,7 +28,7 @@ constexpr int kConnectionsBesideStreams = 96;  // in total; half as many of one 
 struct ServeOptions {
   server::HttpConfig http;
   server::Limits limits;
-  server::BrokerLimits workers;
+  BrokerLimits workers;
   std::string corpus, report, token;
   std::vector<std::string> hosts;
   bool read_only = false;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "corpus/ending_case.h"
 #include "model/core/json_fields.h"
 
 namespace contort {

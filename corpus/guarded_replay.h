@@ -4,7 +4,7 @@
 #include <string>
 
 #include "corpus/replay.h"
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 
 namespace contort {
 

@@ -1,5 +1,7 @@
 #include "corpus/replay.h"
 
+#include "corpus/ending_case.h"
+
 #include <algorithm>
 
 namespace contort {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "corpus/case.h"
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 #include "generator/level.h"
 #include "model/character/library.h"
 

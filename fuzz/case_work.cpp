@@ -5,7 +5,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "corpus/clock.h"
+#include "corpus/ending_case.h"
+#include "process/clock.h"
 #include "corpus/replay.h"
 #include "fuzz/case_fields.h"
 #include "fuzz/departures.h"

@@ -12,7 +12,7 @@
 
 #include "checks/check.h"
 #include "corpus/leads.h"
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 #include "fuzz/islands.h"
 #include "fuzz/run.h"
 

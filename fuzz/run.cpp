@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "corpus/clock.h"
+#include "process/clock.h"
 #include "corpus/half_written.h"
 #include "corpus/leads.h"
 #include "fuzz/case_work.h"

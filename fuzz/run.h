@@ -14,7 +14,7 @@
 
 #include "corpus/corpus.h"
 #include "corpus/runs.h"
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 #include "fuzz/draw.h"
 #include "fuzz/lineage.h"
 #include "fuzz/shard.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "corpus/ending_case.h"
 #include "corpus/leads.h"
 
 namespace contort {

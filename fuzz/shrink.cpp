@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corpus/ending_case.h"
 #include "fuzz/explain.h"
 #include "fuzz/precursor.h"
 #include "fuzz/shrink_stages.h"

@@ -11,7 +11,7 @@
 
 #include "checks/evaluate.h"
 #include "corpus/case.h"
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 #include "fuzz/trial.h"
 #include "model/character/library.h"
 

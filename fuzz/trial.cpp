@@ -4,7 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "corpus/clock.h"
+#include "corpus/ending_case.h"
+#include "process/clock.h"
 
 namespace contort {
 

@@ -8,7 +8,7 @@
 
 #include "checks/evaluate.h"
 #include "corpus/case.h"
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 #include "model/character/library.h"
 
 namespace contort {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "server/allowance.h"
-#include "server/broker.h"
+#include "process/broker.h"
 #include "server/work.h"
 
 namespace contort::server {

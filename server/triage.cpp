@@ -9,7 +9,7 @@
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
 #include "model/core/json_fields.h"
-#include "server/program.h"
+#include "process/program.h"
 
 namespace contort::server {
 
@@ -38,14 +38,14 @@ std::string last_line(const std::string& text) {
                      end + 1 - (begin == std::string::npos ? 0 : begin + 1));
 }
 
-Issue failed(const Ran& ran) {
+Issue failed(const ProgramResult& ran) {
   if (ran.killed) return {"job.too_long", "", "it took too long, or the server ends"};
   const std::string why = last_line(ran.err);
   return {"job.failed", "", why.empty() ? "it ended with code " + std::to_string(ran.code) : why};
 }
 
-Result<Ran> run_job(const std::vector<std::string>& command, double seconds, Jobs::Running& running) {
-  Result<Ran> ran = run_program(command, seconds, running.stop);
+Result<ProgramResult> run_job(const std::vector<std::string>& command, double seconds, Jobs::Running& running) {
+  Result<ProgramResult> ran = run_program(command, seconds, running.stop);
   if (ran) running.cpu_s += ran->cpu_s;
   return ran;
 }
@@ -118,7 +118,7 @@ Result<Jobs::Work> Triage::replay_work(const std::string& name) const {
   command.insert(command.end(), {"replay", "--json"});
   for (const std::string& file : files_of(*bucket)) command.push_back(corpus->folder_of(*bucket) + "/" + file);
   return Jobs::Work([command](Jobs::Running& running) -> Result<Jobs::Outcome> {
-    const Result<Ran> ran = run_job(command, kReplay_s, running);
+    const Result<ProgramResult> ran = run_job(command, kReplay_s, running);
     if (!ran) return ran.issue();
     const Result<Json> json = json_fields::parse_document(ran->out);
     if (ran->killed || !json) return failed(*ran);
@@ -146,7 +146,7 @@ Result<Jobs::Outcome> Triage::shrink(const std::string& name, Jobs::Running& run
   const std::string output = scratch_ + "/shrink-" + bucket->id + ".json";
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"shrink", input, "-o", output, "--json"});
-  const Result<Ran> ran = run_job(command, kShrink_s, running);
+  const Result<ProgramResult> ran = run_job(command, kShrink_s, running);
   const Result<Case> minimal = ran && ran->code == 0 ? read_case(output) : Result<Case>(Issue{});
   std::error_code error;
   fs::remove(output, error);
@@ -172,7 +172,7 @@ Jobs::Work Triage::report_work(const std::string& into) const {
   std::vector<std::string> command = program_;
   command.insert(command.end(), {"report", folder_, "-o", into});
   return [command](Jobs::Running& running) -> Result<Jobs::Outcome> {
-    const Result<Ran> ran = run_job(command, kReport_s, running);
+    const Result<ProgramResult> ran = run_job(command, kReport_s, running);
     if (!ran) return ran.issue();
     if (ran->killed || ran->code != 0) return failed(*ran);
     return Jobs::Outcome{last_line(ran->out), ""};

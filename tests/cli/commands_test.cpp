@@ -6,7 +6,8 @@
 #include <set>
 #include <thread>
 
-#include "corpus/isolate.h"
+#include "corpus/ending_case.h"
+#include "process/isolate.h"
 #include "fuzz/profile.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_library.h"

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "corpus/isolate.h"
+#include "corpus/ending_case.h"
+#include "process/isolate.h"
 #include "tests/cli/program.h"
 #include "tests/cli/small_library.h"
 #include "tests/corpus/sample_corpus.h"

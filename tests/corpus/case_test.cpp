@@ -1,5 +1,6 @@
 // Case files: what is written is read back, and nothing else is read.
 #include "corpus/case.h"
+#include "corpus/ending_case.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +9,7 @@
 #include <limits>
 
 #include "checks/circumstances.h"
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 #include "fuzz/draw.h"
 #include "model/core/hash.h"
 #include "tests/corpus/sample_cases.h"

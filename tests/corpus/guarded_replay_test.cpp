@@ -1,4 +1,5 @@
 // Replays in a worker: what a generator does to its process on one case, it does to no other.
+#include "corpus/ending_case.h"
 #include "corpus/guarded_replay.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Verdicts of replay on cases that fail, fail otherwise, or do not fail any more.
+#include "corpus/ending_case.h"
 #include "corpus/replay.h"
 
 #include <gtest/gtest.h>

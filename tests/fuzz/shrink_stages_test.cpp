@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "corpus/ending_case.h"
 #include "fuzz/edits.h"
 #include "fuzz/shrink.h"
 #include "tests/corpus/sample_cases.h"

@@ -66,12 +66,12 @@ struct Scope {
 };
 
 // Where the clock may be looked at: for watchdogs and time budgets, and to wait for threads.
-constexpr std::array<std::string_view, 6> kClockFiles = {"corpus/clock.cpp",   "corpus/worker_pool.cpp",
-                                                         "fuzz/case_work.cpp", "fuzz/parallel.cpp",
-                                                         "fuzz/run.cpp",       "fuzz/trial.cpp"};
+constexpr std::array<std::string_view, 8> kClockFiles = {
+    "process/clock.cpp",  "process/worker_pool.cpp", "process/broker.cpp", "process/program.cpp",
+    "fuzz/case_work.cpp", "fuzz/parallel.cpp",       "fuzz/run.cpp",       "fuzz/trial.cpp"};
 
 Scope scope_of(std::string_view path) {
-  constexpr std::array<std::string_view, 6> kFolders = {"model/",  "formats/", "generator/",
+  constexpr std::array<std::string_view, 7> kFolders = {"model/",  "formats/", "generator/", "process/",
                                                         "checks/", "corpus/",  "fuzz/"};
   if (std::ranges::none_of(kFolders, [&](std::string_view folder) { return path.starts_with(folder); })) return {};
   const bool clock = std::ranges::find(kClockFiles, path) != kClockFiles.end();
@@ -248,7 +248,7 @@ TEST(Determinism, AllowsWhatIsRight) {
       {"generator/actions/walk.cpp",
        "v = glm::normalize(glm::cross(a, b)); q = glm::conjugate(q); m = glm::mat3_cast(q);"},
       {"model/core/detmath.cpp", "double sin(double x) { return sincos(x).sin; }"},
-      {"corpus/clock.cpp", "const auto start = std::chrono::steady_clock::now();"},
+      {"process/clock.cpp", "const auto start = std::chrono::steady_clock::now();"},
       {"renders/camera.cpp", "y = std::tan(x);"},
       {"cli/fuzz.cpp", "#include <chrono>\nstd::unordered_map<int, int> m;"},
       {"tests/core/detmath_test.cpp", "y = std::sin(x);"},

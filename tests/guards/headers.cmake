@@ -3,7 +3,7 @@
 # information: only the compiler's opinion counts.
 file(GLOB_RECURSE HEADERS RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/model/*.h ${CMAKE_SOURCE_DIR}/formats/*.h
-  ${CMAKE_SOURCE_DIR}/generator/*.h ${CMAKE_SOURCE_DIR}/checks/*.h ${CMAKE_SOURCE_DIR}/corpus/*.h
+  ${CMAKE_SOURCE_DIR}/generator/*.h ${CMAKE_SOURCE_DIR}/process/*.h ${CMAKE_SOURCE_DIR}/checks/*.h ${CMAKE_SOURCE_DIR}/corpus/*.h
   ${CMAKE_SOURCE_DIR}/fuzz/*.h ${CMAKE_SOURCE_DIR}/import/*.h ${CMAKE_SOURCE_DIR}/renders/*.h
   ${CMAKE_SOURCE_DIR}/server/*.h ${CMAKE_SOURCE_DIR}/cli/*.h
   ${CMAKE_SOURCE_DIR}/tests/*.h ${CMAKE_SOURCE_DIR}/bench/*.h)

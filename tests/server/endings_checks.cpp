@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "corpus/corpus.h"
-#include "server/program.h"
+#include "process/program.h"
 #include "server/scratch.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/server/program.h"
@@ -157,7 +157,7 @@ TEST(Endings, AJobEndsWithTheServer) {
   const std::string file = folder / "pid";
   const int child = killed_with_a_child(file, [&] {
     std::thread([&] {
-      (void)server::run_program({"/bin/sh", "-c", "echo $$ > " + file + "; exec sleep 1000"}, 1000.0,
+      (void)run_program({"/bin/sh", "-c", "echo $$ > " + file + "; exec sleep 1000"}, 1000.0,
                                 [] { return false; });
     }).join();
   });
@@ -166,7 +166,7 @@ TEST(Endings, AJobEndsWithTheServer) {
 }
 
 TEST(Endings, AProgramThatIsNotThereIsAnError) {
-  const auto ran = server::run_program({"/nowhere/at/all"}, 10.0, [] { return false; });
+  const auto ran = run_program({"/nowhere/at/all"}, 10.0, [] { return false; });
   ASSERT_FALSE(ran);
   EXPECT_EQ(ran.issue().code, "work.no_process");
 }

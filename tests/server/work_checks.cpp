@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "model/core/hash.h"
-#include "server/broker.h"
+#include "process/broker.h"
 #include "server/work.h"
 #include "tests/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "server/broker.h"
+#include "process/broker.h"
 
 #include <poll.h>
 #include <signal.h>
@@ -15,9 +15,9 @@
 #include <system_error>
 #include <vector>
 
-#include "corpus/whole_bytes.h"
+#include "process/whole_bytes.h"
 
-namespace contort::server {
+namespace contort {
 
 namespace {
 
@@ -208,4 +208,4 @@ void Broker::read_replies() {
   changed_.notify_all();
 }
 
-}  // namespace contort::server
+}  // namespace contort

@@ -1,4 +1,4 @@
-#include "corpus/process.h"
+#include "process/kernel.h"
 
 #include <unistd.h>
 

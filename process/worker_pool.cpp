@@ -1,4 +1,4 @@
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 
 #include <poll.h>
 #include <signal.h>
@@ -16,10 +16,10 @@
 #include <new>
 #include <system_error>
 
-#include "corpus/clock.h"
-#include "corpus/process.h"
-#include "corpus/whole_bytes.h"
 #include "model/core/assert.h"
+#include "process/clock.h"
+#include "process/kernel.h"
+#include "process/whole_bytes.h"
 
 namespace contort {
 

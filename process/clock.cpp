@@ -1,4 +1,4 @@
-#include "corpus/clock.h"
+#include "process/clock.h"
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 // The way to the worker processes. The front has threads and must not fork, so a process with one thread, the broker,
-// is split off before the first of them; it keeps the workers (corpus/worker_pool.h) and hands tasks on.
+// is split off before the first of them; it keeps the workers (process/worker_pool.h) and hands tasks on.
 #pragma once
 
 #include <condition_variable>
@@ -11,10 +11,10 @@
 #include <string>
 #include <thread>
 
-#include "corpus/worker_pool.h"
 #include "model/core/result.h"
+#include "process/worker_pool.h"
 
-namespace contort::server {
+namespace contort {
 
 // What a terminal waits for goes before what it can do without for a moment.
 enum class Urgency : std::uint8_t { now, later };
@@ -76,4 +76,4 @@ class Broker {
   std::thread reader_;
 };
 
-}  // namespace contort::server
+}  // namespace contort

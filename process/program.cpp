@@ -1,4 +1,4 @@
-#include "server/program.h"
+#include "process/program.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,15 +11,17 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 
-namespace contort::server {
+namespace contort {
 
 namespace {
 
 constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
 constexpr int kSignalCheck_ms = 50;
-constexpr int kNotStarted = 127;  // the exit code that shells have for it
+constexpr int kFailedInForeground = 3;  // the command line's code of an internal error
+constexpr int kNotStarted = 127;        // the exit code that shells have for it
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -56,10 +58,15 @@ bool read_some(int file, std::string& text) {
   ::_exit(kNotStarted);
 }
 
-pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
+std::vector<char*> arguments_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
+  return arguments;
+}
+
+pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
+  std::vector<char*> arguments = arguments_of(command);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid == 0) become(arguments.data(), out.ends[1], err.ends[1], parent);
@@ -75,13 +82,14 @@ int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 +
 
 }  // namespace
 
-Result<Ran> run_program(const std::vector<std::string>& command, double seconds, const std::function<bool()>& stop) {
+Result<ProgramResult> run_program(const std::vector<std::string>& command, double seconds,
+                                  const std::function<bool()>& stop) {
   Pipe out, err;
   if (!out.open() || !err.open()) return Issue{"work.no_process", "", "no pipe for a program"};
   const pid_t pid = start(command, out, err);
   if (pid < 0) return Issue{"work.no_process", "", "cannot start " + command[0]};
   out.close_writer(), err.close_writer();
-  Ran ran;
+  ProgramResult ran;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   bool more_out = true, more_err = true;
   while (more_out || more_err) {
@@ -103,4 +111,22 @@ Result<Ran> run_program(const std::vector<std::string>& command, double seconds,
   return ran;
 }
 
-}  // namespace contort::server
+Result<int> run_in_foreground(const std::vector<std::string>& command) {
+  std::vector<char*> arguments = arguments_of(command);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) return Issue{"render.no_process", "", std::string("cannot start a process: ") + std::strerror(errno)};
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for its output
+    if (::getppid() != parent) ::_exit(kFailedInForeground);
+    ::execv(arguments[0], arguments.data());
+    std::fprintf(stderr, "contort: render.no_program: cannot start %s: %s\n", arguments[0], std::strerror(errno));
+    ::_exit(kFailedInForeground);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kFailedInForeground;
+}
+
+}  // namespace contort

@@ -1,4 +1,4 @@
-#include "cli/children.h"
+#include "process/children.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,7 +11,7 @@
 
 #include "tests/corpus/temp_folder.h"
 
-namespace contort::cli {
+namespace contort {
 namespace {
 
 TEST(Children, GoOnBehindACallThatEndsItsProcess) {
@@ -67,4 +67,4 @@ TEST(Children, HaveNothingToDo) {
 }
 
 }  // namespace
-}  // namespace contort::cli
+}  // namespace contort

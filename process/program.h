@@ -7,9 +7,9 @@
 
 #include "model/core/result.h"
 
-namespace contort::server {
+namespace contort {
 
-struct Ran {
+struct ProgramResult {
   int code = 0;         // exit code; 128 + signal
   bool killed = false;  // it took too long, or was no longer wanted
   std::string out;      // the end of what it printed, each
@@ -19,6 +19,11 @@ struct Ran {
 
 // Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so; it also ends when
 // the thread that calls this does, in whatever way. Code work.no_process.
-Result<Ran> run_program(const std::vector<std::string>& command, double seconds, const std::function<bool()>& stop);
+Result<ProgramResult> run_program(const std::vector<std::string>& command, double seconds,
+                                  const std::function<bool()>& stop);
 
-}  // namespace contort::server
+// Waits for a program that reads and writes where this process does, and gives its exit code; 3 where a signal ended it
+// or it could not be started, of which it says why on stderr. It ends when this process does. Code render.no_process.
+Result<int> run_in_foreground(const std::vector<std::string>& command);
+
+}  // namespace contort

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corpus/isolate.h"
+#include "process/isolate.h"
 
 namespace contort {
 
@@ -34,8 +34,8 @@ class WorkerSlot {
 };
 
 struct WorkerLimits {
-  double seconds = 10.0;                           // between two beats
-  std::int64_t bytes = std::int64_t{4} << 30;      // resident memory
+  double seconds = 10.0;                       // between two beats
+  std::int64_t bytes = std::int64_t{4} << 30;  // resident memory
 };
 
 enum class WorkerEnd { replied, crashed, timed_out, out_of_memory };

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-namespace contort::cli {
+namespace contort {
 
 // Calls work(i) for every i in [0, count), each of `jobs` child processes a share of them. Where a call ends its
 // process or takes longer than `seconds`, a new one goes on behind it. Meanwhile idle(calls that are over) about ten
@@ -13,4 +13,4 @@ namespace contort::cli {
 std::vector<int> in_children(int jobs, int count, int seconds, const std::function<void(int)>& work,
                              const std::function<void(int done)>& idle);
 
-}  // namespace contort::cli
+}  // namespace contort

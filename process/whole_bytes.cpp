@@ -1,4 +1,4 @@
-#include "corpus/whole_bytes.h"
+#include "process/whole_bytes.h"
 
 #include <sys/socket.h>
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-#include "cli/children.h"
+#include "process/children.h"
 
 #include <signal.h>
 #include <sys/mman.h>
@@ -14,7 +14,7 @@
 #include <span>
 #include <stdexcept>
 
-namespace contort::cli {
+namespace contort {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::vector<int> in_children(int jobs, int count, int seconds, const std::functi
   return lost;
 }
 
-}  // namespace contort::cli
+}  // namespace contort

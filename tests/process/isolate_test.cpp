@@ -1,5 +1,6 @@
 // Work that ends badly ends in its own process, and nothing of it is left behind.
-#include "corpus/isolate.h"
+#include "corpus/ending_case.h"
+#include "process/isolate.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

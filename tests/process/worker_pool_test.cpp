@@ -1,5 +1,5 @@
 // Workers that end in every way: the pool says how, and goes on.
-#include "corpus/worker_pool.h"
+#include "process/worker_pool.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
