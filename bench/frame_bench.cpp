@@ -2,7 +2,7 @@
 // the motion that it made, so that a faster wrong answer is seen as wrong.
 #include <benchmark/benchmark.h>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "model/core/hash.h"
 #include "tests/scenes.h"

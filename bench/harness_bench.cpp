@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 
 namespace contort {

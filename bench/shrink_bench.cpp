@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "checks/evaluate.h"
 #include "corpus/case.h"
+#include "corpus/evaluator.h"
 #include "fuzz/compose.h"
 #include "fuzz/lineage.h"
 #include "fuzz/shrink.h"

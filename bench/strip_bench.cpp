@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "formats/gltf/write.h"
 #include "generator/generate.h"
 #include "generator/stage.h"

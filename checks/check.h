@@ -12,12 +12,11 @@
 #include "checks/fold.h"
 #include "checks/settings.h"
 #include "model/character/character.h"
+#include "model/motion/intent.h"
 #include "model/motion/motion.h"
 #include "model/world/environment.h"
 
 namespace contort {
-
-struct Timeline;  // generator/stage.h
 
 struct CheckInput {
   const Character& character;
@@ -26,7 +25,7 @@ struct CheckInput {
       world;  // world_from_joint, frame-major: frame * joint_count + joint; may be empty, see CheckDef
   const CheckSettings& settings;
   const Environment& environment;
-  const Timeline* timeline = nullptr;  // what was to be played; null for animations made elsewhere
+  const Intent* intent = nullptr;  // what the generator says that it meant; null where it says nothing
 
   std::span<const Rigid> world_at(int frame) const {
     const std::size_t joints = character.joints().size();

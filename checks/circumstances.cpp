@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "checks/plan.h"
+
 namespace contort {
 
 namespace {
@@ -16,14 +18,14 @@ constexpr double kInterrupt_s = 0.15;
 // The phases of all frames, from the calmest to the most violent, each over those before.
 class PhasePainter {
  public:
-  PhasePainter(const Timeline& timeline, const Motion& motion)
-      : timeline_(timeline),
+  PhasePainter(const Intent& intent, const Motion& motion)
+      : intent_(intent),
         motion_(motion),
         phases_(static_cast<std::size_t>(std::max(0, motion.frame_count)), Phase::at_rest) {}
 
   std::vector<Phase> painted() && {
     for (const ActionSpan& span : motion_.spans) paint(Phase::mid_clip, span.first_frame, span.last_frame);
-    for (const PlannedAction& action : timeline_.actions)
+    for (const IntendedAction& action : intent_.actions)
       for (const ActionSpan& span : motion_.spans)
         if (is_of(span, action)) paint_fades(action, span);
     for (const QueueSpan& span : motion_.queue) paint_switches(span);
@@ -42,7 +44,7 @@ class PhasePainter {
   }
 
   // An action comes in or fades out in these frames of its span.
-  void paint_fades(const PlannedAction& action, const ActionSpan& span) {
+  void paint_fades(const IntendedAction& action, const ActionSpan& span) {
     for (const QueueSpan& of : motion_.queue) {
       if (of.sequence != action.sequence) continue;
       for (int f = std::max(span.first_frame, of.first_frame); f <= std::min(span.last_frame, of.last_frame); ++f) {
@@ -58,7 +60,7 @@ class PhasePainter {
       paint(Phase::clip_switch, std::max(frame, span.first_frame) - 1, std::min(frame, span.last_frame) + 1);
     };
     if (span.first_frame > 0) paint_at(span.first_frame);
-    for (const PlannedClip& clip : timeline_.sequences[static_cast<std::size_t>(span.sequence)].clips)
+    for (const IntendedClip& clip : intent_.sequences[static_cast<std::size_t>(span.sequence)].clips)
       for (const int edge : {clip.start, clip.end}) {
         const int frame = edge - span.first_content + span.first_frame;
         if (edge > 0 && frame >= span.first_frame - 2 && frame <= span.last_frame + 2) paint_at(frame);
@@ -69,32 +71,33 @@ class PhasePainter {
   void paint_interrupts() {
     for (std::size_t i = 0; i < motion_.queue.size(); ++i) {
       const QueueSpan& span = motion_.queue[i];
-      const bool interrupts = span.sequence >= timeline_.queued || span.first_content > 0;
-      const bool after_cut = i > 0 && motion_.queue[i - 1].sequence >= timeline_.queued;
+      const bool interrupts = span.sequence >= intent_.queued || span.first_content > 0;
+      const bool after_cut = i > 0 && motion_.queue[i - 1].sequence >= intent_.queued;
       if (interrupts || after_cut) paint(Phase::interrupt, span.first_frame, span.first_frame + frames(kInterrupt_s));
     }
   }
 
-  const Timeline& timeline_;
+  const Intent& intent_;
   const Motion& motion_;
   std::vector<Phase> phases_;
 };
 
-ActiveAction describe(const PlannedAction& action, const Timeline& timeline, const Character& character) {
+ActiveAction describe(const IntendedAction& action, const Intent& intent, const Character& character) {
   std::string pointer = "/sequences/" + std::to_string(action.sequence);
-  if (action.sequence >= timeline.queued)
-    pointer = "/interrupts/" + std::to_string(action.sequence - timeline.queued) + "/sequence";
+  if (action.sequence >= intent.queued)
+    pointer = "/interrupts/" + std::to_string(action.sequence - intent.queued) + "/sequence";
   pointer += "/clips/" + std::to_string(action.clip) + "/actions/" + std::to_string(action.action);
   return {action.name, character.parts()[static_cast<std::size_t>(action.named)].slot, pointer};
 }
 
-std::vector<ActiveAction> active_actions(const Stage& stage, const Motion& motion, int frame) {
+std::vector<ActiveAction> active_actions(const Intent& intent, const Character& character, const Motion& motion,
+                                         int frame) {
   std::vector<ActiveAction> out;
-  for (const PlannedAction& action : stage.timeline.actions)
+  for (const IntendedAction& action : intent.actions)
     if (std::ranges::any_of(motion.spans, [&](const ActionSpan& span) {
           return span.first_frame <= frame && frame <= span.last_frame && is_of(span, action);
         }))
-      out.push_back(describe(action, stage.timeline, *stage.character));
+      out.push_back(describe(action, intent, character));
   // One use may move several parts.
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -106,21 +109,16 @@ std::span<const std::string_view> phase_names() { return kPhases; }
 
 std::string_view phase_name(Phase phase) { return kPhases[static_cast<std::size_t>(phase)]; }
 
-bool is_of(const ActionSpan& span, const PlannedAction& action) {
-  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
-         span.part == action.part;
+std::vector<Phase> phases_of(const Intent& intent, const Motion& motion) {
+  return PhasePainter(intent, motion).painted();
 }
 
-std::vector<Phase> phases_of(const Timeline& timeline, const Motion& motion) {
-  return PhasePainter(timeline, motion).painted();
+Phase phase_of(const Intent& intent, const Motion& motion, int frame) {
+  return phases_of(intent, motion)[static_cast<std::size_t>(frame)];
 }
 
-Phase phase_of(const Timeline& timeline, const Motion& motion, int frame) {
-  return phases_of(timeline, motion)[static_cast<std::size_t>(frame)];
-}
-
-Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame) {
-  return {phase_of(stage.timeline, motion, frame), active_actions(stage, motion, frame)};
+Circumstances circumstances_of(const Intent& intent, const Character& character, const Motion& motion, int frame) {
+  return {phase_of(intent, motion, frame), active_actions(intent, character, motion, frame)};
 }
 
 }  // namespace contort

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/stage.h"
+#include "model/motion/intent.h"
 #include "model/motion/motion.h"
 
 namespace contort {
@@ -36,12 +36,9 @@ struct Circumstances {
   bool operator==(const Circumstances&) const = default;
 };
 
-// Of a frame, in [0, frame_count), of the motion that was generated from this stage.
-Circumstances circumstances_of(const Stage& stage, const Motion& motion, int frame);
-Phase phase_of(const Timeline& timeline, const Motion& motion, int frame);
-std::vector<Phase> phases_of(const Timeline& timeline, const Motion& motion);  // of every frame
-
-// Whether it is this action that moved the part of the span.
-bool is_of(const ActionSpan& span, const PlannedAction& action);
+// Of a frame, in [0, frame_count), of a motion and of what its generator says that it meant.
+Circumstances circumstances_of(const Intent& intent, const Character& character, const Motion& motion, int frame);
+Phase phase_of(const Intent& intent, const Motion& motion, int frame);
+std::vector<Phase> phases_of(const Intent& intent, const Motion& motion);  // of every frame
 
 }  // namespace contort

@@ -8,7 +8,7 @@
 
 #include "checks/fold.h"
 #include "checks/settings.h"
-#include "formats/mocap/amc.h"
+#include "model/asset/capture.h"
 
 namespace contort {
 

@@ -9,7 +9,7 @@ namespace contort {
 void apply_limits(const CheckDef& check, const CheckInput& in, MarginFold& fold) {
   std::vector<LimitRule> rules = in.settings.limits;
   std::erase_if(rules, [&](const LimitRule& rule) {
-    return rule.check != check.name || (in.timeline == nullptr && !rule.phase.empty());
+    return rule.check != check.name || (in.intent == nullptr && !rule.phase.empty());
   });
   if (rules.empty()) return;
   const bool has_phases = std::ranges::any_of(rules, [](const LimitRule& rule) { return !rule.phase.empty(); });
@@ -25,7 +25,7 @@ void apply_limits(const CheckDef& check, const CheckInput& in, MarginFold& fold)
   }
   std::vector<std::uint8_t> phases;
   if (has_phases)
-    for (const Phase phase : phases_of(*in.timeline, in.motion)) phases.push_back(static_cast<std::uint8_t>(phase));
+    for (const Phase phase : phases_of(*in.intent, in.motion)) phases.push_back(static_cast<std::uint8_t>(phase));
   fold.tolerate(std::move(tolerances), std::move(phases), static_cast<int>(phase_count));
 }
 

@@ -4,25 +4,22 @@
 
 namespace contort {
 
-const PlannedAction* planned_of(const Timeline& timeline, const ActionSpan& span) {
-  const auto found = std::ranges::find_if(timeline.actions, [&](const PlannedAction& a) {
-    return a.sequence == span.sequence && a.clip == span.clip && a.action == span.action && a.part == span.part;
-  });
-  return found == timeline.actions.end() ? nullptr : &*found;
+bool is_of(const ActionSpan& span, const IntendedAction& action) {
+  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
+         span.part == action.part;
 }
 
-int content_frame(const Motion& motion, int sequence, int frame) {
-  for (const QueueSpan& run : motion.queue)
-    if (run.sequence == sequence && run.first_frame <= frame && frame <= run.last_frame)
-      return run.first_content + frame - run.first_frame;
-  return -1;
+const IntendedAction* action_of(const Intent& intent, const ActionSpan& span) {
+  const auto found =
+      std::ranges::find_if(intent.actions, [&](const IntendedAction& action) { return is_of(span, action); });
+  return found == intent.actions.end() ? nullptr : &*found;
 }
 
 bool has_layer(const CheckInput& in, int part, Layer layer, int first, int last) {
   return std::ranges::any_of(in.motion.spans, [&](const ActionSpan& span) {
     if (span.part != part || span.first_frame > last || span.last_frame < first) return false;
-    const PlannedAction* action = planned_of(*in.timeline, span);
-    return action != nullptr && action->def->layer == layer;
+    const IntendedAction* action = action_of(*in.intent, span);
+    return action != nullptr && action->layer == layer;
   });
 }
 

@@ -42,10 +42,10 @@ Subject residue_subject(const Character& character, int subject) {
 }
 
 void residue_measure(const CheckInput& in, MarginFold& fold) {
-  if (in.timeline == nullptr || in.motion.response.dof_count > 0) return;
+  if (in.intent == nullptr || in.motion.response.dof_count > 0) return;
   for (const ActionSpan& first : in.motion.spans) {
-    const PlannedAction* action = planned_of(*in.timeline, first);
-    if (action == nullptr || action->def->layer != Layer::additive) continue;
+    const IntendedAction* action = action_of(*in.intent, first);
+    if (action == nullptr || action->layer != Layer::additive) continue;
     const int before = first.first_frame - 1, after = merged(in, first).last_frame + 1;
     if (before < 0 || after >= in.motion.frame_count) continue;
     if (has_layer(in, first.part, Layer::overwrite, before, after) ||

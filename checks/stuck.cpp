@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "checks/check.h"
-#include "generator/stage.h"
 
 namespace contort {
 
@@ -17,10 +16,10 @@ int stuck_subject_count(const Character&) { return 1; }
 Subject stuck_subject(const Character&, int) { return {"queue", "s"}; }
 
 void stuck_measure(const CheckInput& in, MarginFold& fold) {
-  if (in.timeline == nullptr) return;
+  if (in.intent == nullptr) return;
   std::vector<double> beyond_s(static_cast<std::size_t>(in.motion.frame_count), -kLinger_s);
   for (const QueueSpan& span : in.motion.queue) {
-    const int length = in.timeline->sequences[static_cast<std::size_t>(span.sequence)].length;
+    const int length = in.intent->sequences[static_cast<std::size_t>(span.sequence)].length;
     for (int frame = span.first_frame; frame <= std::min(span.last_frame, in.motion.frame_count - 1); ++frame) {
       const int content = span.first_content + frame - span.first_frame;
       double& most = beyond_s[static_cast<std::size_t>(frame)];

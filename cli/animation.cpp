@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "formats/gltf/read.h"
+#include "formats/mocap/asf.h"
 #include "formats/mocap/bvh.h"
 #include "model/core/inside_folder.h"
 

@@ -2,11 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "checks/evaluate.h"
 #include "cli/check_clips.h"
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "corpus/evaluator.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
@@ -39,9 +39,10 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   Evaluator evaluator(*settings);
   const Evaluation evaluation = evaluator.run(*stage);
   context.exit_code = evaluation.findings.empty() ? kClean : kFindings;
+  const Execution& made = evaluator.execution();
   std::vector<Circumstances> at_worst;
   for (const Finding& finding : evaluation.findings)
-    at_worst.push_back(circumstances_of(*stage, evaluator.motion(), finding.worst_frame));
+    at_worst.push_back(circumstances_of(*made.intent, *made.character, made.motion, finding.worst_frame));
   if (as_json) {
     const Json out = spec_json(file, *stage, *settings, evaluation, at_worst);
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

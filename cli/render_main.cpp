@@ -8,12 +8,12 @@
 #include <memory>
 #include <set>
 
-#include "checks/evaluate.h"
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/render_options.h"
 #include "cli/start.h"
 #include "cli/usage_text.h"
+#include "corpus/evaluator.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "renders/divergence.h"

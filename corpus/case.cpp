@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checks/circumstances.h"
+#include "generator/intent.h"
 #include "model/core/hash.h"
 #include "model/spec/spec_fields.h"
 
@@ -125,7 +126,7 @@ Expectation expectation_of(const Stage& stage, const Motion& motion, const Evalu
   if (std::isfinite(finding.depth)) expect.depth = finding.depth;
   expect.motion_hash = to_hex(evaluation.motion_hash);
   expect.character_hash = to_hex(stage.character->hash());
-  if (!finding.check.empty()) expect.phase = phase_name(phase_of(stage.timeline, motion, finding.worst_frame));
+  if (!finding.check.empty()) expect.phase = phase_name(phase_of(intent_of(stage, motion), motion, finding.worst_frame));
   for (const std::uint16_t step : motion_trace(motion)) expect.trace += to_hex(step).substr(12);
   return expect;
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
 

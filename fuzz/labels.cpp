@@ -5,6 +5,7 @@
 
 #include "checks/circumstances.h"
 #include "generator/actions/action.h"
+#include "generator/intent.h"
 
 namespace contort {
 
@@ -18,6 +19,11 @@ std::string pair_label(const std::string& one, const std::string& other, const s
   return "pair " + std::min(one, other) + " + " + std::max(one, other) + " on " + slot;
 }
 
+bool is_of(const ActionSpan& span, const PlannedAction& action) {
+  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
+         span.part == action.part;
+}
+
 // In which phases an action moved its part: a bit for each.
 unsigned phases_in(const PlannedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
   unsigned phases = 0;
@@ -28,7 +34,7 @@ unsigned phases_in(const PlannedAction& action, const Motion& motion, const std:
 }
 
 void add_uses(const Stage& stage, const Motion& motion, std::vector<std::string>& labels) {
-  const std::vector<Phase> of_frames = phases_of(stage.timeline, motion);
+  const std::vector<Phase> of_frames = phases_of(intent_of(stage, motion), motion);
   for (const PlannedAction& action : stage.timeline.actions) {
     if (action.part != action.named) continue;
     const Part& part = stage.character->parts()[static_cast<std::size_t>(action.part)];

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "checks/evaluate.h"
 #include "corpus/case.h"
+#include "corpus/evaluator.h"
 #include "process/isolate.h"
 #include "fuzz/trial.h"
 #include "model/character/library.h"

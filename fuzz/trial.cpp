@@ -45,10 +45,11 @@ TrialResult CheckTrial::run(const Spec& spec, int most_frames) {
 }
 
 std::vector<Case> CheckTrial::others(const Spec& spec) {
-  const Motion& motion = evaluator_.motion();
+  const Execution& execution = evaluator_.execution();
   Evaluation evaluation;
-  evaluation.motion_hash = motion_hash(motion);
-  evaluation.findings = evaluator_.judge(*stage_->character, motion, {}, stage_->environment, &stage_->timeline);
+  evaluation.motion_hash = motion_hash(execution.motion);
+  evaluation.findings =
+      evaluator_.judge(*execution.character, execution.motion, {}, execution.environment, execution.said());
   return others_among(spec, evaluation);
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "checks/evaluate.h"
 #include "corpus/case.h"
+#include "corpus/evaluator.h"
 #include "process/isolate.h"
 #include "model/character/library.h"
 

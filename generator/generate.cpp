@@ -15,7 +15,6 @@ namespace {
 using Hold = GenerateScratch::Hold;
 
 constexpr double kCutFade_s = 0.15;  // of an additive that an interrupt cuts
-constexpr double kComesBack_s = 0.3;  // of a course that goes on after a cut, at least: a foot in the air comes down
 
 class Generation {
  public:
@@ -251,13 +250,8 @@ class Generation {
 
   int frames_of(double seconds) const { return std::max(1, static_cast<int>(seconds * stage_.rate_hz)); }
 
-  // A course that was cut comes in again where it goes on: a walk would start with both feet at home, wherever they are.
-  // Key poses, on the layer overwrite, start from where the part is by themselves.
   double come_in(const Hold& hold) const {
-    const PlannedAction& action = planned(hold);
-    const double in = blended_in(action, hold.came, content(hold));
-    if (action.def->layer != Layer::ik || action.def->timing == Timing::goal || hold.came <= action.start) return in;
-    return std::min(in, ease(static_cast<double>(frame_ - hold.frame) / frames_of(kComesBack_s)));
+    return contort::come_in(planned(hold), hold.came, content(hold), frame_ - hold.frame, stage_.rate_hz);
   }
 
   // Legs under a root that blends put their feet where they belong: blended angles would have them slide.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "formats/gltf/write.h"
 #include "model/core/base64.h"
 #include "renders/gzip.h"
@@ -62,7 +62,7 @@ Result<Json> motion_json(const ShownCase& shown, const Library& library, const C
               {"spans", spans_json(*stage, motion)},
               {"marks", marks_json(*stage, motion)},
               {"balance", balance_json(motion)},
-              {"curves", curves_json(evaluator.curves(*stage, about, kMostCurves))}};
+              {"curves", curves_json(evaluator.curves(about, kMostCurves))}};
 }
 
 }  // namespace

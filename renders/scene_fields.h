@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/stage.h"
 #include "model/core/json_fields.h"
 #include "renders/highlight.h"

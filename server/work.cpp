@@ -262,7 +262,7 @@ Result<Reply> Worker::judge(const Stage& stage, const Task& task) {
   about.check = task.check, about.subject = task.subject;
   if (about.check.empty() && !evaluation.findings.empty()) about = evaluation.findings.front();
   return Reply{json_fields::compact_text({{"motion_hash", to_hex(evaluation.motion_hash)},
-                                          {"curves", scene::curves_json(evaluator_.curves(stage, about, 12))},
+                                          {"curves", scene::curves_json(evaluator_.curves(about, 12))},
                                           {"findings", findings_json(evaluation.findings)}}),
                ""};
 }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "model/character/library.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"

@@ -13,7 +13,6 @@ namespace {
 
 constexpr MocapSyntax kAsfSyntax{.area = "asf", .alone = "", .blank = "()", .comment = '#'};
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-constexpr std::array<std::string_view, 7> kDofNames = {"rx", "ry", "rz", "tx", "ty", "tz", "l"};
 
 // What limits and axes are multiplied with. The unit is declared before the bones in every file, but nothing says that
 // it must be: so it is applied at the end.
@@ -236,8 +235,6 @@ void finish_bone(RawBone& raw, double rad, std::vector<AsfBone>& out) {
 }
 
 }  // namespace
-
-std::string_view dof_name(DofKind kind) { return kDofNames[static_cast<std::size_t>(kind)]; }
 
 Result<AsfSkeleton> parse_asf(std::string_view text) {
   MocapWords words(kAsfSyntax, text);

@@ -1,51 +1,13 @@
-// ASF (Acclaim skeleton file): bones with degrees of freedom and, unlike other formats of motion capture, the limits
-// that whoever made the skeleton declared for them. Its motions are AMC files, see amc.h.
+// ASF (Acclaim skeleton file): reads a skeleton with its limits. Its motions are AMC files, see amc.h.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "model/core/math.h"
+#include "model/asset/capture.h"
 #include "model/core/result.h"
 
 namespace contort {
-
-enum class DofKind : std::uint8_t { rx, ry, rz, tx, ty, tz, length };
-std::string_view dof_name(DofKind kind);  // "rx" … "tz", "l"
-inline bool is_rotation(DofKind kind) { return kind <= DofKind::rz; }
-
-// A degree of freedom: one number of a bone's line in each frame.
-struct AsfDof {
-  DofKind kind = DofKind::rx;
-  double low = 0.0;  // rad for rotations, else the file's unit of length. Both infinite where nothing is declared.
-  double high = 0.0;
-  bool operator==(const AsfDof&) const = default;
-};
-
-struct AsfBone {
-  std::string name;
-  int parent = -1;          // Not always smaller than the own index.
-  Vec3 direction{0.0};      // From the bone's beginning to its end, in the global frame of the rest pose.
-  double length = 0.0;      // In the file's unit; 0 for the root.
-  Quat axis = kNoRotation;  // C: global_from_bone at rest. Degrees of freedom turn about the axes of this frame.
-  // In which order rotations are applied, 0 for x: {0, 1, 2} turns about x first, so that the product is Rz * Ry * Rx.
-  std::array<int, 3> turn_order = {0, 1, 2};
-  std::vector<AsfDof> dofs;  // In the order of the AMC's numbers.
-  bool operator==(const AsfBone&) const = default;
-};
-
-struct AsfSkeleton {
-  std::string name;
-  double length_unit = 1.0;    // As declared. CMU's 0.45 means: a length of 1 is 1 / 0.45 inches.
-  bool is_in_degrees = false;  // What the file is written in; values here are rad.
-  Vec3 root_position{0.0};
-  std::vector<AsfBone> bones;  // Bone 0 is the root; the others are in the file's order.
-  std::vector<int> order;      // Every bone once, parents before children.
-  bool operator==(const AsfSkeleton&) const = default;
-};
 
 // Codes "asf.*"; the pointer is a line: "line 12".
 Result<AsfSkeleton> read_asf(const std::string& path);

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-#define X(name, layer, timing, spread, help)                          \
+#define X(name, layer, timing, spread, promise, help)                 \
   std::vector<ParamDef> name##_params(const Character&, const Part&); \
   bool name##_supports(const Character&, const Part&);                \
   void name##_rule(const RuleInput&, Posture&);
@@ -18,8 +18,9 @@ namespace contort {
 
 std::span<const ActionDef> all_actions() {
   static const ActionDef actions[] = {
-#define X(name, layer, timing, spread, help) \
-  {#name, Layer::layer, Timing::timing, Spread::spread, help, name##_params, name##_supports, name##_rule},
+#define X(name, layer, timing, spread, promise, help)                       \
+  {#name, Layer::layer,  Timing::timing,  Spread::spread, Promise::promise, \
+   help,  name##_params, name##_supports, name##_rule},
 #include "generator/actions/action_list.inc"
 #undef X
   };

@@ -16,14 +16,13 @@
 #include "generator/motion/gait.h"
 #include "model/character/character.h"
 #include "model/core/result.h"
+#include "model/motion/intent.h"
 #include "model/motion/motion.h"
 #include "model/spec/action_use.h"
 #include "model/world/environment.h"
 
 namespace contort {
 
-// Order of evaluation on one part: overwrite, then ik on top, then additive.
-enum class Layer { overwrite, ik, additive };
 std::string_view layer_name(Layer layer);
 
 // A goal is reached at the end of the action's period; a course is a posture as a function of time (docs/timeline.md).
@@ -34,6 +33,13 @@ enum class Spread {
   own,   // the part that the spec names
   limb,  // and the parts that hang on it, one after another: arm and hand
   legs,  // it must be the root part: and all legs and feet
+};
+
+// What an action says of the limb that it moves, for the intent (model/motion/intent.h).
+enum class Promise {
+  none,
+  arrives,  // at its end the part's tip is at its first parameter, a point in the character's frame
+  holds,    // while it is in force the part's grip is at its first parameter, a point of an object
 };
 
 enum class ParamType {
@@ -142,6 +148,7 @@ struct ActionDef {
   Layer layer;
   Timing timing;
   Spread spread;
+  Promise promise;
   std::string_view help;
   // The parameters on a given part; they may depend on its joints.
   std::vector<ParamDef> (*params)(const Character&, const Part&);

@@ -43,8 +43,8 @@ void between(const Joint& joint, const double* before, const KeyPlan::Node& next
   q[0] = turn.w, q[1] = turn.x, q[2] = turn.y, q[3] = turn.z;
 }
 
-// Keys that were over when the action took the part, because it was cut and goes on, are not gone back to; only the last
-// one always is where it ends.
+// Keys that were over when the action took the part, because it was cut and goes on, are not gone back to; only the
+// last one always is where it ends.
 void follow(const KeyPlan::Path& path, const RuleInput& in, double took_at, double now, Posture& posture) {
   const Joint& joint = in.character.joints()[static_cast<std::size_t>(path.joint)];
   std::array<double, 4> before{};
@@ -74,8 +74,9 @@ bool has_joints(const Character&, const Part& part) { return part.joint_count > 
 }  // namespace
 
 const ActionDef& key_pose_def() {
-  static const ActionDef def{"keys",    Layer::overwrite, Timing::course, Spread::own, "Key poses, one after another.",
-                             no_params, has_joints,       keys_rule};
+  static const ActionDef def{"keys",      Layer::overwrite, Timing::course,
+                             Spread::own, Promise::none,    "Key poses, one after another.",
+                             no_params,   has_joints,       keys_rule};
   return def;
 }
 

@@ -12,6 +12,7 @@ namespace contort {
 namespace {
 
 constexpr std::size_t kMaxActionUses = 10'000;  // in all sequences and interrupts
+constexpr double kComesBack_s = 0.3;  // of a course that goes on after a cut, at least: a foot in the air comes down
 
 // A stretch of content on the time line: frame = start + content * scale.
 struct Stretch {
@@ -321,6 +322,13 @@ double not_blended_out(const PlannedAction& action, int frame) {
   if (!(action.blend_out > 0.0)) return 1.0;
   const double length = std::min(action.blend_out, action.end - action.start);
   return 1.0 - ramp(frame, action.end - length, length);
+}
+
+double come_in(const PlannedAction& action, double came, int frame, int held_frames, double rate_hz) {
+  const double in = blended_in(action, came, frame);
+  if (action.def->layer != Layer::ik || action.def->timing == Timing::goal || came <= action.start) return in;
+  const int back_frames = std::max(1, static_cast<int>(kComesBack_s * rate_hz));
+  return std::min(in, ease(static_cast<double>(held_frames) / back_frames));
 }
 
 double ease(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }

@@ -70,6 +70,11 @@ double progress(const PlannedAction& action, int frame);
 double blended_in(const PlannedAction& action, double came, int frame);
 double not_blended_out(const PlannedAction& action, int frame);
 
+// As blended_in, of an action that has had its part for `held_frames` of the motion: a course that was cut comes in again
+// where it goes on, because a walk would start with both feet at home, wherever they are. Key poses, on the layer
+// overwrite, start from where the part is by themselves.
+double come_in(const PlannedAction& action, double came, int frame, int held_frames, double rate_hz);
+
 // Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and
 // Hogan 1985). Its greatest slope is 1.875, in the middle.
 double ease(double u);

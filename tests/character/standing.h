@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "checks/distance.h"
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 

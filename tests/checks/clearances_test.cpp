@@ -98,7 +98,7 @@ MarginFold folded(const Stage& stage, const Motion& motion, bool all) {
   place_frames(*stage.character, motion, world);
   MarginFold fold(check.subject_count(*stage.character), settings.merge_gap_frames, check.resolution);
   if (all) fold.record(motion.frame_count);  // then every margin matters
-  check.measure({*stage.character, motion, world, settings, stage.environment, &stage.timeline}, fold);
+  check.measure({*stage.character, motion, world, settings, stage.environment, nullptr}, fold);
   return fold;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/mocap/amc.h"
+#include "formats/mocap/asf.h"
 #include "tests/mocap/asf_text.h"
 #include "tests/mocap/bvh_text.h"
 

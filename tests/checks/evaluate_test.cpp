@@ -1,13 +1,13 @@
 // Evaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of each
 // limit.
-#include "checks/evaluate.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
+#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
+#include "generator/intent.h"
 #include "tests/checks/small_character.h"
 #include "tests/scenes.h"
 
@@ -18,7 +18,7 @@ namespace {
 // A motion of the small character, and what was to be played where that matters.
 struct Shown {
   Motion motion;
-  Timeline timeline{};
+  Intent intent{};
   Environment environment{};
 };
 
@@ -130,19 +130,19 @@ Shown lost(const Character& character, double margin) {
   return {motion};
 }
 
-Timeline timeline_of(const char* action, int part, int last_frame, std::vector<double> params) {
-  Timeline timeline;
-  timeline.sequences = {{"", last_frame, {}}};
-  PlannedAction planned;
-  planned.def = find_action(action);
-  planned.part = planned.named = part;
-  planned.end = planned.last_frame = last_frame;
-  planned.params = std::move(params);
-  timeline.actions = {planned};
-  return timeline;
+// A sequence of one action on one part.
+Intent intent_of_one(const char* action, Layer layer, int part, int last_frame) {
+  Intent intent;
+  intent.sequences = {{last_frame, {}}};
+  IntendedAction intended;
+  intended.name = action, intended.layer = layer;
+  intended.part = intended.named = part;
+  intended.end = last_frame;
+  intent.actions = {intended};
+  return intent;
 }
 
-// A grip is to stay on a socket of the base, and is beside it once it has come in.
+// A grip is to stay on a socket of the base, and is beside it.
 Shown missed(const Character& character, double margin) {
   Motion motion = small::at_rest(character, 13);
   for (int frame = 0; frame < 13; ++frame)
@@ -150,7 +150,9 @@ Shown missed(const Character& character, double margin) {
   const int arm = character.find_part("arm_left");
   motion.spans = {{0, 12, 0, 0, 0, arm}};
   motion.queue = {{0, 12, 0, 0}};
-  return {motion, timeline_of("weapon_hold", arm, 20, {static_cast<double>(character.find_socket("base/left"))})};
+  Intent intent = intent_of_one("weapon_hold", Layer::ik, arm, 20);
+  intent.goals = {{0, 12, arm, character.find_socket("arm_left/grip"), character.find_socket("base/left"), Vec3(0.0)}};
+  return {motion, intent};
 }
 
 Shown left_over(const Character& character, double margin) {
@@ -159,22 +161,22 @@ Shown left_over(const Character& character, double margin) {
   const int arm = character.find_part("arm_left");
   motion.spans = {{1, 1, 0, 0, 0, arm}};
   motion.queue = {{0, 2, 0, 0}};
-  return {motion, timeline_of("hit_reaction", arm, 2, {})};
+  return {motion, intent_of_one("hit_reaction", Layer::additive, arm, 2)};
 }
 
 // Three frames longer than its content are 0.05 s at 60 Hz.
 Shown lingering(const Character& character, double margin) {
   Motion motion = small::at_rest(character, 14, 3.0 / (0.05 - margin));
   motion.queue = {{0, 13, 0, 0}};
-  return {motion, timeline_of("hit_reaction", 0, 10, {})};
+  return {motion, intent_of_one("hit_reaction", Layer::additive, 0, 10)};
 }
 
 // It goes on one frame too late, which is a millisecond at 1 kHz.
 Shown skipping(const Character& character, double margin) {
   Motion motion = small::at_rest(character, 14, 1.0 / (0.001 - margin));
   motion.queue = {{0, 4, 0, 0}, {4, 6, 1, 0}, {6, 11, 0, 5}};
-  Shown shown{motion, timeline_of("hit_reaction", 0, 10, {})};
-  shown.timeline.sequences.push_back({"", 2, {}});
+  Shown shown{motion, intent_of_one("hit_reaction", Layer::additive, 0, 10)};
+  shown.intent.sequences.push_back({2, {}});
   return shown;
 }
 
@@ -204,7 +206,7 @@ const std::map<std::string, Exemplar>& exemplars() {
 }
 
 std::vector<Finding> findings_of(const Character& character, const Shown& shown) {
-  return Evaluator().judge(character, shown.motion, {}, shown.environment, &shown.timeline);
+  return Evaluator().judge(character, shown.motion, {}, shown.environment, &shown.intent);
 }
 
 TEST(Manifest, EveryCheckHasAnExemplarInsideThatPassesAndOneOutsideThatFails) {
@@ -272,7 +274,9 @@ TEST(Evaluator, JudgingTheGeneratedMotionIsTheSameAsRunning) {
     Evaluator runs, judges;
     const Evaluation evaluation = runs.run(stage);
     const Motion motion = generate(stage);
-    EXPECT_EQ(evaluation.findings, judges.judge(*stage.character, motion, {}, stage.environment, &stage.timeline));
+    const Intent intent = intent_of(stage, motion);
+    EXPECT_EQ(evaluation.findings, judges.judge(*stage.character, motion, {}, stage.environment, &intent));
+    EXPECT_EQ(*runs.execution().intent, intent);
     EXPECT_EQ(evaluation.motion_hash, motion_hash(motion));
     EXPECT_EQ(evaluation.frame_count, motion.frame_count);
     EXPECT_EQ(runs.motion(), motion);

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "checks/check.h"
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 

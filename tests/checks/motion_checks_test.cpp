@@ -2,7 +2,8 @@
 // known: made by hand for one property, or generated from specs that must be quiet.
 #include <gtest/gtest.h>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
+#include "generator/intent.h"
 #include "tests/checks/small_character.h"
 
 namespace contort {
@@ -173,8 +174,9 @@ TEST(Residue, IsFoundWhereAnAdditiveStays) {
   const int elbow = stage.character->find_joint("arm_right/elbow");
   const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
   for (int frame = motion.spans[0].last_frame; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
+  const Intent intent = intent_of(stage, motion);
   const std::vector<Finding> findings =
-      Evaluator().judge(*stage.character, motion, "residue", stage.environment, &stage.timeline);
+      Evaluator().judge(*stage.character, motion, "residue", stage.environment, &intent);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].subject, "arm_right");
   EXPECT_NEAR(findings[0].worst_margin, 0.1 * kRadPerDeg - 0.01, 1e-9);
@@ -229,13 +231,54 @@ TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
   EXPECT_TRUE(is_missed) << "the rifle goes behind the body";
 }
 
+// A second hand on the rifle, cut for a pose of its arm in frame 40, and then at it again.
+Stage cut_hold(int rate_hz) {
+  return staged(R"({"format": "contort.spec/1", "rate_hz": )" + std::to_string(rate_hz) + R"(,
+    "character": {"name": "human", "attachments": [{"object": "rifle", "slot": "hand_right", "socket": "grip"}]},
+    "sequences": [{"clips": [{"actions": [
+      {"action": "reach", "slot": "arm_right", "duration_frames": 20, "params": {"target_m": [-0.15, 1.2, 0.3]}},
+      {"action": "weapon_hold", "slot": "arm_left", "start_frame": 20, "duration_frames": 160}]}]}],
+    "interrupts": [{"when": {"event": "frame", "frame": 40}, "sequence": {"clips": [{"actions": [
+      {"action": "pose", "slot": "arm_left", "duration_frames": 20, "params": {"elbow_deg": 80}}]}]}}]})");
+}
+
+TEST(ReachError, AHoldThatWasCutHasTheTimeThatItsGeneratorTakesToComeBack) {
+  for (const int rate_hz : {30, 60, 120}) {
+    const Stage stage = cut_hold(rate_hz);
+    EXPECT_TRUE(found(stage, "reach_error").empty()) << rate_hz << " Hz";
+    const Intent intent = intent_of(stage, generate(stage));
+    ASSERT_EQ(intent.goals.size(), 3U) << "the reach, and the hold before and after the cut";
+    EXPECT_LT(intent.goals[1].last_frame, intent.goals[2].first_frame);
+  }
+}
+
+TEST(ReachError, AHoldThatDoesNotComeBackAfterACutIsFound) {
+  const Stage stage = cut_hold(60);
+  Motion motion = generate(stage);
+  const Intent intent = intent_of(stage, motion);
+  const int elbow = stage.character->find_joint("arm_left/elbow");
+  const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
+  for (int frame = 60; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
+  const std::vector<Finding> findings =
+      Evaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_TRUE(findings[0].subject.ends_with("/grip")) << findings[0].subject;
+  EXPECT_EQ(findings[0].first_frame, intent.goals[2].first_frame);
+}
+
+TEST(ReachError, IsNotJudgedWhereTheGeneratorDoesNotSayWhatItMeant) {
+  const Stage stage = staged(reach_to("[0.2, 1.4, 3.0]"));
+  EXPECT_TRUE(Evaluator().judge(*stage.character, generate(stage), "reach_error", stage.environment).empty());
+}
+
 TEST(Stuck, QueuesOfSpecsRunDry) {
   const Stage stage = staged(playing(R"({"action": "pose", "slot": "arm_left", "params": {"elbow_deg": 40}})"));
   EXPECT_TRUE(found(stage, "stuck").empty());
   Motion motion = generate(stage);
   ASSERT_EQ(motion.queue.size(), 1U);
   motion.queue[0].last_frame = motion.frame_count - 1;
-  EXPECT_EQ(Evaluator().judge(*stage.character, motion, "stuck", stage.environment, &stage.timeline).size(), 1U);
+  const Intent intent = intent_of(stage, motion);
+  EXPECT_EQ(Evaluator().judge(*stage.character, motion, "stuck", stage.environment, &intent).size(), 1U);
 }
 
 // A pose of 40 frames, cut by others in frames 10 and 20.
@@ -255,7 +298,8 @@ TEST(QueueGap, WhatIsCutGoesOnWhereItWas) {
   ASSERT_EQ(motion.queue.size(), 5U);
   EXPECT_TRUE(found(stage, "queue_gap").empty());
   const auto judged = [&](const Motion& changed) {
-    return Evaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &stage.timeline);
+    const Intent intent = intent_of(stage, changed);
+    return Evaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &intent);
   };
   for (std::size_t span = 0; span < motion.queue.size(); ++span)
     for (const int skipped : {-1, 1}) {

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "checks/evaluate.h"
 #include "checks/waive.h"
+#include "corpus/evaluator.h"
+#include "generator/intent.h"
 #include "tests/checks/small_character.h"
 
 namespace contort {
@@ -120,7 +121,8 @@ TEST(Settings, ALimitOfOnePhaseCountsInItsFramesOnly) {
   ASSERT_EQ(moving.size(), 1U);
   EXPECT_EQ(moving[0].first_frame, all[0].first_frame);
   EXPECT_LT(moving[0].last_frame, all[0].last_frame);
-  EXPECT_EQ(phase_of(stage.timeline, generate(stage), moving[0].last_frame + 1), Phase::at_rest);
+  const Motion motion = generate(stage);
+  EXPECT_EQ(phase_of(intent_of(stage, motion), motion, moving[0].last_frame + 1), Phase::at_rest);
 }
 
 CheckSettings waiving(const Waiver& waiver, const std::string& today) {

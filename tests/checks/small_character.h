@@ -9,7 +9,7 @@
 #include <string>
 
 #include "checks/check.h"
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "model/character/library.h"
 #include "model/motion/kinematics.h"
 

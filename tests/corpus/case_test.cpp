@@ -86,7 +86,7 @@ TEST(CaseFile, SaysWhatWasGoingOnInTheWorstFrame) {
   ASSERT_TRUE(stage);
   Evaluator evaluator;
   evaluator.run(*stage);
-  EXPECT_EQ(c.expect.phase, phase_name(phase_of(stage->timeline, evaluator.motion(), c.expect.worst_frame)));
+  EXPECT_EQ(c.expect.phase, phase_name(phase_of(*evaluator.execution().intent, evaluator.motion(), c.expect.worst_frame)));
   EXPECT_FALSE(c.expect.phase.empty());
   // Cases of older builds do not say it.
   std::string text = print_case(c);

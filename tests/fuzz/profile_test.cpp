@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "generator/stage.h"
 

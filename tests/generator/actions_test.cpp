@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <random>
 
-#include "checks/evaluate.h"
 #include "checks/round_distances.h"
+#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "fuzz/parallel.h"
 #include "generator/dynamics/recursions.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "formats/gltf/read.h"
 #include "generator/motion/recording.h"
 #include "import/import.h"

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/actions/action.h"
 #include "generator/motion/legs.h"
 #include "model/motion/kinematics.h"

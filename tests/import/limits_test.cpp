@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "tests/import/rigged_model.h"
 
 namespace contort {

@@ -5,7 +5,7 @@
 
 #include "checks/circumstances.h"
 #include "checks/clip_speed.h"
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/motion/recording.h"
 #include "model/asset/sample.h"
 #include "tests/libfuzzer/targets.h"
@@ -59,7 +59,9 @@ bool play(const Spec& spec, const Library& library) {
   if (stage.recorded && stage.recorded->frame_count > kFrames) stage.dynamics = nullptr;
   Evaluator evaluator;
   const Evaluation evaluation = evaluator.run(stage);
-  for (const Finding& finding : evaluation.findings) circumstances_of(stage, evaluator.motion(), finding.worst_frame);
+  const Execution& made = evaluator.execution();
+  for (const Finding& finding : evaluation.findings)
+    circumstances_of(*made.intent, *made.character, made.motion, finding.worst_frame);
   return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include "formats/gltf/read.h"
 #include "formats/mocap/amc.h"
+#include "formats/mocap/asf.h"
 #include "formats/mocap/bvh.h"
 #include "formats/mocap/limits.h"
 #include "generator/stage.h"

@@ -1,5 +1,6 @@
 #include "checks/dof_limits.h"
 #include "formats/mocap/amc.h"
+#include "formats/mocap/asf.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"
 

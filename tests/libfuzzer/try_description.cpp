@@ -1,8 +1,8 @@
 // Parts, objects, characters and actions, as the one file of a library folder; joint maps and settings of checks.
 #include <algorithm>
 
-#include "checks/evaluate.h"
 #include "checks/joint_map.h"
+#include "corpus/evaluator.h"
 #include "generator/actions/action.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/libfuzzer/go_on.h"

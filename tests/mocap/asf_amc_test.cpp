@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "formats/mocap/amc.h"
+#include "formats/mocap/asf.h"
 #include "model/asset/sample.h"
 #include "tests/mocap/asf_text.h"
 #include "tests/mocap/bvh_text.h"

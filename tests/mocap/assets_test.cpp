@@ -8,6 +8,8 @@
 
 #include "checks/clip_speed.h"
 #include "checks/dof_limits.h"
+#include "formats/mocap/amc.h"
+#include "formats/mocap/asf.h"
 #include "formats/mocap/bvh.h"
 #include "model/asset/sample.h"
 

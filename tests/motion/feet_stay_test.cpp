@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/generate.h"
 #include "tests/character/stock.h"
 

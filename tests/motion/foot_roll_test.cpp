@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/generate.h"
 #include "generator/motion/gait.h"
 #include "tests/character/stock.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "checks/evaluate.h"
+#include "corpus/evaluator.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"

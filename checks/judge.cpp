@@ -1,4 +1,4 @@
-#include "checks/evaluate.h"
+#include "checks/judge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,21 +42,24 @@ int first_without_balance(const Motion& motion) {
 
 }  // namespace
 
-Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
-  generate(stage, scratch_, motion_);
+Evaluation Judge::evaluate(const Execution& execution, std::string_view only_check) {
   Evaluation evaluation;
-  evaluation.motion_hash = motion_hash(motion_);
-  evaluation.frame_count = motion_.frame_count;
-  evaluation.findings = judge(*stage.character, motion_, only_check, stage.environment, &stage.timeline);
-  if (!settings_.waivers.empty()) set_waived_apart(stage, evaluation);
+  evaluation.motion_hash = motion_hash(execution.motion);
+  evaluation.frame_count = execution.motion.frame_count;
+  evaluation.findings =
+      judge(*execution.character, execution.motion, only_check, execution.environment, execution.said());
+  if (!settings_.waivers.empty()) set_waived_apart(execution, evaluation);
   return evaluation;
 }
 
-void Evaluator::set_waived_apart(const Stage& stage, Evaluation& evaluation) const {
-  const std::vector<Phase> of_frames = phases_of(stage.timeline, motion_);
+// Waivers for a phase need an intent: without one no frame has a phase, and they hide nothing.
+void Judge::set_waived_apart(const Execution& execution, Evaluation& evaluation) const {
   std::vector<Phase> phases;
-  for (const Finding& finding : evaluation.findings)
-    phases.push_back(of_frames[static_cast<std::size_t>(finding.worst_frame)]);
+  if (execution.intent) {
+    const std::vector<Phase> of_frames = phases_of(*execution.intent, execution.motion);
+    for (const Finding& finding : evaluation.findings)
+      phases.push_back(of_frames[static_cast<std::size_t>(finding.worst_frame)]);
+  }
   Waived waived = waive(settings_.waivers, evaluation.findings, phases, settings_.today);
   std::vector<Finding> open;
   for (std::size_t f = 0; f < evaluation.findings.size(); ++f)
@@ -68,7 +71,7 @@ void Evaluator::set_waived_apart(const Stage& stage, Evaluation& evaluation) con
   evaluation.waivers = std::move(waived.uses);
 }
 
-MarginFold Evaluator::fold(const CheckDef& check, const CheckInput& input, bool record) const {
+MarginFold Judge::fold(const CheckDef& check, const CheckInput& input, bool record) const {
   MarginFold margins(check.subject_count(input.character), settings_.merge_gap_frames, check.resolution);
   if (record) margins.record(input.motion.frame_count);
   apply_limits(check, input, margins);
@@ -76,8 +79,8 @@ MarginFold Evaluator::fold(const CheckDef& check, const CheckInput& input, bool 
   return margins;
 }
 
-std::vector<Finding> Evaluator::judge(const Character& character, const Motion& motion, std::string_view only_check,
-                                      const Environment& environment, const Timeline* timeline) {
+std::vector<Finding> Judge::judge(const Character& character, const Motion& motion, std::string_view only_check,
+                                  const Environment& environment, const Intent* intent) {
   bool placed = false;
   smallest_.clear();
   std::vector<Finding> findings;
@@ -87,7 +90,7 @@ std::vector<Finding> Evaluator::judge(const Character& character, const Motion& 
       place_frames(character, motion, world_);
       placed = true;
     }
-    const MarginFold margins = fold(check, {character, motion, world_, settings_, environment, timeline}, false);
+    const MarginFold margins = fold(check, {character, motion, world_, settings_, environment, intent}, false);
     append_findings(check, character, margins, findings);
     smallest_.push_back({&check, margins.smallest()});
   }
@@ -124,17 +127,18 @@ std::vector<Candidate> by_nearness(const std::vector<SmallestMargins>& smallest)
 
 }  // namespace
 
-std::vector<MarginCurve> Evaluator::curves(const Stage& stage, const Finding& about, std::size_t most) const {
+std::vector<MarginCurve> Judge::curves(const Execution& execution, const Finding& about, std::size_t most) const {
   std::vector<Candidate> chosen = by_nearness(smallest_);
   const auto is_about = [&](const Candidate& c) {
     const CheckDef& check = *smallest_[c.row].check;
-    return check.name == about.check && check.subject(*stage.character, c.subject).name == about.subject;
+    return check.name == about.check && check.subject(*execution.character, c.subject).name == about.subject;
   };
   const auto first = std::ranges::find_if(chosen, is_about);
   if (first != chosen.end()) std::rotate(chosen.begin(), first, first + 1);
   chosen.resize(std::min(chosen.size(), most));
   std::vector<MarginCurve> curves(chosen.size());
-  const CheckInput input{*stage.character, motion_, world_, settings_, stage.environment, &stage.timeline};
+  const CheckInput input{*execution.character,  execution.motion, world_, settings_,
+                         execution.environment, execution.said()};
   for (std::size_t row = 0; row < smallest_.size(); ++row) {
     if (std::ranges::none_of(chosen, [&](const Candidate& c) { return c.row == row; })) continue;
     const CheckDef& check = *smallest_[row].check;
@@ -142,7 +146,7 @@ std::vector<MarginCurve> Evaluator::curves(const Stage& stage, const Finding& ab
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (chosen[i].row != row) continue;
       const std::span<const double> recorded = margins.recorded(chosen[i].subject);
-      curves[i] = {&check, check.subject(*stage.character, chosen[i].subject), {recorded.begin(), recorded.end()}};
+      curves[i] = {&check, check.subject(*execution.character, chosen[i].subject), {recorded.begin(), recorded.end()}};
     }
   }
   return curves;

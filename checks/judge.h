@@ -1,4 +1,4 @@
-// The one path from a Stage to findings; the fuzzer, the shrinker, replay and the command line all take it.
+// The one path from an Execution to findings; the fuzzer, the shrinker, replay and the command line all take it.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 #include "checks/check.h"
 #include "checks/waive.h"
-#include "generator/generate.h"
-#include "generator/stage.h"
+#include "model/motion/execution.h"
 
 namespace contort {
 
@@ -42,33 +41,31 @@ struct MarginCurve {
   std::vector<double> margins;  // by frame; +infinity where it was not judged
 };
 
-// Owns the memory of one thread's evaluations; nothing of one evaluation reaches the next.
-class Evaluator {
+// Owns the memory of one thread's judgements; nothing of one judgement reaches the next.
+class Judge {
  public:
-  explicit Evaluator(CheckSettings settings = {}) : settings_(settings) {}
+  explicit Judge(CheckSettings settings = {}) : settings_(settings) {}
 
-  // Generates, measures, folds. With `only_check`, that check alone: the shrinker asks for nothing else.
-  Evaluation run(const Stage& stage, std::string_view only_check = {});
+  // Measures, folds, and sets apart what waivers hide. With `only_check`, that check alone: the shrinker asks for
+  // nothing else.
+  Evaluation evaluate(const Execution& execution, std::string_view only_check = {});
 
-  // The same checks on a motion from elsewhere; without surroundings, on level ground at height 0;
-  // without a timeline, what depends on the spec's actions is not judged.
+  // The findings alone, waived ones among them, of a motion from elsewhere; without surroundings, on level ground at
+  // height 0; without an intent, promises are not judged.
   std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
-                             const Environment& environment = {}, const Timeline* timeline = nullptr);
+                             const Environment& environment = {}, const Intent* intent = nullptr);
 
-  const Motion& motion() const { return motion_; }  // of the last run
-  // Of the last evaluation, in the manifest's order; what guides the search.
+  // Of the last judgement, in the manifest's order; what guides the search.
   const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
-  // Of the last run, which was of this stage and had all checks: first the subject that a finding is about, then those
-  // that came nearest to their limits in the check's scale, `most` at the most.
-  std::vector<MarginCurve> curves(const Stage& stage, const Finding& about, std::size_t most) const;
+  // Of the last judgement, which was of this execution and had all checks: first the subject that a finding is about,
+  // then those that came nearest to their limits in the check's scale, `most` at the most.
+  std::vector<MarginCurve> curves(const Execution& execution, const Finding& about, std::size_t most) const;
 
  private:
-  void set_waived_apart(const Stage& stage, Evaluation& evaluation) const;
+  void set_waived_apart(const Execution& execution, Evaluation& evaluation) const;
   MarginFold fold(const CheckDef& check, const CheckInput& input, bool record) const;
 
   CheckSettings settings_;
-  GenerateScratch scratch_;
-  Motion motion_;
   std::vector<Rigid> world_;
   std::vector<SmallestMargins> smallest_;
 };

@@ -1,0 +1,15 @@
+#include "generator/execute.h"
+
+#include "generator/intent.h"
+
+namespace contort {
+
+void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution) {
+  execution.character = stage.character;
+  execution.environment = stage.environment;
+  generate(stage, scratch, execution.motion);
+  if (!execution.intent) execution.intent.emplace();
+  say_intent(stage, execution.motion, *execution.intent);
+}
+
+}  // namespace contort

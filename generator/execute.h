@@ -1,0 +1,12 @@
+// Stage to Execution: the motion, and what the generator meant by it.
+#pragma once
+
+#include "generator/generate.h"
+#include "model/motion/execution.h"
+
+namespace contort {
+
+// Cannot fail, as generate() cannot. Overwrites `execution` and reuses its memory.
+void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution);
+
+}  // namespace contort

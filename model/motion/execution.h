@@ -1,0 +1,23 @@
+// Execution: what a generator made of a request, and all that a check may see of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "model/character/character.h"
+#include "model/motion/intent.h"
+#include "model/motion/motion.h"
+#include "model/world/environment.h"
+
+namespace contort {
+
+struct Execution {
+  std::shared_ptr<const Character> character;  // never null once there is a motion
+  Environment environment;                     // level ground at height 0 where nobody says another
+  Motion motion;
+  std::optional<Intent> intent;  // nothing where the generator does not say what it meant
+
+  const Intent* said() const { return intent ? &*intent : nullptr; }
+};
+
+}  // namespace contort

@@ -1,0 +1,63 @@
+// Intent: what was in force when, as the generator itself says it. Checks of promises read this and nothing else of the
+// generator; where there is no intent, they cannot judge.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/core/math.h"
+
+namespace contort {
+
+// Order of evaluation on one part: overwrite, then ik on top, then additive.
+enum class Layer : std::uint8_t { overwrite, ik, additive };
+
+// An action on one part, at its place in its sequence. Times are in frames of its sequence.
+struct IntendedAction {
+  int sequence = 0;  // indices into the spec; sequences of interrupts are numbered after those of the queue
+  int clip = 0;
+  int action = 0;
+  int part = 0;      // of the character: the part that it moves
+  int named = 0;     // the part that the spec names
+  std::string name;  // that the spec uses
+  Layer layer = Layer::overwrite;
+  double start = 0.0;
+  double end = 0.0;
+  double blend_in = 0.0;
+  double blend_out = 0.0;
+  bool operator==(const IntendedAction&) const = default;
+};
+
+struct IntendedClip {
+  int start = 0;  // frames of its sequence
+  int end = 0;
+  bool operator==(const IntendedClip&) const = default;
+};
+
+struct IntendedSequence {
+  int length = 0;  // frames
+  std::vector<IntendedClip> clips;
+  bool operator==(const IntendedSequence&) const = default;
+};
+
+// In these frames a point of the figure was to be at another point.
+struct Goal {
+  int first_frame = 0;
+  int last_frame = -1;     // inclusive
+  int part = 0;            // that was sent
+  int socket = 0;          // of the character: what shall be there
+  int target_socket = -1;  // another socket of the character, wherever it is by then; -1: target_m
+  Vec3 target_m{0.0};      // in the character's frame: on the ground under the root, +Z forward
+  bool operator==(const Goal&) const = default;
+};
+
+struct Intent {
+  int queued = 0;  // sequences of the spec's own queue; those that follow belong to interrupts
+  std::vector<IntendedSequence> sequences;
+  std::vector<IntendedAction> actions;  // in the spec's order
+  std::vector<Goal> goals;
+  bool operator==(const Intent&) const = default;
+};
+
+}  // namespace contort
