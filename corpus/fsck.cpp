@@ -13,6 +13,7 @@
 #include "corpus/runs.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
+#include "model/core/json_fields.h"
 
 namespace contort {
 
