@@ -7,6 +7,7 @@
 #include "checks/check.h"
 #include "fuzz/draw.h"
 #include "generator/generate.h"
+#include "generator/intent.h"
 #include "model/motion/place_frames.h"
 #include "tests/dynamics/mujoco_model.h"
 
@@ -19,15 +20,19 @@ constexpr int kRounds = 21;
 struct Case {
   Stage stage;
   Motion motion;
+  Intent intent;
 };
 
 std::vector<Case> draw_cases(const char* character, const char* profile) {
   std::vector<Case> cases;
   DrawConfig config{{character}, *load_profile(profile)};
   config.profile.swaps = config.profile.objects = 0.0;
-  for (int i = 0; i < kMotions; ++i)
-    if (Result<Stage> stage = build_stage(draw_spec(config, stock_library(), 7, i), stock_library()); stage)
-      cases.push_back({*stage, generate(*stage)});
+  for (int i = 0; i < kMotions; ++i) {
+    const Result<Stage> stage = build_stage(draw_spec(config, stock_library(), 7, i), stock_library());
+    if (!stage) continue;
+    const Motion motion = generate(*stage);
+    cases.push_back({*stage, motion, intent_of(*stage, motion)});
+  }
   return cases;
 }
 
@@ -96,7 +101,7 @@ class CheckedFrames {
     const Character& character = *each.stage.character;
     const double begin = thread_time_s();
     place_frames(character, each.motion, world_);
-    const CheckInput input{character, each.motion, world_, settings_, each.stage.environment, &each.stage.timeline};
+    const CheckInput input{character, each.motion, world_, settings_, each.stage.environment, &each.intent};
     for (const std::string_view name : checks) {
       const CheckDef& check = find_check(name);
       MarginFold fold(check.subject_count(character), settings_.merge_gap_frames, check.resolution);
