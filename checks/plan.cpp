@@ -4,11 +4,6 @@
 
 namespace contort {
 
-bool is_of(const ActionSpan& span, const IntendedAction& action) {
-  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
-         span.part == action.part;
-}
-
 const IntendedAction* action_of(const Intent& intent, const ActionSpan& span) {
   const auto found =
       std::ranges::find_if(intent.actions, [&](const IntendedAction& action) { return is_of(span, action); });

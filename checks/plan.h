@@ -5,9 +5,6 @@
 
 namespace contort {
 
-// Whether this is a span of this action.
-bool is_of(const ActionSpan& span, const IntendedAction& action);
-
 // The action of a span; nullptr where the intent has none.
 const IntendedAction* action_of(const Intent& intent, const ActionSpan& span);
 

@@ -19,11 +19,6 @@ std::string pair_label(const std::string& one, const std::string& other, const s
   return "pair " + std::min(one, other) + " + " + std::max(one, other) + " on " + slot;
 }
 
-bool is_of(const ActionSpan& span, const PlannedAction& action) {
-  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
-         span.part == action.part;
-}
-
 // In which phases an action moved its part: a bit for each.
 unsigned phases_in(const PlannedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
   unsigned phases = 0;

@@ -20,9 +20,8 @@ IntendedSequence intended(const PlannedSequence& sequence) {
 }
 
 const PlannedAction* planned_of(const Timeline& timeline, const ActionSpan& span) {
-  const auto found = std::ranges::find_if(timeline.actions, [&](const PlannedAction& a) {
-    return a.sequence == span.sequence && a.clip == span.clip && a.action == span.action && a.part == span.part;
-  });
+  const auto found =
+      std::ranges::find_if(timeline.actions, [&](const PlannedAction& action) { return is_of(span, action); });
   return found == timeline.actions.end() ? nullptr : &*found;
 }
 

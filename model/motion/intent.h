@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/core/math.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 
@@ -28,6 +29,13 @@ struct IntendedAction {
   double blend_out = 0.0;
   bool operator==(const IntendedAction&) const = default;
 };
+
+// Whether this is a span of this action: an IntendedAction, or a generator's plan of one, with the same four indices.
+template <class Action>
+bool is_of(const ActionSpan& span, const Action& action) {
+  return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
+         span.part == action.part;
+}
 
 struct IntendedClip {
   int start = 0;  // frames of its sequence
