@@ -36,7 +36,7 @@ struct Circumstances {
   bool operator==(const Circumstances&) const = default;
 };
 
-// Of a frame, in [0, frame_count), of a motion and of what its generator says that it meant.
+// The circumstances of one frame, in [0, frame_count), of a motion. The intent is that of the motion's generator.
 Circumstances circumstances_of(const Intent& intent, const Character& character, const Motion& motion, int frame);
 Phase phase_of(const Intent& intent, const Motion& motion, int frame);
 std::vector<Phase> phases_of(const Intent& intent, const Motion& motion);  // of every frame

@@ -55,10 +55,10 @@ class Judge {
   std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
                              const Environment& environment = {}, const Intent* intent = nullptr);
 
-  // Of the last judgement, in the manifest's order; what guides the search.
+  // The margins of the last judgement, in the manifest's order. The search is guided by them.
   const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
-  // Of the last judgement, which was of this execution and had all checks: first the subject that a finding is about,
-  // then those that came nearest to their limits in the check's scale, `most` at the most.
+  // The curves of the last judgement, which was of this execution and had all checks: first the subject that a finding
+  // is about, then those that came nearest to their limits in the check's scale, `most` at the most.
   std::vector<MarginCurve> curves(const Execution& execution, const Finding& about, std::size_t most) const;
 
  private:

@@ -86,7 +86,7 @@ Result<std::string> find_skeleton(const std::string& amc_path) {
 
 namespace {
 
-// What is in a folder, and in those below it. Links to folders are not followed, as they may lead in a circle.
+// Lists the files in a folder and in those below it. Links to folders are not followed, as they may lead in a circle.
 void look_into(const std::string& folder, std::vector<std::string>& files, std::vector<Unreadable>& unreadable) {
   std::error_code error;
   std::vector<std::string> folders;

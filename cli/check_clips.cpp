@@ -191,7 +191,7 @@ Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked
                where + (options.clip.empty() ? " holds no animation" : " holds no clip \"" + options.clip + "\"")};
 }
 
-// What is wrong with the map is said with the name of its file.
+// Names the file of the map in an issue that is about the map.
 Issue in_map(const std::string& map, const Issue& issue) {
   return issue.code.starts_with("map.") && !map.empty() ? about_file(map, issue) : issue;
 }

@@ -26,7 +26,7 @@ enum Exit : int {
   kNobodyReads = 141  // standard output went into a pipe that was closed: 128 + SIGPIPE, as of other programs
 };
 
-// Of an issue that may be about what cannot be written, which is the machine's fault; the others are the user's.
+// The exit code of an issue: kInternal where something cannot be written, else kBadInput.
 Exit exit_of(const Issue& issue);
 
 struct Context {

@@ -26,7 +26,7 @@ struct SpecInput {
 };
 Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path);  // the path is for messages
 
-// Of a file that is named on the command line, which may be a pipe: <(command), /dev/stdin.
+// Read a file that is named on the command line; it may be a pipe: <(command), /dev/stdin.
 Result<SpecInput> read_spec_input(const std::string& path);
 Result<Case> read_case_input(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What contort-render is asked for on its command line.
+// The options of contort-render.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What both programs, contort and contort-render, do before and after their own work.
+// The first and the last steps of both programs, contort and contort-render.
 #pragma once
 
 namespace contort::cli {

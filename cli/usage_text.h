@@ -1,4 +1,4 @@
-// What is wrong with a command line, in words, and what was probably meant.
+// Messages about a wrong command line: the mistake, and the name that was probably meant.
 #pragma once
 
 #include <functional>

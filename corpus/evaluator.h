@@ -29,7 +29,7 @@ class Evaluator {
   }
 
   const std::vector<SmallestMargins>& smallest_margins() const { return judge_.smallest_margins(); }
-  // Of the last run, see Judge::curves.
+  // The curves of the last run, see Judge::curves.
   std::vector<MarginCurve> curves(const Finding& about, std::size_t most) const {
     return judge_.curves(execution_, about, most);
   }

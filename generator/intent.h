@@ -6,7 +6,7 @@
 
 namespace contort {
 
-// Of the motion that was generated from this stage.
+// The intent of a motion that was generated from this stage.
 Intent intent_of(const Stage& stage, const Motion& motion);
 
 // The same into memory that is used again.

@@ -13,8 +13,8 @@ class Allowance {
  public:
   Allowance(double per_s, double at_once) : per_s_(per_s), at_once_(at_once) {}
 
-  // What `client` has left now. Below zero where it spent more than it had, as the cost of some things is known
-  // afterwards.
+  // The amount that `client` has left now. It is below zero where the client spent more than it had, as the cost of
+  // some things is known afterwards.
   double left(const std::string& client, Time now);
   void spend(const std::string& client, double amount, Time now);
   // Spends it if there is as much.

@@ -54,7 +54,8 @@ std::string made_live(std::string page) {
   return page;
 }
 
-// What the page says of itself, and that nobody may frame it, which only a header can say. "": it says nothing.
+// The content security policy that the page contains, with frame-ancestors added, which only a header can set. "" where
+// the page has none.
 std::string policy_of(const std::string& page) {
   constexpr std::string_view kMeta = "<meta http-equiv='Content-Security-Policy' content=\"";
   const std::size_t at = page.find(kMeta);

@@ -68,7 +68,7 @@ void address_of(int socket, int (*ask)(int, sockaddr*, socklen_t*), std::string&
 Connection::Connection(int socket, Connections::Seat& seat, std::size_t most_chunked, const Patience& patience)
     : socket_(socket), seat_(seat), most_chunked_(most_chunked), patience_(patience) {}
 
-// Where the head ends, behind its empty line; npos where it is longer than it may be.
+// The offset of the end of the head, behind its empty line; npos where it is longer than it may be.
 Result<std::size_t> Connection::receive_head() {
   const Time since = now();
   if (!seat_.waits_for_request(since)) return kOver;

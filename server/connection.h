@@ -12,8 +12,8 @@
 
 namespace contort::server {
 
-// How long the server waits for a client. A body or an answer may stand still for `rest_s` and needs `bytes_per_s` on
-// average after that; the time that the server itself takes does not count.
+// The times that the server waits for a client. A body or an answer may stand still for `rest_s` and needs
+// `bytes_per_s` on average after that; the time that the server itself takes does not count.
 struct Patience {
   double next_request_s = 10.0;
   double head_s = 5.0;  // from its first byte on
@@ -68,7 +68,7 @@ class Connection final : public httplib::Stream {
   std::size_t moved_ = 0;  // bytes of both
 };
 
-// Of somebody for whom there is no seat: the refusal, within a fifth of a second.
+// Refuses a connection for which there is no seat. Takes at most a fifth of a second.
 void turn_away(int socket, const Issue& issue);
 
 // "127.0.0.1", the other end of a connection; "" where it has gone.

@@ -33,7 +33,7 @@ void Connections::Seat::works() {
   if (doing_ != Doing::leaving) doing_ = Doing::working;
 }
 
-// Of all clients where none is named. Those that were shut down already do not count.
+// Counts all connections where no client is named. Those that were shut down already do not count.
 int Connections::count(const std::string* client) const {
   return static_cast<int>(std::ranges::count_if(seats_, [&](const Seat* seat) {
     return seat->doing_ != Seat::Doing::leaving && (client == nullptr || seat->client_ == *client);
@@ -50,7 +50,7 @@ Connections::Seat* Connections::longest_waiting(const std::string& client) const
   return longest;
 }
 
-// Of those for which the server waits somewhere, the one with most connections.
+// The client with most connections, among those for which the server waits in some connection.
 std::string Connections::largest_client() const {
   std::map<std::string, int> counts;
   for (const Seat* seat : seats_)

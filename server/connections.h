@@ -1,4 +1,4 @@
-// Who is connected. Nobody can keep others out by being slow: where there is no room, a connection that makes the
+// The open connections. Nobody can keep others out by being slow: where there is no room, a connection that makes the
 // server wait is closed in favour of the newer one.
 #pragma once
 

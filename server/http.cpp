@@ -40,7 +40,7 @@ void send(Answer answer, httplib::Response& to) {
   to.set_chunked_content_provider(answer.type, [pieces = answer.pieces](std::size_t, httplib::DataSink& sink) {
     bool more = true;
     const std::string text = pieces(more);
-    // Where there is nothing to tell, a line that says nothing, so that a listener who has left is noticed.
+    // An empty comment is sent where there is no event, so that a listener who has left is noticed.
     const bool sent = text.empty() ? !more || sink.write(":\n\n", 3) : sink.write(text.data(), text.size());
     if (!more) sink.done();
     return sent;
@@ -119,7 +119,7 @@ void Http::Impl::serve(Service service) {
   service_ = std::move(service);
   const auto by_reading = [this](const httplib::Request& request, httplib::Response& response,
                                  const httplib::ContentReader& reader) { read_and_answer(request, response, reader); };
-  // Who asks first whether the body is wanted is refused before it is sent, and not asked about again.
+  // A client that asks first whether the body is wanted is refused here, before it sends the body.
   set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
     return refuse(request, response) ? response.status : 100;
   });

@@ -18,7 +18,8 @@ struct HttpConfig {
   std::size_t most_body = 1 << 20;
 };
 
-// Who answers. `refuse` sees a request before its body is read: what it gives is the answer, and the body never is.
+// The functions that answer. `refuse` sees a request before its body is read; if it gives an answer, that is sent and
+// the body is never read.
 struct Service {
   std::function<std::optional<Answer>(const Request& head)> refuse;
   std::function<Answer(const Request&)> answer;

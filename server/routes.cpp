@@ -112,7 +112,7 @@ std::string allowed(const std::vector<const Route*>& all) {
   return names + "OPTIONS";
 }
 
-// What else an address takes.
+// The answer to a method that an address does not take. It lists those that the address takes.
 Answer other_methods(const std::vector<const Route*>& all, const std::string& method) {
   Answer answer = refusal({"call.wrong_method", "", "this address does not take " + method});
   if (method == "OPTIONS") answer.status = 200, answer.body.clear();

@@ -1,5 +1,5 @@
-// What worker processes do: everything that generates. A task says all that is needed, so any worker can do any task,
-// and do it again.
+// The work of worker processes: everything that generates. A task says all that is needed, so any worker can do any
+// task, and do it again.
 #pragma once
 
 #include <memory>

@@ -197,7 +197,7 @@ def parse_args():
 
 
 def check_patches():
-    """Whether every patch says what it breaks and applies to this tree, to the generator alone."""
+    """Whether every patch says what it breaks and applies to this tree: to the generator or to the model and formats below it."""
     bad = []
     for mutant in map(Mutant, sorted(HERE.glob("*.patch"))):
         files = [line[6:] for line in mutant.path.read_text().split("\n") if line.startswith("+++ b/")]

@@ -35,7 +35,7 @@ enum class Spread {
   legs,  // it must be the root part: and all legs and feet
 };
 
-// What an action says of the limb that it moves, for the intent (model/motion/intent.h).
+// The goal that an action sets to the limb that it moves; the intent says it to checks (model/motion/intent.h).
 enum class Promise {
   none,
   arrives,  // at its end the part's tip is at its first parameter, a point in the character's frame

@@ -70,7 +70,7 @@ bool begins_with(std::string_view text, std::string_view word) {
   return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(), is_same_letter);
 }
 
-// Of marked-up text, which may begin with blank lines and says what it is a little later.
+// The kind of a text in HTML or XML, which may begin with blank lines and names its kind a little later.
 std::string_view kind_of_markup(std::string_view bytes) {
   std::string_view text = bytes.substr(0, 1024);
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

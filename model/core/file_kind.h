@@ -1,4 +1,4 @@
-// What kind of file some bytes are, for messages to people who named the wrong one.
+// Recognises common kinds of files, for messages to people who named the wrong one.
 #pragma once
 
 #include <optional>

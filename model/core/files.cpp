@@ -51,8 +51,8 @@ std::optional<Issue> read_rest(int file, const std::string& path, std::size_t ma
   }
 }
 
-// What a path names may change between two looks at it: the first one keeps us from touching devices, the second one,
-// at what was opened, is the one that counts.
+// Looks twice, because a path may lead elsewhere a moment later: the first look keeps us from touching devices, the
+// second one, at the opened file, is the one that counts.
 Result<Descriptor> open_of_kind(const std::string& path, bool (*is_wanted)(unsigned mode), struct stat& found) {
   if (::stat(path.c_str(), &found) != 0) return unreadable(path);
   if (!is_wanted(found.st_mode)) return wrong_kind(path, found.st_mode);
@@ -62,7 +62,7 @@ Result<Descriptor> open_of_kind(const std::string& path, bool (*is_wanted)(unsig
   return file;
 }
 
-// What a pipe that cannot be read right now is waiting for.
+// The reason why a pipe cannot be read right now.
 enum class Silence { no_writer_yet, writer_is_slow };
 
 // False where nothing happened in the time that this silence may take.

@@ -7,8 +7,8 @@
 
 namespace contort {
 
-// How many letters have to be put in, left out, replaced or swapped with the next one to make one word of the other,
-// whatever their case.
+// The number of letters that have to be put in, left out, replaced or swapped with the next one to make one word of the
+// other, whatever their case.
 int letters_apart(std::string_view a, std::string_view b);
 
 // The nearest of the words, where no more than a third of its letters differ; "" where none is so near.

@@ -23,7 +23,7 @@ constexpr int kMostLinks = 40;  // in a row; as many as Linux follows
 constexpr int kReaderTries = 40;
 constexpr useconds_t kReaderPause_us = 50'000;  // two seconds in all
 
-// Where the bytes go in the end.
+// The place that the bytes go to in the end.
 struct Target {
   std::string named;    // by the user
   std::string path;     // behind all symbolic links

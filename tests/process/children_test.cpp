@@ -31,7 +31,7 @@ TEST(Children, GoOnBehindACallThatEndsItsProcess) {
   EXPECT_GE(most, 6) << "while the last call hung";
 }
 
-// Who is killed cannot end them.
+// A parent that is killed cannot end its children itself.
 TEST(Children, EndWithTheirParentHoweverItEnds) {
   const TempFolder folder;
   const auto said = [&] { return slurp(folder / "pid"); };

@@ -1,4 +1,4 @@
-// Who gets a seat, and how long the server waits for somebody who has one.
+// Limits of connections: which of them get a seat, and how long the server waits for a slow one.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// What a server leaves behind, however it ends: no folder and no process.
+// A server leaves no folder and no process behind, however it ends.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>

@@ -115,7 +115,7 @@ TEST(Guard, RefusesBodiesThatWouldGrow) {
   EXPECT_EQ(code(admit(plain, kOpen)), "");
 }
 
-// Who may not call learns that first, and nothing about the rest of the request.
+// A client without the token learns that first, and nothing about the rest of the request.
 TEST(Guard, AsksForTheTokenBeforeAllElse) {
   Request request = get();
   request.method = "POST";

@@ -1,4 +1,4 @@
-// What a head may look like, so that nobody can think differently about where the request ends.
+// The form of a request's head is strict, so that no proxy can disagree about where the request ends.
 #include <gtest/gtest.h>
 
 #include "server/head.h"

@@ -73,7 +73,7 @@ class Program {
       if (line.starts_with("VmHWM:")) return std::strtod(line.c_str() + 6, nullptr) / 1024.0;
     return -1.0;
   }
-  // Of the front and all processes below it, bytes.
+  // Resident memory of the front and of all processes below it, in bytes.
   long resident() const {
     long pages = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
