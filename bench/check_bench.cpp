@@ -10,6 +10,7 @@
 #include "generator/intent.h"
 #include "model/motion/place_frames.h"
 #include "tests/dynamics/mujoco_model.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Case> draw_cases(const char* character, const char* profile) {
   DrawConfig config{{character}, *load_profile(profile)};
   config.profile.swaps = config.profile.objects = 0.0;
   for (int i = 0; i < kMotions; ++i) {
-    const Result<Stage> stage = build_stage(draw_spec(config, stock_library(), 7, i), stock_library());
+    const Result<Stage> stage = build_stage(draw_spec(config, stock_generator(), 7, i), stock_library());
     if (!stage) continue;
     const Motion motion = generate(*stage);
     cases.push_back({*stage, motion, intent_of(*stage, motion)});

@@ -2,7 +2,7 @@
 // the motion that it made, so that a faster wrong answer is seen as wrong.
 #include <benchmark/benchmark.h>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "fuzz/draw.h"
 #include "model/core/hash.h"
 #include "tests/scenes.h"
@@ -30,7 +30,7 @@ void generate_scene(benchmark::State& state, const char* name) {
 
 void check_scene(benchmark::State& state, const char* name) {
   const Result<Stage> stage = build_stage(scene(name), stock_library());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   std::int64_t frames = 0;
   Evaluation last;
   for (auto _ : state) {
@@ -44,9 +44,9 @@ void check_scene(benchmark::State& state, const char* name) {
 void check_drawn(benchmark::State& state, const char* character) {
   std::vector<Stage> stages;
   for (int i = 0; i < 256; ++i)
-    if (Result<Stage> stage = build_stage(draw_spec({{character}}, stock_library(), 7, i), stock_library()); stage)
+    if (Result<Stage> stage = build_stage(draw_spec({{character}}, stock_generator(), 7, i), stock_library()); stage)
       stages.push_back(std::move(stage).value());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   Hash64 hash;
   for (const Stage& stage : stages) hash.add(evaluator.run(stage).motion_hash);
   std::int64_t frames = 0;

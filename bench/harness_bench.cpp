@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "fuzz/draw.h"
 
 namespace contort {
@@ -35,10 +35,10 @@ Profile even_tame() {
 
 double bare_s(const Profile& profile, std::int64_t seed, int cases) {
   const double begin = cpu_s(RUSAGE_SELF);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   std::size_t failing = 0;
   for (int i = 0; i < cases; ++i) {
-    const Result<Stage> stage = build_stage(draw_spec({{"human"}, profile}, stock_library(), seed, i), stock_library());
+    const Result<Stage> stage = build_stage(draw_spec({{"human"}, profile}, stock_generator(), seed, i), stock_library());
     if (stage) failing += !evaluator.run(*stage).findings.empty();
   }
   if (failing > 0) std::printf("%zu of the cases fail: shrinking them counts as harness\n", failing);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "corpus/case.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "fuzz/compose.h"
 #include "fuzz/lineage.h"
 #include "fuzz/shrink.h"
@@ -41,14 +41,14 @@ struct Measured {
 
 Spec drawn(const Figure& figure, int seed, int index) {
   const DrawConfig config{{figure.character}};
-  Spec spec = compose(raw_of(config, stock_library(), seed, {index}), config, stock_library());
+  Spec spec = compose(raw_of(config, stock_generator(), seed, {index}), config, stock_generator());
   if (figure.reverse_legs)
     for (const char* slot : {"leg_left", "leg_right"}) spec.character.parts[slot] = "mech_leg_reverse";
   return spec;
 }
 
 // The deepest failure of each family.
-std::vector<Case> failures_of(const Spec& spec, Evaluator& evaluator) {
+std::vector<Case> failures_of(const Spec& spec, StageEvaluator& evaluator) {
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) return {};  // reverse legs do not take every parameter of human ones
   const Evaluation evaluation = evaluator.run(*stage);
@@ -59,7 +59,7 @@ std::vector<Case> failures_of(const Spec& spec, Evaluator& evaluator) {
   }
   std::vector<Case> failures;
   for (const auto& [family, finding] : deepest_of)
-    failures.push_back({spec, expectation_of(*stage, evaluator.motion(), evaluation, *finding), {}});
+    failures.push_back({spec, expectation_of(evaluator.execution(), evaluation, *finding), {}});
   return failures;
 }
 
@@ -67,7 +67,7 @@ std::vector<Case> failures_of(const Spec& spec, Evaluator& evaluator) {
 std::vector<Case> drawn_failures(const Figure& figure, int seed, std::size_t wanted) {
   std::vector<Case> chosen;
   std::map<std::string, int> of_family;
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (std::size_t index = 0; index < kCasesOfSeed && chosen.size() < wanted; ++index) {
     const std::vector<Case> failures = failures_of(drawn(figure, seed, static_cast<int>(index)), evaluator);
     if (failures.empty()) continue;
@@ -83,9 +83,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 Measured measure(const std::string& figure, const Case& original) {
   const auto start = std::chrono::steady_clock::now();
-  const Shrunk once = shrink(original, stock_library(), {});
+  const Shrunk once = shrink(original, stock_generator(), {});
   const double seconds = seconds_since(start);
-  const Shrunk again = shrink(once.minimal, stock_library(), {});
+  const Shrunk again = shrink(once.minimal, stock_generator(), {});
   return {figure,           original, once.minimal,
           once.evaluations, seconds,  print_case(again.minimal) == print_case(once.minimal),
           once.stopped};

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "formats/gltf/write.h"
 #include "generator/generate.h"
 #include "generator/stage.h"
@@ -82,7 +82,7 @@ void whole_case_and_clip(benchmark::State& state) {
 // Its parts, which are the next ones too.
 void generate_and_judge(benchmark::State& state) {
   const Subject subject;
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (auto _ : state) benchmark::DoNotOptimize(evaluator.run(subject.stage).findings.size());
 }
 
@@ -155,7 +155,7 @@ void case_data_of_one_motion(benchmark::State& state) {
   Case stored;
   stored.spec = scene("human_overlaps"), stored.expect.check = "self_collision";
   const std::vector<ShownCase> shown = {{"minimal", stored}};
-  for (auto _ : state) benchmark::DoNotOptimize(case_data("k", shown, stock_library(), {}).value());
+  for (auto _ : state) benchmark::DoNotOptimize(case_data("k", shown, stock_generator(), {}).value());
 }
 
 BENCHMARK(whole_case)->Unit(benchmark::kMillisecond)->UseRealTime();

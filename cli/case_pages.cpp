@@ -28,7 +28,7 @@ namespace {
 constexpr int kMostSeconds = 60;  // for the motions of one bucket
 
 // The files of a bucket that are cases of their own.
-Result<std::string> data_of(const CasePage& page, const Library& library, const CheckSettings& settings) {
+Result<std::string> data_of(const CasePage& page, Generator& generator, const CheckSettings& settings) {
   std::vector<std::pair<std::string, Case>> cases;
   for (const auto& [role, file] :
        {std::pair("minimal", page.minimal), std::pair("original", page.original), std::pair("worst", page.worst)}) {
@@ -41,7 +41,7 @@ Result<std::string> data_of(const CasePage& page, const Library& library, const 
   }
   std::vector<ShownCase> shown;
   for (const auto& [role, stored] : cases) shown.push_back({role, stored});
-  return case_data(page.key, shown, library, settings, page.strip);
+  return case_data(page.key, shown, generator, settings, page.strip);
 }
 
 // ---- what a file was made of
@@ -85,9 +85,9 @@ struct Stamped {
   std::string stamp;
 };
 
-void write_one(const Stamped& one, const std::string& folder, const Library& library, const CheckSettings& settings) {
+void write_one(const Stamped& one, const std::string& folder, Generator& generator, const CheckSettings& settings) {
   const CasePage& page = one.page;
-  const Result<std::string> data = data_of(page, library, settings);
+  const Result<std::string> data = data_of(page, generator, settings);
   const Result<Done> written = data ? write_case(folder, page.key, *data, one.stamp) : Done{};
   if (!data) write_problem(folder, page.key, data.issue());
   if (!written) warn(page.key, written.issue());
@@ -106,11 +106,11 @@ Result<Done> copy_viewer(const std::string& folder) {
 }
 
 // In processes: a case that crashes this build, or never ends in it, is not worth the report.
-void write_all(const std::vector<Stamped>& pages, const std::string& folder, const Library& library,
+void write_all(const std::vector<Stamped>& pages, const std::string& folder, Generator& generator,
                const CheckSettings& settings) {
   const ProgressLine line;
   const int count = static_cast<int>(pages.size());
-  const auto write = [&](int i) { write_one(pages[static_cast<std::size_t>(i)], folder, library, settings); };
+  const auto write = [&](int i) { write_one(pages[static_cast<std::size_t>(i)], folder, generator, settings); };
   const auto show = [&](int done) {
     line.show(static_cast<double>(done) / std::max(1, count), std::to_string(done) + " cases made ready to look at");
   };
@@ -123,7 +123,7 @@ void write_all(const std::vector<Stamped>& pages, const std::string& folder, con
 
 }  // namespace
 
-void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, const Library& library,
+void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, Generator& generator,
                       Context& context) {
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
@@ -139,7 +139,7 @@ void write_case_pages(const std::vector<CasePage>& pages, const std::string& fol
     if (!is_there(folder, page, stamp)) missing.push_back({page, stamp});
   }
   remove_old(folder + "/cases", is_case_file, wanted);
-  write_all(missing, folder, library, *settings);
+  write_all(missing, folder, generator, *settings);
 }
 
 }  // namespace contort::cli

@@ -18,7 +18,7 @@ struct CasePage {
 
 // Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that was made of the same by the same program
 // stays. What cannot be made is a warning: the page says so where somebody looks for it.
-void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, const Library& library,
+void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, Generator& generator,
                       Context& context);
 
 }  // namespace contort::cli

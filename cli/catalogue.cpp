@@ -5,14 +5,13 @@
 #include "cli/catalogue_fields.h"
 #include "cli/variants.h"
 #include "fuzz/profile.h"
-#include "generator/actions/action.h"
 #include "model/character/character.h"
 
 namespace contort::cli {
 
-Json list_characters(const Library& library) {
+Json list_characters(Generator& generator) {
   Json out = Json::array();
-  for (const auto& [name, desc] : library.characters) {
+  for (const auto& [name, desc] : generator.manifest().library->characters) {
     Json slots = Json::object();
     for (const SlotDesc& slot : desc.slots) slots[slot.name] = slot.parts;
     out.push_back({{"name", name}, {"help", desc.help}, {"slots", slots}, {"objects", desc.objects}});
@@ -20,9 +19,9 @@ Json list_characters(const Library& library) {
   return out;
 }
 
-Json list_parts(const Library& library) {
+Json list_parts(Generator& generator) {
   Json out = Json::array();
-  for (const auto& [name, part] : library.parts) {
+  for (const auto& [name, part] : generator.manifest().library->parts) {
     Json joints = Json::array();
     for (const JointDesc& joint : part.joints) joints.push_back(joint.name);
     out.push_back({{"name", name}, {"kind", part.kind}, {"help", part.help}, {"joints", joints}});
@@ -56,18 +55,18 @@ Json params_json(const std::vector<ParamDef>& defs) {
   return params;
 }
 
-// An action's parameters can depend on the part: shown for each part that can do it. `desc` is nullptr for a built-in
-// action.
-Json list_action(const Library& library, std::string_view name, const ActionDesc* desc) {
+// An action's parameters can depend on the part: shown for each part that can do it. `file` as in OfferedAction.
+Json list_action(Generator& generator, const std::string& name, int file) {
   Json out = {{"name", name}, {"params_on", Json::object()}};
-  for_variants(library, [&](const Character& character) {
-    for (const Part& part : character.parts()) {
-      const std::optional<Action> action = find_action(character, part, name);
-      if (!action || out["params_on"].contains(part.name)) continue;
-      if (desc == nullptr ? action->desc != nullptr : action->desc == nullptr || *action->desc != *desc) continue;
-      out["params_on"][part.name] = params_json(params_of(*action, character, part));
-      out["layer"] = layer_name(action->def->layer);
-      out["timing"] = action->def->timing == Timing::goal ? "goal" : "course";
+  for_variants(*generator.manifest().library, [&](const Character& character) {
+    const Offers& offers = generator.offers(character);
+    for (std::size_t p = 0; p < offers.size(); ++p) {
+      const OfferedAction* action = find_offer(offers, static_cast<int>(p), name);
+      const std::string& part = character.parts()[p].name;
+      if (action == nullptr || action->file != file || out["params_on"].contains(part)) continue;
+      out["params_on"][part] = params_json(action->params);
+      out["layer"] = layer_name(action->layer);
+      out["timing"] = action->timing == Timing::goal ? "goal" : "course";
       out["help"] = action->help;
     }
   });
@@ -76,14 +75,18 @@ Json list_action(const Library& library, std::string_view name, const ActionDesc
 
 }  // namespace
 
-Json list_actions(const Library& library) {
+// The generator's own actions first, then those of files. A file's action may have the name of another one's.
+Json list_actions(Generator& generator) {
+  const std::vector<ActionDesc>& files = generator.manifest().library->actions;
   Json out = Json::array();
-  for (const ActionDef& action : all_actions()) out.push_back(list_action(library, action.name, nullptr));
-  for (const ActionDesc& desc : library.actions) out.push_back(list_action(library, desc.name, &desc));
+  for (const std::string& name : generator.manifest().actions)
+    if (Json own = list_action(generator, name, -1); own.contains("layer")) out.push_back(std::move(own));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    out.push_back(list_action(generator, files[i].name, static_cast<int>(i)));
   return out;
 }
 
-Json list_checks(const Library&) {
+Json list_checks(Generator&) {
   Json out = Json::array();
   for (const CheckDef& check : all_checks())
     out.push_back(
@@ -94,7 +97,7 @@ Json list_checks(const Library&) {
 }
 
 // Each as the file that a profile of one's own may start from.
-Json list_profiles(const Library&) {
+Json list_profiles(Generator&) {
   Json list = Json::array();
   for (const Profile& profile : built_in_profiles())
     list.push_back({{"name", profile.name}, {"help", profile.about}, {"profile", Json::parse(print_profile(profile))}});

@@ -17,39 +17,39 @@ namespace {
 
 using json_fields::Json;
 
-Json spec_json(const std::string& file, const Stage& stage, const CheckSettings& settings, const Evaluation& evaluation,
+Json spec_json(const std::string& file, const Execution& made, const CheckSettings& settings, const Evaluation& evaluation,
                const std::vector<Circumstances>& at_worst) {
   return {{"file", file},
-          {"character", stage.character->name()},
+          {"character", made.character->name()},
           {"frames", evaluation.frame_count},
           {"motion_hash", to_hex(evaluation.motion_hash)},
           {"waivers", Json::parse(waivers_json(settings, evaluation.waivers))},
-          {"findings", Json::parse(findings_json(evaluation.findings, stage.rate_hz, at_worst))}};
+          {"findings", Json::parse(findings_json(evaluation.findings, made.motion.rate_hz, at_worst))}};
 }
 
 void check_spec(const std::string& file, bool as_json, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
   const Result<SpecInput> input = read_spec_input(file);
   if (!input) return context.fail(input.issue());
-  const Result<Stage> stage = build_stage(input->spec, *library);
-  if (!stage) return context.fail(about_file(file, stage.issue()));
-  Evaluator evaluator(*settings);
-  const Evaluation evaluation = evaluator.run(*stage);
+  Evaluator evaluator(*generator, *settings);
+  const Result<Evaluation> run = evaluator.run(input->spec);
+  if (!run) return context.fail(about_file(file, run.issue()));
+  const Evaluation& evaluation = *run;
   context.exit_code = evaluation.findings.empty() ? kClean : kFindings;
   const Execution& made = evaluator.execution();
   std::vector<Circumstances> at_worst;
   for (const Finding& finding : evaluation.findings)
     at_worst.push_back(circumstances_of(*made.intent, *made.character, made.motion, finding.worst_frame));
   if (as_json) {
-    const Json out = spec_json(file, *stage, *settings, evaluation, at_worst);
+    const Json out = spec_json(file, made, *settings, evaluation, at_worst);
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     return;
   }
   for (std::size_t i = 0; i < at_worst.size(); ++i)
-    std::printf("%s\n", finding_line(evaluation.findings[i], stage->rate_hz, at_worst[i]).c_str());
+    std::printf("%s\n", finding_line(evaluation.findings[i], made.motion.rate_hz, at_worst[i]).c_str());
   for (const std::string& line : waiver_lines(*settings, evaluation.waivers)) std::printf("%s\n", line.c_str());
   const std::size_t count = evaluation.findings.size();
   std::printf("%s\nRESULT findings=%zu", count == 0 ? "OK: nothing found." : "FAILED: limits are violated.", count);

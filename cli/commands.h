@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "checks/settings.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/core/result.h"
 
 namespace CLI {
@@ -39,6 +39,9 @@ struct Context {
 
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();
+
+  // What is under test, over that library; nothing where load_library gives nothing.
+  Generator* load_generator();
 
   // What checks are to do; the defaults without --settings.
   Result<CheckSettings> load_settings() const;

@@ -85,7 +85,7 @@ class RunLine {
 };
 
 // The characters of the command line, else of the profile, else all.
-Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, const Library& library) {
+Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, Generator& generator) {
   DrawConfig draw;
   if (!options.profile.empty()) {
     Result<Profile> profile = load_profile(options.profile);
@@ -94,11 +94,11 @@ Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, const Librar
   }
   draw.characters = options.characters.empty() ? draw.profile.characters : options.characters;
   if (draw.characters.empty())
-    for (const auto& [name, desc] : library.characters) draw.characters.push_back(name);
-  if (const Result<Done> good = validate(draw.profile, draw.characters, library); !good)
+    for (const auto& [name, desc] : generator.manifest().library->characters) draw.characters.push_back(name);
+  if (const Result<Done> good = validate(draw.profile, draw.characters, generator); !good)
     return options.profile.empty() ? good.issue() : about_file(options.profile, good.issue());
   for (const std::string& name : draw.characters)
-    if (const auto built = build_character({name, {}, {}}, library); !built) return built.issue();
+    if (const auto built = build_character({name, {}, {}}, *generator.manifest().library); !built) return built.issue();
   return draw;
 }
 
@@ -119,9 +119,9 @@ Result<Done> choose_how_long(const FuzzOptions& options, RunConfig& config) {
 }
 
 // They come on top of the cases that are drawn.
-Result<Done> choose_seeds(const FuzzOptions& options, const Library& library, RunConfig& config) {
+Result<Done> choose_seeds(const FuzzOptions& options, Generator& generator, RunConfig& config) {
   if (options.seeds.empty()) return Done{};
-  Result<std::vector<Spec>> seeds = read_seeds(options.seeds, library);
+  Result<std::vector<Spec>> seeds = read_seeds(options.seeds, generator);
   if (!seeds) return seeds.issue();
   config.seeds = std::move(seeds).value();
   if (config.cases >= 0) config.cases += std::ssize(config.seeds);
@@ -149,14 +149,14 @@ Result<Shard> choose_shard(const FuzzOptions& options) {
   return said->value_or(Shard{});
 }
 
-Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& settings, const Library& library) {
+Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& settings, Generator& generator) {
   RunConfig config;
   config.checks = settings;
-  Result<DrawConfig> draw = choose_what_is_drawn(options, library);
+  Result<DrawConfig> draw = choose_what_is_drawn(options, generator);
   if (!draw) return draw.issue();
   config.draw = std::move(draw).value();
   if (const Result<Done> chosen = choose_how_long(options, config); !chosen) return chosen.issue();
-  if (const Result<Done> chosen = choose_seeds(options, library, config); !chosen) return chosen.issue();
+  if (const Result<Done> chosen = choose_seeds(options, generator, config); !chosen) return chosen.issue();
   const Result<Shard> shard = choose_shard(options);
   if (!shard) return shard.issue();
   config.shard = *shard;
@@ -296,11 +296,11 @@ Result<Done> check_results(const FuzzOptions& options) {
 void run(const FuzzOptions& options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
-  Result<RunConfig> configured = configure(options, *settings, *library);
+  Result<RunConfig> configured = configure(options, *settings, *generator);
   if (!configured) return context.fail(configured.issue());
   RunConfig config = std::move(configured).value();
   config.surroundings = surroundings_id(context);
@@ -318,7 +318,7 @@ void run(const FuzzOptions& options, Context& context) {
   CaseLog log = std::move(opened).value();
   RunLine line(config);
   const RunResult result = run_fuzz(
-      config, *library, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; },
+      config, *generator, *corpus, [&](const RunProgress& p) { line.show(p); }, [] { return interrupted != 0; },
       log.listener());
   line.clear();
   const Result<bool> gates = any_gates(result, *corpus, options, context.day());
@@ -332,7 +332,7 @@ void run(const FuzzOptions& options, Context& context) {
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
                  static_cast<long long>(result.record.discarded));
   if (!options.report.empty() || options.outputs.wanted())
-    make_report({options.corpus, options.report, "", !options.json, options.outputs}, *library, context);
+    make_report({options.corpus, options.report, "", !options.json, options.outputs}, *generator, context);
   if (!options.json) print_result(result);
 }
 

@@ -1,6 +1,4 @@
 // contort generate: one motion, as glTF animation or as a plain table of numbers.
-#include "generator/generate.h"
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -46,19 +44,19 @@ std::string trajectory_json(const Character& character, const Motion& motion) {
 }
 
 void run(const GenerateOptions& options, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<SpecInput> input = read_spec_input(options.spec);
   if (!input) return context.fail(input.issue());
-  const Result<Stage> stage = build_stage(input->spec, *library);
-  if (!stage) return context.fail(about_file(options.spec, stage.issue()));
-  const Motion motion = generate(*stage);
+  const Result<Execution> execution = execute(*generator, input->spec);
+  if (!execution) return context.fail(about_file(options.spec, execution.issue()));
+  const Motion& motion = execution->motion;
   const std::string ending = std::filesystem::path(options.output).extension().string();
   Result<Done> saved = Done{};
   if (ending == ".json")
-    saved = write_output(options.output, trajectory_json(*stage->character, motion));
+    saved = write_output(options.output, trajectory_json(*execution->character, motion));
   else if (ending == ".glb")
-    saved = save_glb(options.output, *stage->character, motion,
+    saved = save_glb(options.output, *execution->character, motion,
                      {spec_id(input->spec), "contort generate " + shell_quoted(options.spec)});
   else
     return context.fail(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "generator/actions/action.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/recordings.h"
 #include "model/core/file_kind.h"

@@ -74,7 +74,7 @@ void print_text(const Json& list) {
   }
 }
 
-using Lister = std::function<Json(const Library&)>;
+using Lister = std::function<Json(Generator&)>;
 const std::map<std::string, Lister>& listers() {
   static const std::map<std::string, Lister> all = {{"characters", list_characters},
                                                     {"parts", list_parts},
@@ -123,9 +123,9 @@ void add_list(CLI::App& app, Context& context) {
   command->add_flag("--markdown", options->markdown, "Print actions as docs/actions.md")->excludes("--json");
   command->footer("Example: contort list actions");
   command->callback([options, &context] {
-    const Library* library = context.load_library();
-    if (library == nullptr) return;
-    const Json list = listers().at(options->what)(*library);
+    Generator* generator = context.load_generator();
+    if (generator == nullptr) return;
+    const Json list = listers().at(options->what)(*generator);
     if (options->markdown && options->what != "actions")
       context.fail({"usage", "", "--markdown is for actions"});
     else if (options->markdown)

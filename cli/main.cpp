@@ -7,6 +7,7 @@
 #include "cli/input.h"
 #include "cli/start.h"
 #include "cli/usage_text.h"
+#include "generator/built_in.h"
 
 namespace contort::cli {
 
@@ -36,6 +37,13 @@ const Library* Context::load_library() {
   static Result<Library> merged = load_libraries(library_folders);
   if (!merged) return fail(merged.issue()), nullptr;
   return library = &*merged;
+}
+
+Generator* Context::load_generator() {
+  const Library* known = load_library();
+  if (known == nullptr) return nullptr;
+  static BuiltInGenerator built_in(*known);
+  return &built_in;
 }
 
 Result<CheckSettings> Context::load_settings() const {

@@ -14,6 +14,7 @@
 #include "cli/start.h"
 #include "cli/usage_text.h"
 #include "corpus/evaluator.h"
+#include "generator/built_in.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "renders/divergence.h"
@@ -33,7 +34,7 @@ std::string clip_of(const RenderOptions& options, const std::string& png) {
 // What all pictures of a call share.
 struct Studio {
   StripRenderer renderer;
-  Library library;
+  Generator& generator;
   RenderOptions options;
   Wardrobe wardrobe;
   std::vector<Issue> notes{};     // why figures have no skin, once each
@@ -53,7 +54,6 @@ struct Studio {
 // What a file shows, and what has to live as long as its pictures are drawn.
 struct Shown {
   SpecInput input;
-  Stage stage;
   Evaluator evaluator;
   Evaluation evaluation;
   std::shared_ptr<const Skin> skin{};
@@ -62,23 +62,24 @@ struct Shown {
 Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file) {
   Result<SpecInput> input = read_spec_input(file);
   if (!input) return input.issue();
-  Result<Stage> stage = build_stage(input->spec, studio.library);
-  if (!stage) return about_file(file, stage.issue());
   auto shown = std::make_unique<Shown>(
-      Shown{std::move(input).value(), std::move(stage).value(), Evaluator(studio.options.settings), {}});
-  shown->evaluation = shown->evaluator.run(shown->stage);
-  shown->skin = studio.skin_of(*shown->stage.character);
+      Shown{std::move(input).value(), Evaluator(studio.generator, studio.options.settings), {}});
+  Result<Evaluation> evaluation = shown->evaluator.run(shown->input.spec);
+  if (!evaluation) return about_file(file, evaluation.issue());
+  shown->evaluation = std::move(evaluation).value();
+  shown->skin = studio.skin_of(*shown->evaluator.execution().character);
   return shown;
 }
 
 StripInput strip_of(const Shown& shown, const RenderOptions& options, const std::string& file) {
-  StripInput strip{*shown.stage.character, shown.evaluator.motion()};
+  const Execution& execution = shown.evaluator.execution();
+  StripInput strip{*execution.character, execution.motion};
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
   if (plays_another_motion(shown.input, shown.evaluation)) strip.note = "NOT THE STORED MOTION";
   strip.replay_command =
       shown.input.stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
-  strip.environment = &shown.stage.environment;
+  strip.environment = &execution.environment;
   strip.dynamics = &shown.input.spec.dynamics;
   strip.frames = options.frames;
   strip.azimuth_rad = options.azimuth_rad();
@@ -102,8 +103,7 @@ Result<StripDone> draw(Studio& studio, const std::string& file, const std::strin
 struct Performed {
   std::string file;
   Spec spec;
-  Stage stage;
-  Motion motion;
+  Execution made;
   std::shared_ptr<const Skin> skin;
 };
 
@@ -112,11 +112,10 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
   for (const std::string& file : files) {
     Result<SpecInput> input = read_spec_input(file);
     if (!input) return input.issue();
-    Result<Stage> stage = build_stage(input->spec, studio.library);
-    if (!stage) return about_file(file, stage.issue());
-    Motion motion = generate(*stage);
-    std::shared_ptr<const Skin> skin = studio.skin_of(*stage->character);
-    all.push_back({file, std::move(input->spec), std::move(stage).value(), std::move(motion), std::move(skin)});
+    Result<Execution> made = execute(studio.generator, input->spec);
+    if (!made) return about_file(file, made.issue());
+    std::shared_ptr<const Skin> skin = studio.skin_of(*made->character);
+    all.push_back({file, std::move(input->spec), std::move(made).value(), std::move(skin)});
   }
   return all;
 }
@@ -124,8 +123,8 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
 // Those of the command line, or spread over the shortest of the motions.
 std::vector<int> frames_of(const RenderOptions& options, const std::vector<Performed>& all) {
   if (!options.frames.empty()) return options.frames;
-  int shortest = all.front().motion.frame_count;
-  for (const Performed& one : all) shortest = std::min(shortest, one.motion.frame_count);
+  int shortest = all.front().made.motion.frame_count;
+  for (const Performed& one : all) shortest = std::min(shortest, one.made.motion.frame_count);
   return spread_frames(shortest, options.tiles);
 }
 
@@ -151,9 +150,9 @@ Result<StripDone> draw_all(Studio& studio) {
   for (std::size_t i = 0; i < all->size(); ++i) {
     const Performed& one = (*all)[i];
     const std::string name = std::filesystem::path(one.file).stem().string();
-    input.rows.push_back({{.character = *one.stage.character,
-                           .motion = one.motion,
-                           .environment = &one.stage.environment,
+    input.rows.push_back({{.character = *one.made.character,
+                           .motion = one.made.motion,
+                           .environment = &one.made.environment,
                            .dynamics = &one.spec.dynamics,
                            .colliders = options.colliders,
                            .skin = one.skin.get()},
@@ -177,16 +176,16 @@ std::vector<int> frames_of(const RenderOptions& options, const Divergence& diver
 RowsInput rows_of(const RenderOptions& options, const std::vector<Performed>& all, const Divergence& divergence,
                   const Finding& where, const std::string& verdict) {
   RowsInput input;
-  const bool same_figure = all[0].stage.character->hash() == all[1].stage.character->hash();
+  const bool same_figure = all[0].made.character->hash() == all[1].made.character->hash();
   for (std::size_t i = 0; i < 2; ++i) {
     const Performed& one = all[i];
     const std::string name = std::filesystem::path(one.file).stem().string();
     const std::string label = options.labels.empty() ? name : options.labels[i];
-    input.rows.push_back({{.character = *one.stage.character,
-                           .motion = one.motion,
+    input.rows.push_back({{.character = *one.made.character,
+                           .motion = one.made.motion,
                            .finding = where.subject.empty() ? nullptr : &where,
-                           .ghost = i == 1 && same_figure && !divergence.none() ? &all[0].motion : nullptr,
-                           .environment = &one.stage.environment,
+                           .ghost = i == 1 && same_figure && !divergence.none() ? &all[0].made.motion : nullptr,
+                           .environment = &one.made.environment,
                            .dynamics = &one.spec.dynamics,
                            .colliders = options.colliders,
                            .skin = one.skin.get()},
@@ -204,9 +203,9 @@ Result<StripDone> draw_comparison(Studio& studio) {
   const Result<std::vector<Performed>> all = perform_all(studio, {options.files.front(), options.compared});
   if (!all) return all.issue();
   const Performed &a = (*all)[0], &b = (*all)[1];
-  const double tolerance_m = options.tolerance_mm / 1000.0, rate_hz = a.motion.rate_hz;
+  const double tolerance_m = options.tolerance_mm / 1000.0, rate_hz = a.made.motion.rate_hz;
   const Result<Divergence> divergence =
-      find_divergence({*a.stage.character, a.motion}, {*b.stage.character, b.motion}, tolerance_m);
+      find_divergence({*a.made.character, a.made.motion}, {*b.made.character, b.made.motion}, tolerance_m);
   if (!divergence) return divergence.issue();
   const std::string verdict = divergence_text(*divergence, tolerance_m, rate_hz);
   std::printf("%s\n", options.json ? divergence_json(*divergence, tolerance_m, rate_hz).c_str() : verdict.c_str());
@@ -298,7 +297,8 @@ int run(RenderOptions options) {
   Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
   Wardrobe wardrobe(options.libraries);
-  Studio studio{std::move(renderer).value(), *library, std::move(options), std::move(wardrobe)};
+  BuiltInGenerator generator(*library);
+  Studio studio{std::move(renderer).value(), generator, std::move(options), std::move(wardrobe)};
   const int code = draw_what_is_asked(studio);
   for (const Issue& note : studio.notes) std::fprintf(stderr, "contort: %s\n", to_line(note).c_str());
   return code;

@@ -240,15 +240,16 @@ class Session {
 };
 
 void run(const ReplayOptions& options, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
-  const Result<Level> level = options.level.empty() ? Result<Level>(Level{}) : parse_level(options.level);
-  if (!level) return context.fail(level.issue());
-  Evaluator evaluator(*settings);
+  const Result<ReplayScope> scope =
+      options.level.empty() ? Result<ReplayScope>(ReplayScope{}) : parse_scope(options.level);
+  if (!scope) return context.fail(scope.issue());
+  Evaluator evaluator(*generator, *settings);
   const auto replay_one = [&](const Case& stored) {
-    return replay(stored, *library, evaluator, *level, isolation_of(options.limits.limits()));
+    return replay(stored, evaluator, *scope, isolation_of(options.limits.limits()));
   };
   Session session(options, replay_one, context);
   if (const Result<Done> ready = session.prepare(); !ready) return context.fail(ready.issue());

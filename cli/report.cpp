@@ -25,7 +25,6 @@
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
 #include "fuzz/parallel.h"
-#include "generator/actions/action.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
@@ -201,11 +200,11 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
 }
 
 // What the characters that were tried could have been made to do, and never were: with 0.
-void add_never_tested(const Library& library, ReportModel& model) {
+void add_never_tested(Generator& generator, ReportModel& model) {
   std::map<std::string, std::int64_t> tested(model.tested.begin(), model.tested.end());
-  for_variants(library, [&](const Character& character) {
+  for_variants(*generator.manifest().library, [&](const Character& character) {
     if (!tested.contains("character " + character.name())) return;
-    for (const std::string& label : possible_labels(character)) tested.try_emplace(label, 0);
+    for (const std::string& label : possible_labels(generator, character)) tested.try_emplace(label, 0);
   });
   model.tested.assign(tested.begin(), tested.end());
 }
@@ -281,7 +280,7 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
 
 namespace {
 
-void write_page(const ReportRequest& request, const ReportModel& model, Media media, const Library& library,
+void write_page(const ReportRequest& request, const ReportModel& model, Media media, Generator& generator,
                 Context& context) {
   // Its summary comes first: it is what tells a folder that holds a report.
   if (const Result<Done> written = write_report(model, request.folder); !written)
@@ -289,7 +288,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
   if (const Result<Done> made = make_folder(request.folder + "/strips"); !made)
     return context.fail(made.issue(), kInternal);
   if (context.gl != "none") tidy(request.folder + "/strips", media.pictures);
-  write_case_pages(media.cases, request.folder, library, context);
+  write_case_pages(media.cases, request.folder, generator, context);
   if (context.gl == "none") {
     std::fprintf(stderr, "contort: --gl none: the report has no pictures\n");
   } else if (const int code = draw(media.pictures, context); code != 0) {
@@ -306,7 +305,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
 
 }  // namespace
 
-void make_report(const ReportRequest& request, const Library& library, Context& context) {
+void make_report(const ReportRequest& request, Generator& generator, Context& context) {
   const Result<Corpus> corpus = Corpus::open(request.corpus);
   if (!corpus) return context.fail(corpus.issue());
   if (const Result<CheckSettings> settings = context.load_settings(); !settings) return context.fail(settings.issue());
@@ -320,10 +319,10 @@ void make_report(const ReportRequest& request, const Library& library, Context& 
   Media media;
   fill_rows(*corpus, *known, model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
-  add_never_tested(library, model);
+  add_never_tested(generator, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)
     return context.fail(written.issue(), kInternal);
-  if (!request.folder.empty()) write_page(request, model, std::move(media), library, context);
+  if (!request.folder.empty()) write_page(request, model, std::move(media), generator, context);
   const bool gates = std::ranges::any_of(model.rows, [](const ReportRow& row) { return row.gating; });
   if (request.gate && gates && context.exit_code == kClean) context.exit_code = kFindings;
 }
@@ -345,7 +344,7 @@ void add_report(CLI::App& app, Context& context) {
       return context.fail({"usage", "", "--single-file needs the folder of the page: -o DIR"});
     if (request->folder.empty() && !request->outputs.wanted() && !request->gate)
       return context.fail({"usage", "", "nothing to write: give -o, --junit, --sarif, --markdown, --github or --gate"});
-    if (const Library* library = context.load_library()) make_report(*request, *library, context);
+    if (Generator* generator = context.load_generator()) make_report(*request, *generator, context);
   });
 }
 

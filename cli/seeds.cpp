@@ -5,7 +5,6 @@
 
 #include "cli/input.h"
 #include "process/isolate.h"
-#include "generator/stage.h"
 #include "model/core/file_kind.h"
 #include "model/core/inside_folder.h"
 
@@ -25,17 +24,17 @@ std::vector<std::string> files_of(const std::string& folder) {
 }
 
 // Why it does not build, "" where it does. One that ends the process is worth a case of the run.
-std::string refusal_of(const Spec& spec, const Library& library) {
+std::string refusal_of(const Spec& spec, Generator& generator) {
   const Result<Ending> ending = isolate([&] {
-    const Result<Stage> stage = build_stage(spec, library);
-    return stage ? std::string() : to_line(stage.issue());
+    const Result<Admission> admitted = generator.admit(spec);
+    return admitted ? std::string() : to_line(admitted.issue());
   });
   return ending ? ending->result : to_line(ending.issue());
 }
 
 }  // namespace
 
-Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& library) {
+Result<std::vector<Spec>> read_seeds(const std::string& folder, Generator& generator) {
   std::vector<Spec> seeds;
   for (const std::string& path : files_of(folder)) {
     if (const Result<Done> inside = check_inside(folder, path); !inside) return inside.issue();
@@ -43,7 +42,7 @@ Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& l
     if (!text) return text.issue();
     const Result<SpecInput> input = parse_spec_input(*text, path);
     if (!input) return input.issue();
-    if (const std::string why = refusal_of(input->spec, library); !why.empty())
+    if (const std::string why = refusal_of(input->spec, generator); !why.empty())
       return Issue{"seeds.refused", "", path + ": " + why};
     seeds.push_back(input->spec);
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
 
@@ -12,6 +12,6 @@ namespace contort::cli {
 
 // The specs of all specs and cases (*.json) of a folder, in the order of their names. Codes of reading them;
 // seeds.none, and seeds.refused for one that does not build: a night that tests nothing must not look clean.
-Result<std::vector<Spec>> read_seeds(const std::string& folder, const Library& library);
+Result<std::vector<Spec>> read_seeds(const std::string& folder, Generator& generator);
 
 }  // namespace contort::cli

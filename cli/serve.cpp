@@ -53,7 +53,8 @@ Json limits_json(const server::Limits& limits) {
           {"take_s", limits.take_s},           {"most_s", limits.most_s}};
 }
 
-std::string catalogue(const Library& library, const ServeOptions& options) {
+std::string catalogue(Generator& generator, const ServeOptions& options) {
+  const Library& library = *generator.manifest().library;
   Json sockets = Json::object(), modes = Json::array(), objects = Json::array();
   for (const auto& [name, part] : library.parts) {
     sockets[name] = Json::array();
@@ -64,12 +65,12 @@ std::string catalogue(const Library& library, const ServeOptions& options) {
   return Json{{"version", CONTORT_VERSION},
               {"read_only", options.read_only},
               {"corpus", !options.corpus.empty()},
-              {"characters", list_characters(library)},
-              {"parts", list_parts(library)},
+              {"characters", list_characters(generator)},
+              {"parts", list_parts(generator)},
               {"objects", objects},
               {"sockets", sockets},
-              {"actions", list_actions(library)},
-              {"checks", list_checks(library)},
+              {"actions", list_actions(generator)},
+              {"checks", list_checks(generator)},
               {"modes", modes},
               {"limits", limits_json(options.limits)}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -133,10 +134,10 @@ server::AppConfig app_config(const ServeOptions& options, int port, const server
 }
 
 // Signals are blocked first, so that from then on none ends the server without its folder being removed.
-void serve(const ServeOptions& options, const Library& library, const CheckSettings& settings, Context& context) {
-  const std::string about = catalogue(library, options);
+void serve(const ServeOptions& options, Generator& generator, const CheckSettings& settings, Context& context) {
+  const std::string about = catalogue(generator, options);
   const sigset_t ends = block_signals();
-  server::Engine engine(options.limits, options.workers, library, settings, std::string("contort ") + CONTORT_VERSION);
+  server::Engine engine(options.limits, options.workers, generator, settings, std::string("contort ") + CONTORT_VERSION);
   server::Http http(options.http);
   const Result<int> port = http.bind();
   if (!port) return context.fail(port.issue());
@@ -165,8 +166,8 @@ Result<std::string> open_corpus(const ServeOptions& options) {
 }
 
 void run(ServeOptions options, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
   if (const Result<Done> fine = check(options); !fine) return context.fail(fine.issue());
@@ -180,7 +181,7 @@ void run(ServeOptions options, Context& context) {
   options.http.connections = options.limits.streams + kConnectionsBesideStreams;
   options.http.connections_of_client = options.limits.streams_of_client + kConnectionsBesideStreams / 2;
   options.http.most_body = static_cast<std::size_t>(std::max(options.limits.spec_bytes, options.limits.library_bytes));
-  serve(options, *library, *settings, context);
+  serve(options, *generator, *settings, context);
 }
 
 void add_limits(CLI::App& command, ServeOptions& options) {

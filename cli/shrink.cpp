@@ -31,12 +31,12 @@ struct ShrinkOptions {
 };
 
 // The case as it fails now, or nothing with the reason printed.
-std::optional<Case> failing_now(const ShrinkOptions& options, const Library& library, const CheckSettings& settings,
+std::optional<Case> failing_now(const ShrinkOptions& options, Generator& generator, const CheckSettings& settings,
                                 Context& context) {
   Result<Case> stored = read_case_input(options.input);
   if (!stored) return context.fail(stored.issue()), std::nullopt;
-  Evaluator evaluator(settings);
-  GuardedReplay guarded([&](const Case& c) { return replay(c, library, evaluator); }, {});
+  Evaluator evaluator(generator, settings);
+  GuardedReplay guarded([&](const Case& c) { return replay(c, evaluator); }, {});
   const Replay now = guarded(*stored);
   if (now.verdict == Verdict::refused) return context.fail(about_file(options.input, now.issue)), std::nullopt;
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
@@ -110,19 +110,19 @@ void print_json(const Shrunk& shrunk, const std::string& output) {
 }
 
 void run(const ShrinkOptions& options, Context& context) {
-  const Library* library = context.load_library();
-  if (library == nullptr) return;
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());
   const Result<ShrinkConfig> configured = configure(options, *settings);
   if (!configured) return context.fail(configured.issue());
-  const std::optional<Case> original = failing_now(options, *library, *settings, context);
+  const std::optional<Case> original = failing_now(options, *generator, *settings, context);
   if (!original) return;
   const Result<std::optional<Profile>> profile = profile_of(options, *original);
   if (!profile) return context.fail(profile.issue());
   ShrinkConfig config = *configured;
-  if (*profile) config.allowed = within(**profile, original->spec, *library);
-  const Shrunk shrunk = shrink(*original, *library, config);
+  if (*profile) config.allowed = within(**profile, original->spec, *generator);
+  const Shrunk shrunk = shrink(*original, *generator, config);
   if (shrunk.stopped == "flaky" || shrunk.stopped == "gone")
     return context.fail({"shrink.flaky", "", options.input + " shows something else each time: nothing is shrunk"},
                         kInconclusive);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "checks/circumstances.h"
-#include "generator/intent.h"
 #include "model/core/hash.h"
 #include "model/spec/spec_fields.h"
 
@@ -107,8 +106,8 @@ Result<Case> parse_case(std::string_view json) {
 std::string print_case(const Case& stored) { return json_fields::write_pretty(stored); }
 std::string case_schema() { return json_fields::write_schema<Case>("Contort case"); }
 
-Expectation expectation_of(const Stage& stage, const Motion& motion, const Evaluation& evaluation,
-                           const Finding& finding) {
+Expectation expectation_of(const Execution& execution, const Evaluation& evaluation, const Finding& finding) {
+  const Motion& motion = execution.motion;
   Expectation expect{finding.check,
                      finding.subject,
                      finding.unit,
@@ -125,8 +124,9 @@ Expectation expectation_of(const Stage& stage, const Motion& motion, const Evalu
   if (std::isinf(finding.worst_margin)) expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   if (std::isfinite(finding.depth)) expect.depth = finding.depth;
   expect.motion_hash = to_hex(evaluation.motion_hash);
-  expect.character_hash = to_hex(stage.character->hash());
-  if (!finding.check.empty()) expect.phase = phase_name(phase_of(intent_of(stage, motion), motion, finding.worst_frame));
+  expect.character_hash = to_hex(execution.character->hash());
+  if (!finding.check.empty() && execution.intent)
+    expect.phase = phase_name(phase_of(*execution.intent, motion, finding.worst_frame));
   for (const std::uint16_t step : motion_trace(motion)) expect.trace += to_hex(step).substr(12);
   return expect;
 }

@@ -75,8 +75,7 @@ Result<Case> parse_case(std::string_view json);
 std::string print_case(const Case& stored);  // indented, sorted keys
 std::string case_schema();
 
-// What an evaluation shows of one finding.
-Expectation expectation_of(const Stage& stage, const Motion& motion, const Evaluation& evaluation,
-                           const Finding& finding);
+// What an evaluation of this execution shows of one finding. No phase where the generator does not say its intent.
+Expectation expectation_of(const Execution& execution, const Evaluation& evaluation, const Finding& finding);
 
 }  // namespace contort

@@ -1,11 +1,9 @@
 #include "corpus/evaluator.h"
 
-#include "generator/execute.h"
-
 namespace contort {
 
-Evaluation Evaluator::run(const Stage& stage, std::string_view only_check) {
-  execute(stage, scratch_, execution_);
+Result<Evaluation> Evaluator::run(const Spec& spec, std::string_view only_check) {
+  if (const Result<Done> done = generator_.run(spec, execution_); !done) return done.issue();
   return judge_.evaluate(execution_, only_check);
 }
 

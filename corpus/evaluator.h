@@ -1,32 +1,34 @@
-// From a stage to findings: the built-in generator makes the motion, and the checks judge it.
+// From a spec to findings: a generator makes the motion, and the checks judge it.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "checks/judge.h"
-#include "generator/generate.h"
-#include "generator/stage.h"
+#include "model/generator.h"
 
 namespace contort {
 
 // Owns the memory of one thread's evaluations; nothing of one evaluation reaches the next.
 class Evaluator {
  public:
-  explicit Evaluator(CheckSettings settings = {}) : judge_(settings) {}
+  // The generator must outlive it, and is used by this thread alone.
+  explicit Evaluator(Generator& generator, CheckSettings settings = {})
+      : generator_(generator), judge_(std::move(settings)) {}
 
-  // Generates and judges. With `only_check`, that check alone.
-  Evaluation run(const Stage& stage, std::string_view only_check = {});
+  Generator& generator() const { return generator_; }
+
+  // Generates and judges. With `only_check`, that check alone. The issue is the generator's, where it refuses the spec.
+  Result<Evaluation> run(const Spec& spec, std::string_view only_check = {});
+
+  // What all checks find in the motion of the last run; what waivers hide is among it.
+  std::vector<Finding> judge_by_all_checks() {
+    return judge_.judge(*execution_.character, execution_.motion, {}, execution_.environment, execution_.said());
+  }
 
   // The motion of the last run, with what belongs to it.
   const Execution& execution() const { return execution_; }
   const Motion& motion() const { return execution_.motion; }
-
-  // Judges a motion that was made elsewhere, see Judge::judge.
-  std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
-                             const Environment& environment = {}, const Intent* intent = nullptr) {
-    return judge_.judge(character, motion, only_check, environment, intent);
-  }
 
   const std::vector<SmallestMargins>& smallest_margins() const { return judge_.smallest_margins(); }
   // The curves of the last run, see Judge::curves.
@@ -35,8 +37,8 @@ class Evaluator {
   }
 
  private:
+  Generator& generator_;
   Judge judge_;
-  GenerateScratch scratch_;
   Execution execution_;
 };
 

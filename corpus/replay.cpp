@@ -32,19 +32,20 @@ bool as_expected(const Expectation& stored, const Expectation& now) {
          stored.worst_frame == now.worst_frame && stored.last_frame == now.last_frame && stored.depth == now.depth;
 }
 
-Replay replay_here(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level) {
+Replay replay_here(const Case& stored, Evaluator& evaluator, const ReplayScope& scope) {
   Replay result;
-  const Result<Stage> stage = build_stage_at(stored.spec, library, level);
-  if (!stage) {
-    result.issue = stage.issue();
+  const Result<Spec> spec = scoped(stored.spec, scope);
+  const Result<Evaluation> run = spec ? evaluator.run(*spec) : spec.issue();
+  if (!run) {
+    result.issue = run.issue();
     return result;
   }
-  const Evaluation evaluation = evaluator.run(*stage);
+  const Evaluation& evaluation = *run;
   const Finding* expected = deepest(evaluation.findings, stored.expect.check, stored.expect.subject);
   const Finding* shown = expected != nullptr           ? expected
                          : evaluation.findings.empty() ? nullptr
                                                        : &evaluation.findings.front();
-  result.now = expectation_of(*stage, evaluator.motion(), evaluation, shown != nullptr ? *shown : Finding{});
+  result.now = expectation_of(evaluator.execution(), evaluation, shown != nullptr ? *shown : Finding{});
   result.character_changed =
       !stored.expect.character_hash.empty() && result.now.character_hash != stored.expect.character_hash;
   result.first_difference = first_traced_difference(stored.expect.trace, result.now.trace);
@@ -74,9 +75,8 @@ Replay replay_ending(const Case& stored, const std::function<Replay()>& work, co
   return result;
 }
 
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level,
-              const Isolation& isolation) {
-  const auto work = [&] { return replay_here(stored, library, evaluator, level); };
+Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope, const Isolation& isolation) {
+  const auto work = [&] { return replay_here(stored, evaluator, scope); };
   return is_ending(stored.expect) ? replay_ending(stored, work, isolation) : work();
 }
 

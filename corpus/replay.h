@@ -5,9 +5,9 @@
 #include <string>
 
 #include "corpus/case.h"
+#include "corpus/evaluator.h"
+#include "corpus/replay_scope.h"
 #include "process/isolate.h"
-#include "generator/level.h"
-#include "model/character/library.h"
 
 namespace contort {
 
@@ -30,10 +30,10 @@ struct Replay {
 
 using RunCase = std::function<Replay(const Case&)>;
 
-// At a level below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
+// In a scope below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
 // its process (is_ending) is run in a child process first, within the limits that it says, else those of `isolation`: the
 // caller has one thread then.
-Replay replay(const Case& stored, const Library& library, Evaluator& evaluator, const Level& level = {},
+Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope = {},
               const Isolation& isolation = {});
 
 // What the stored ending comes to when `work`, which may end its process, is done in a child: `same` where it ends as

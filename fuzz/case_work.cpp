@@ -56,8 +56,8 @@ const std::vector<std::int8_t>& TargetGroups::of(const CheckDef& check, const Ch
   return groups;
 }
 
-CaseWork::CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus)
-    : config_(config), library_(library), corpus_(corpus), evaluator_(config.checks) {}
+CaseWork::CaseWork(const RunConfig& config, Generator& generator, const Corpus& corpus)
+    : config_(config), generator_(generator), corpus_(corpus), evaluator_(generator, config.checks) {}
 
 std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   const CaseTask task = parse_task(text);
@@ -69,19 +69,20 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
 
 CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
   CaseReport report;
-  const Spec spec = spec_of(config_, library_, task.lineage);
+  const Spec spec = spec_of(config_, generator_, task.lineage);
   slot.note(print_spec(spec));
-  const Result<Stage> stage = build_stage(spec, library_);
-  if (!stage) return report;
+  const Result<Evaluation> run = evaluator_.run(spec);
+  if (!run) return report;
+  const Evaluation& evaluation = *run;
+  const Execution& execution = evaluator_.execution();
   report.built = true;
-  const Evaluation evaluation = evaluator_.run(*stage);
-  report.tested = labels_of(spec, *stage, evaluator_.motion());
+  report.tested = labels_of(spec, generator_, execution);
   report.frames = evaluation.frame_count;
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
   const std::int64_t index = task.lineage.back();
-  if (!is_seed(config_, index)) report.near = near_misses(*stage->character, group_of(index));
+  if (!is_seed(config_, index)) report.near = near_misses(*execution.character, group_of(index));
   return report;
 }
 
@@ -112,7 +113,7 @@ std::optional<Ending> ending_of(const std::string& family) {
 
 }  // namespace
 
-Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, const WorkerLimits& limits) {
+Case seen_once(const CaseTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits) {
   if (const std::optional<Ending> ending = ending_of(task.family))
     return ending_case(spec, *ending, isolation_of(limits));
   Case seen{spec, {}, {}};
@@ -120,8 +121,8 @@ Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, c
   seen.expect.check = parts.check, seen.expect.subject = parts.subject;
   seen.expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   seen.expect.motion_hash = task.motion_hash;
-  const Result<Stage> stage = build_stage(spec, library);
-  seen.expect.character_hash = to_hex(stage ? stage->character->hash() : 0);
+  const Result<Character> character = build_character(spec.character, *generator.manifest().library);
+  seen.expect.character_hash = to_hex(character ? character->hash() : 0);
   return seen;
 }
 
@@ -129,24 +130,23 @@ Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, c
 std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec) {
   if (const std::optional<Ending> ending = ending_of(task.family)) {
     const Case ended = ending_case(spec, *ending, isolation_of(config_.limits));
-    const Replay again = replay(ended, library_, evaluator_, {}, isolation_of(config_.limits));
+    const Replay again = replay(ended, evaluator_, {}, isolation_of(config_.limits));
     return again.verdict == Verdict::same ? std::optional<Case>(ended) : std::nullopt;
   }
-  const Result<Stage> stage = build_stage(spec, library_);
-  if (!stage) return std::nullopt;
-  const Evaluation evaluation = evaluator_.run(*stage);
-  const Finding* finding = deepest_of(spec.character.name, evaluation.findings, task.family);
+  const Result<Evaluation> evaluation = evaluator_.run(spec);
+  if (!evaluation) return std::nullopt;
+  const Finding* finding = deepest_of(spec.character.name, evaluation->findings, task.family);
   if (finding == nullptr) return std::nullopt;
-  return Case{spec, expectation_of(*stage, evaluator_.motion(), evaluation, *finding), {}};
+  return Case{spec, expectation_of(evaluator_.execution(), *evaluation, *finding), {}};
 }
 
 // Kept first, then shrunk, so that a kill at any point loses nothing.
 CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
   CaseReport report;
-  const Spec spec = spec_of(config_, library_, task.lineage);
+  const Spec spec = spec_of(config_, generator_, task.lineage);
   slot.note(print_spec(spec));
   const std::optional<Case> again = shown_again(task, spec);
-  Lead lead{run_name(config_), again ? *again : seen_once(task, spec, library_, config_.limits), {}};
+  Lead lead{run_name(config_), again ? *again : seen_once(task, spec, generator_, config_.limits), {}};
   Provenance& from = lead.original.provenance;
   from = provenance_in(config_, task.lineage.back());
   from.rank = task.rank;
@@ -216,9 +216,9 @@ Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, Case
 
 // A failure is shrunk within the profile that found it, as far as that is known.
 std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, const std::string& run) const {
-  if (run == run_name(config_)) return within(config_.draw.profile, original.spec, library_);
+  if (run == run_name(config_)) return within(config_.draw.profile, original.spec, generator_);
   for (const Profile& profile : built_in_profiles())
-    if (profile.name == original.provenance.profile) return within(profile, original.spec, library_);
+    if (profile.name == original.provenance.profile) return within(profile, original.spec, generator_);
   return {};
 }
 
@@ -241,7 +241,7 @@ Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool g
     return (config_.deadline_s > 0.0 && now_s >= config_.deadline_s) ||
            (config_.shrink_time_s > 0.0 && now_s >= start_s + config_.shrink_time_s);
   };
-  return shrink(original, library_, config);
+  return shrink(original, generator_, config);
 }
 
 std::string print_task(const CaseTask& task) { return json_fields::write_canonical(task); }

@@ -51,7 +51,7 @@ CaseTask parse_task(const std::string& text);
 CaseReport parse_report(const std::string& text);
 
 // What is known of a failure that did not show again. How deep it was, nobody wrote down: no number.
-Case seen_once(const CaseTask& task, const Spec& spec, const Library& library, const WorkerLimits& limits);
+Case seen_once(const CaseTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
 
 // Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each
 // case was 1 % of a run.
@@ -66,7 +66,7 @@ class TargetGroups {
 // One per worker.
 class CaseWork {
  public:
-  CaseWork(const RunConfig& config, const Library& library, const Corpus& corpus);
+  CaseWork(const RunConfig& config, Generator& generator, const Corpus& corpus);
   std::string operator()(const std::string& task, WorkerSlot& slot);
 
  private:
@@ -82,7 +82,7 @@ class CaseWork {
   Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;
 
   const RunConfig& config_;
-  const Library& library_;
+  Generator& generator_;
   const Corpus& corpus_;
   Evaluator evaluator_;
   TargetGroups groups_;

@@ -10,8 +10,6 @@
 #include "fuzz/compose_params.h"
 #include "fuzz/compose_turns.h"
 #include "fuzz/features.h"
-#include "generator/actions/action.h"
-#include "generator/motion/legs.h"
 #include "model/character/character.h"
 #include "model/core/detmath.h"
 #include "model/motion/kinematics.h"
@@ -37,29 +35,32 @@ int blend_of(int raw, const Features& features, const DrawRule* rule) {
 
 // What may be moved, and by what.
 struct Stock {
+  using Actions = std::vector<const OfferedAction*>;
   const Character& character;
+  const Offers& offers;
   const Features& features;
   std::vector<const Part*> parts;
 
-  std::vector<Action> actions(const Part& part) const {
-    std::vector<Action> all = actions_of(character, part);
-    std::erase_if(all, [&](const Action& action) { return features.profile().never(part.slot, action.name); });
+  Actions actions(const Part& part) const {
+    Actions all;
+    for (const OfferedAction& action : offers[static_cast<std::size_t>(&part - character.parts().data())])
+      if (!features.profile().never(part.slot, action.name)) all.push_back(&action);
     all = features.among(all, "action", features.profile().actions,
-                         [](const Action& action) { return std::string_view(action.name); });
+                         [](const OfferedAction* action) { return std::string_view(action->name); });
     return weighted(all, part);
   }
 
   // Each as often as the profile wants it.
-  std::vector<Action> weighted(const std::vector<Action>& all, const Part& part) const {
-    std::vector<Action> often;
-    for (const Action& action : all)
-      often.insert(often.end(), static_cast<std::size_t>(features.profile().weight(part.slot, action.name)), action);
+  Actions weighted(const Actions& all, const Part& part) const {
+    Actions often;
+    for (const OfferedAction* action : all)
+      often.insert(often.end(), static_cast<std::size_t>(features.profile().weight(part.slot, action->name)), action);
     return often;
   }
 };
 
-Stock stock_of(const Character& character, const Features& features) {
-  Stock all{character, features, {}};
+Stock stock_of(const Character& character, const Offers& offers, const Features& features) {
+  Stock all{character, offers, features, {}};
   for (const Part& part : character.parts())
     if (!all.actions(part).empty()) all.parts.push_back(&part);
   all.parts = features.among(all.parts, "slot", features.profile().slots,
@@ -69,8 +70,8 @@ Stock stock_of(const Character& character, const Features& features) {
 
 ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   const Part& part = *stock.parts[pick(raw.slot, stock.parts.size())];
-  const std::vector<Action> actions = stock.actions(part);
-  const Action& action = actions[pick(raw.action, actions.size())];
+  const Stock::Actions actions = stock.actions(part);
+  const OfferedAction& action = *actions[pick(raw.action, actions.size())];
   ActionUse use;
   use.action = action.name;
   use.slot = part.slot;
@@ -81,8 +82,8 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   const auto blend = [&](int raw_frames, std::string_view field) {
     return blend_of(raw_frames, stock.features, profile.rule_for(part.slot, action.name, field));
   };
-  if (action.def->timing == Timing::course) use.blend_in_frames = blend(raw.blend_in, "blend_in_frames");
-  if (action.def->layer != Layer::overwrite) use.blend_out_frames = blend(raw.blend_out, "blend_out_frames");
+  if (action.timing == Timing::course) use.blend_in_frames = blend(raw.blend_in, "blend_in_frames");
+  if (action.layer != Layer::overwrite) use.blend_out_frames = blend(raw.blend_out, "blend_out_frames");
   draw_params(stock.character, part, action, profile, raw.values, use);
   return use;
 }
@@ -141,7 +142,7 @@ SequenceDesc compose_sequence(const std::vector<RawClip>& raw, const Stock& stoc
   SequenceDesc sequence;
   for (const RawClip& clip : raw)
     if (!stock.parts.empty() && !clip.actions.empty()) sequence.clips.push_back(compose_clip(clip, stock));
-  if (!stock.features.profile().overlaps) take_turns(stock.character, sequence);
+  if (!stock.features.profile().overlaps) take_turns(stock.character, stock.offers, sequence);
   return sequence;
 }
 
@@ -168,10 +169,10 @@ Ground compose_ground(const std::array<int, kRawGround>& raw, const Features& fe
 }
 
 // Some specs have a wall beside or before the character.
-EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features) {
+EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features, const Capabilities& can) {
   EnvironmentDesc environment;
-  environment.ground = compose_ground(raw.ground, features);
-  if (!happens(raw.obstacle, features.profile().obstacles) || features.omits("obstacle")) return environment;
+  if (can.grounds) environment.ground = compose_ground(raw.ground, features);
+  if (!can.obstacles || !happens(raw.obstacle, features.profile().obstacles) || features.omits("obstacle")) return environment;
   const double distance_m = contort::on_lattice(0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150), 100.0);
   Box wall;
   wall.center_m = Vec3(raw.obstacle % 2 == 0 ? distance_m : -distance_m, 1.0, 1.0);
@@ -188,25 +189,19 @@ SequenceDesc& named_sequence(Spec& spec, int raw) {
   return sequence;
 }
 
-// Where the queue plays this action, each slot once.
-std::vector<std::string> slots_playing(std::string_view action, const Spec& spec) {
+// Slots whose parts tell of an event while the queue plays, each once.
+std::vector<std::string> slots_that_tell(Event event, const Stock& stock, const Spec& spec) {
   std::vector<std::string> slots;
+  const auto add = [&](int part) {
+    const std::string& slot = stock.character.parts()[static_cast<std::size_t>(part)].slot;
+    if (std::ranges::find(slots, slot) == slots.end()) slots.push_back(slot);
+  };
   for (const SequenceDesc& sequence : spec.sequences)
     for (const ClipDesc& clip : sequence.clips)
       for (const ActionUse& use : clip.actions)
-        if (use.action == action && std::ranges::find(slots, use.slot) == slots.end()) slots.push_back(use.slot);
-  return slots;
-}
-
-bool plays(std::string_view action, const Spec& spec) { return !slots_playing(action, spec).empty(); }
-
-// Slots whose parts can tell of an event: feet and what aims.
-std::vector<std::string> slots_that_tell(Event event, const Character& character, const Spec& spec) {
-  if (event == Event::aim_reached) return slots_playing("aim", spec);
-  std::vector<std::string> slots;
-  if (event == Event::contact && (plays("walk", spec) || plays("run", spec)))
-    for (const Leg& leg : find_legs(character))
-      slots.push_back(character.parts()[static_cast<std::size_t>(leg.foot_part)].slot);
+        for (const EventSource& source :
+             find_offer(stock.offers, stock.character.find_part(use.slot), use.action)->tells)
+          if (source.event == event) add(source.part);
   return slots;
 }
 
@@ -214,19 +209,18 @@ bool waits_for_slot(Event event) { return event == Event::contact || event == Ev
 
 // As far as can be told before it is played: what nothing brings about, no interrupt should wait for.
 bool can_happen(Event event, std::span<const std::string> slots, const Spec& spec) {
-  if (waits_for_slot(event)) return !slots.empty();
-  if (event == Event::impact) return plays("hit_reaction", spec);
+  if (waits_for_slot(event) || event == Event::impact) return !slots.empty();
   if (event == Event::near_obstacle) return !spec.environment.obstacles.empty();
   return event != Event::ground_steeper || !std::holds_alternative<PlaneGround>(spec.environment.ground);
 }
 
-ConditionDesc compose_condition(const RawInterrupt& raw, const Character& character, Spec& spec) {
+ConditionDesc compose_condition(const RawInterrupt& raw, const Stock& stock, Spec& spec) {
   ConditionDesc when;
   constexpr Event kEvents[] = {Event::frame,   Event::frame,          Event::clip_ended,
                                Event::impact,  Event::sequence_ended, Event::ground_steeper,
                                Event::contact, Event::aim_reached,    Event::near_obstacle};
   when.event = kEvents[pick(raw.event, std::size(kEvents))];
-  const std::vector<std::string> slots = slots_that_tell(when.event, character, spec);
+  const std::vector<std::string> slots = slots_that_tell(when.event, stock, spec);
   if (!can_happen(when.event, slots, spec)) when.event = Event::frame;
   if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
   if (when.event == Event::near_obstacle) when.distance_m = contort::on_lattice(0.1 * between(raw.what, 2, 20), 10.0);
@@ -242,7 +236,7 @@ ConditionDesc compose_condition(const RawInterrupt& raw, const Character& charac
 
 InterruptDesc compose_interrupt(const RawInterrupt& raw, const Stock& stock, Spec& spec) {
   InterruptDesc interrupt;
-  interrupt.when = compose_condition(raw, stock.character, spec);
+  interrupt.when = compose_condition(raw, stock, spec);
   interrupt.enter = static_cast<Enter>(pick(raw.enter, 4));
   if (interrupt.enter == Enter::after_sequence) interrupt.after = named_sequence(spec, raw.after).name;
   interrupt.resume = pick(raw.resume, 3) > 0;
@@ -256,25 +250,26 @@ bool is_level(const std::array<int, kRawGround>& ground, const Profile& profile)
   return std::holds_alternative<PlaneGround>(compose_ground(ground, Features(profile, 0)));
 }
 
-Spec compose(const RawSpec& raw, const DrawConfig& config, const Library& library) {
+Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator) {
+  const Manifest& manifest = generator.manifest();
   const Features features(config.profile, raw.omitted);
   const std::string& name = config.characters[pick(raw.character, config.characters.size())];
   Spec spec;
-  spec.character = compose_character(raw, name, features, library);
-  compose_attachments(raw, features, library, spec.character);
-  spec.environment = compose_environment(raw, features);
+  spec.character = compose_character(raw, name, features, *manifest.library);
+  compose_attachments(raw, features, *manifest.library, spec.character);
+  spec.environment = compose_environment(raw, features, manifest.can);
   spec.hold_frames = between(raw.hold, 0, 10);
-  const Result<Character> character = build_character(spec.character, library);
+  const Result<Character> character = build_character(spec.character, *manifest.library);
   if (!character) return spec;  // the caller's build says why
-  const Stock stock = stock_of(*character, features);
+  const Stock stock = stock_of(*character, generator.offers(*character), features);
   for (const std::vector<RawClip>& clips : raw.sequences)
     if (SequenceDesc sequence = compose_sequence(clips, stock); !sequence.clips.empty())
       spec.sequences.push_back(std::move(sequence));
   const bool interrupted = happens(raw.interrupted, features.profile().interrupts) && !features.omits("interrupt");
-  if (interrupted && !spec.sequences.empty())
+  if (interrupted && manifest.can.interrupts && !spec.sequences.empty())
     for (const RawInterrupt& interrupt : raw.interrupts)
       spec.interrupts.push_back(compose_interrupt(interrupt, stock, spec));
-  spec.dynamics = compose_dynamics(raw.dynamics, features, *character);
+  if (manifest.can.dynamics) spec.dynamics = compose_dynamics(raw.dynamics, features, *character);
   if (spec.dynamics.mode != Mode::kinematic) spec.hold_frames += kTimeToReturn;
   return spec;
 }

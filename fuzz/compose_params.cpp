@@ -94,8 +94,7 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
                       Values& values) {
   if (def.type == ParamType::choice) return def.choices[values.next() < 0.5 ? 0 : def.choices.size() - 1];
   if (def.type == ParamType::object_point || def.type == ParamType::own_point) {
-    const std::vector<std::string> names =
-        def.type == ParamType::own_point ? own_points(character, part) : object_points(character, part);
+    const std::vector<std::string>& names = def.points;
     return names[std::min(names.size() - 1,
                           static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
   }
@@ -126,13 +125,13 @@ ParamValue draw_by_rule(const DrawRule& rule, const ParamDef& def, Values& value
 
 }  // namespace
 
-void draw_params(const Character& character, const Part& part, const Action& action, const Profile& profile,
+void draw_params(const Character& character, const Part& part, const OfferedAction& action, const Profile& profile,
                  const std::array<int, kRawValues>& raw, ActionUse& use) {
   Values values(raw, profile.range);
-  const std::vector<ParamDef> defs = params_of(action, character, part);
+  const std::vector<ParamDef>& defs = action.params;
   for (std::size_t i = 0; i < defs.size(); ++i) {
     // What makes an action of a file that action is changed in one of four.
-    if (action.desc != nullptr && action.desc->params.contains(defs[i].name) && values.next() < 0.75) continue;
+    if (defs[i].is_characteristic && values.next() < 0.75) continue;
     if (defs[i].optional && values.next() < 0.4) continue;
     const DrawRule* rule = profile.rule_for(part.slot, action.name, defs[i].name);
     use.params[defs[i].name] =

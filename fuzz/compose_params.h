@@ -5,12 +5,12 @@
 
 #include "fuzz/profile.h"
 #include "fuzz/raw.h"
-#include "generator/actions/action.h"
+#include "model/generator.h"
 
 namespace contort {
 
 // Fills use.params. Whole degrees, centimetres, 0.1 m/s (steps_per_unit), so that specs are short and read well.
-void draw_params(const Character& character, const Part& part, const Action& action, const Profile& profile,
+void draw_params(const Character& character, const Part& part, const OfferedAction& action, const Profile& profile,
                  const std::array<int, kRawValues>& raw, ActionUse& use);
 
 }  // namespace contort

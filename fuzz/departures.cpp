@@ -5,7 +5,6 @@
 
 #include "fuzz/compose.h"
 #include "fuzz/compose_turns.h"
-#include "generator/actions/action.h"
 
 namespace contort {
 
@@ -27,7 +26,8 @@ bool is_outside(const DrawRule& rule, const ParamValue& value) {
 
 class Departures {
  public:
-  Departures(const Profile& profile, const Character* character) : profile_(profile), character_(character) {}
+  Departures(const Profile& profile, Generator& generator, const Character* character)
+      : profile_(profile), generator_(generator), character_(character) {}
 
   int count(const SequenceDesc& sequence) {
     for (const ClipDesc& clip : sequence.clips) {
@@ -38,7 +38,7 @@ class Departures {
     }
     if (character_ != nullptr && !profile_.overlaps && is_known_) {
       SequenceDesc in_turns = sequence;
-      take_turns(*character_, in_turns);
+      take_turns(*character_, generator_.offers(*character_), in_turns);
       count_if(in_turns != sequence);
     }
     return count_;
@@ -54,29 +54,28 @@ class Departures {
     count_if(!profile_.speeds && use.speed != 1.0);
     if (character_ == nullptr) return;
     const int part = character_->find_part(use.slot);
-    const std::optional<Action> action =
-        part < 0 ? std::nullopt
-                 : find_action(*character_, character_->parts()[static_cast<std::size_t>(part)], use.action);
-    is_known_ = is_known_ && action;
-    if (action) count(use, *action, character_->parts()[static_cast<std::size_t>(part)]);
+    const OfferedAction* action = find_offer(generator_.offers(*character_), part, use.action);
+    is_known_ = is_known_ && action != nullptr;
+    if (action != nullptr) count(use, *action);
   }
 
-  void count(const ActionUse& use, const Action& action, const Part& part) {
+  void count(const ActionUse& use, const OfferedAction& action) {
     const auto rule_for = [&](std::string_view param) { return profile_.rule_for(use.slot, use.action, param); };
-    if (const DrawRule* rule = rule_for("blend_in_frames"); rule != nullptr && action.def->timing == Timing::course)
+    if (const DrawRule* rule = rule_for("blend_in_frames"); rule != nullptr && action.timing == Timing::course)
       count_if(is_outside(*rule, static_cast<double>(use.blend_in_frames)));
-    if (const DrawRule* rule = rule_for("blend_out_frames"); rule != nullptr && action.def->layer != Layer::overwrite)
+    if (const DrawRule* rule = rule_for("blend_out_frames"); rule != nullptr && action.layer != Layer::overwrite)
       count_if(is_outside(*rule, static_cast<double>(use.blend_out_frames)));
-    for (const ParamDef& def : params_of(action, *character_, part)) {
+    for (const ParamDef& def : action.params) {
       const DrawRule* rule = rule_for(def.name);
       const auto given = use.params.find(def.name);
-      const bool is_left_out = def.optional || (action.desc != nullptr && action.desc->params.contains(def.name));
+      const bool is_left_out = def.optional || def.is_characteristic;
       if (rule == nullptr || (given == use.params.end() && is_left_out)) continue;
       count_if(is_outside(*rule, given == use.params.end() ? def.preset : given->second));
     }
   }
 
   const Profile& profile_;
+  Generator& generator_;
   const Character* character_;
   bool is_known_ = true;  // all actions are: they can take turns
   int count_ = 0;
@@ -84,20 +83,20 @@ class Departures {
 
 }  // namespace
 
-int departures(const Spec& spec, const Profile& profile, const Library& library) {
+int departures(const Spec& spec, const Profile& profile, Generator& generator) {
   const bool asks_character = !profile.overlaps || !profile.rules.empty();
   const Result<Character> character =
-      asks_character ? build_character(spec.character, library) : Result<Character>(Issue{});
-  Departures found(profile, character ? &*character : nullptr);
+      asks_character ? build_character(spec.character, *generator.manifest().library) : Result<Character>(Issue{});
+  Departures found(profile, generator, character ? &*character : nullptr);
   int count = 0;
   for (const SequenceDesc& sequence : spec.sequences) count = found.count(sequence);
   for (const InterruptDesc& interrupt : spec.interrupts) count = found.count(interrupt.sequence);
   return count;
 }
 
-std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, const Library& library) {
-  return [profile, &library, most = departures(original, profile, library)](const Spec& spec) {
-    return departures(spec, profile, library) <= most;
+std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, Generator& generator) {
+  return [profile, &generator, most = departures(original, profile, generator)](const Spec& spec) {
+    return departures(spec, profile, generator) <= most;
   };
 }
 

@@ -5,17 +5,17 @@
 #include <functional>
 
 #include "fuzz/profile.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/spec/spec.h"
 
 namespace contort {
 
 // Counts actions and slots that it does not draw; durations, blends and parameters outside of its limits and rules; other
-// speeds and stretched clips, and actions that take over a part, where it has none. What a library does not know is not
+// speeds and stretched clips, and actions that take over a part, where it has none. What a generator does not know is not
 // counted. 0 for every drawn spec.
-int departures(const Spec& spec, const Profile& profile, const Library& library);
+int departures(const Spec& spec, const Profile& profile, Generator& generator);
 
-// Whether a spec departs no more than `original` does. The library must outlive it.
-std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, const Library& library);
+// Whether a spec departs no more than `original` does. The generator must outlive it.
+std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, Generator& generator);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
 // RapidCheck draws a RawSpec, which is nothing but bounded whole numbers; compose() reads it as choices among what the
-// library offers. RapidCheck traps that shape this file (docs/fuzzing.md): gen::exec and `*gen` are not thread safe, so
+// generator offers. RapidCheck traps that shape this file (docs/fuzzing.md): gen::exec and `*gen` are not thread safe, so
 // only pure combinators are used; list lengths of gen::container follow the size parameter and multiply when nested, so
 // lists have their own generator; there is no bounded real, so reals are whole numbers on a lattice.
 #include "fuzz/draw.h"
@@ -81,8 +81,8 @@ RawSpec draw_raw(std::int64_t seed, std::int64_t index, std::uint64_t stream) {
   return gen(random, kSize).value();
 }
 
-Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index) {
-  return compose(draw_raw(seed, index), config, library);
+Spec draw_spec(const DrawConfig& config, Generator& generator, std::int64_t seed, std::int64_t index) {
+  return compose(draw_raw(seed, index), config, generator);
 }
 
 }  // namespace contort

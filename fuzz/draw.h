@@ -7,7 +7,7 @@
 
 #include "fuzz/profile.h"
 #include "fuzz/raw.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/spec/spec.h"
 
 namespace contort {
@@ -23,6 +23,6 @@ RawSpec draw_raw(std::int64_t seed, std::int64_t index, std::uint64_t stream = 0
 
 // The spec that they make: parts and parameters are chosen from what the character has, values on short lattices within
 // the declared ranges. It builds.
-Spec draw_spec(const DrawConfig& config, const Library& library, std::int64_t seed, std::int64_t index);
+Spec draw_spec(const DrawConfig& config, Generator& generator, std::int64_t seed, std::int64_t index);
 
 }  // namespace contort

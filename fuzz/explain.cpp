@@ -57,14 +57,15 @@ bool all_fail(ShrinkState& state, const std::vector<Spec>& candidates) {
 
 }  // namespace
 
-std::vector<std::string> free_fields_of(ShrinkState& state, const Library& library) {
+std::vector<std::string> free_fields_of(ShrinkState& state) {
   std::vector<std::string> pointers;
   const Spec& spec = state.spec();
-  const auto character = library.characters.find(spec.character.name);
+  const auto& characters = state.library().characters;
+  const auto character = characters.find(spec.character.name);
   for (const auto& [slot, part] : spec.character.parts)
-    if (character != library.characters.end() && all_fail(state, with_other_parts(spec, slot, character->second)))
+    if (character != characters.end() && all_fail(state, with_other_parts(spec, slot, character->second)))
       pointers.push_back("/character/parts/" + slot);
-  for (const SpecPlace& place : places_of(spec, state.shown().character.get()))
+  for (const SpecPlace& place : state.places(spec))
     if (all_fail(state, with_others(spec, place))) pointers.push_back(place.pointer);
   return pointers;
 }

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "model/character/library.h"
-
 namespace contort {
 
 class ShrinkState;
@@ -13,6 +11,6 @@ class ShrinkState;
 // JSON pointers into the spec. A field is free if its default, both ends and the quarters of its range, and what is half
 // way to the default fail in the same family, however deep; of a choice or a part, all others that there are. One of
 // which any of them does not fail, or does not build, or which has none, matters.
-std::vector<std::string> free_fields_of(ShrinkState& state, const Library& library);
+std::vector<std::string> free_fields_of(ShrinkState& state);
 
 }  // namespace contort

@@ -4,23 +4,21 @@
 #include <map>
 
 #include "checks/circumstances.h"
-#include "generator/actions/action.h"
-#include "generator/intent.h"
 
 namespace contort {
 
 namespace {
 
-std::string use_label(const std::string& name, const ActionDef& def, const Part& part) {
-  return "action " + name + " (" + std::string(layer_name(def.layer)) + ") on " + part.slot;
+std::string use_label(const OfferedAction& action, const std::string& slot) {
+  return "action " + action.name + " (" + std::string(layer_name(action.layer)) + ") on " + slot;
 }
 
 std::string pair_label(const std::string& one, const std::string& other, const std::string& slot) {
   return "pair " + std::min(one, other) + " + " + std::max(one, other) + " on " + slot;
 }
 
-// In which phases an action moved its part: a bit for each.
-unsigned phases_in(const PlannedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
+// In which phases an action moved the part that it names: a bit for each.
+unsigned phases_in(const IntendedAction& action, const Motion& motion, const std::vector<Phase>& of_frames) {
   unsigned phases = 0;
   for (const ActionSpan& span : motion.spans)
     for (int f = span.first_frame; is_of(span, action) && f <= span.last_frame; ++f)
@@ -28,37 +26,51 @@ unsigned phases_in(const PlannedAction& action, const Motion& motion, const std:
   return phases;
 }
 
-void add_uses(const Stage& stage, const Motion& motion, std::vector<std::string>& labels) {
-  const std::vector<Phase> of_frames = phases_of(intent_of(stage, motion), motion);
-  for (const PlannedAction& action : stage.timeline.actions) {
+// Each use of an action, as the spec has it.
+template <class Visit>
+void for_uses(const Spec& spec, Visit visit) {
+  const auto each = [&](const SequenceDesc& sequence) {
+    for (const ClipDesc& clip : sequence.clips)
+      for (const ActionUse& use : clip.actions) visit(use);
+  };
+  for (const SequenceDesc& sequence : spec.sequences) each(sequence);
+  for (const InterruptDesc& interrupt : spec.interrupts) each(interrupt.sequence);
+}
+
+void add_uses(const Spec& spec, const Offers& offers, const Character& character, std::vector<std::string>& labels) {
+  for_uses(spec, [&](const ActionUse& use) {
+    const OfferedAction* action = find_offer(offers, character.find_part(use.slot), use.action);
+    if (action != nullptr) labels.push_back(use_label(*action, use.slot));
+  });
+}
+
+void add_phases(const Intent& intent, const Offers& offers, const Execution& execution,
+                std::vector<std::string>& labels) {
+  const std::vector<Phase> of_frames = phases_of(intent, execution.motion);
+  for (const IntendedAction& action : intent.actions) {
     if (action.part != action.named) continue;
-    const Part& part = stage.character->parts()[static_cast<std::size_t>(action.part)];
-    const std::string label = use_label(action.name, *action.def, part);
-    labels.push_back(label);
-    const unsigned phases = phases_in(action, motion, of_frames);
+    const OfferedAction* offered = find_offer(offers, action.named, action.name);
+    if (offered == nullptr) continue;
+    const std::string& slot = execution.character->parts()[static_cast<std::size_t>(action.part)].slot;
+    const unsigned phases = phases_in(action, execution.motion, of_frames);
     for (std::size_t p = 0; p < phase_names().size(); ++p)
-      if ((phases >> p & 1U) != 0) labels.push_back(label + " in " + std::string(phase_names()[p]));
+      if ((phases >> p & 1U) != 0)
+        labels.push_back(use_label(*offered, slot) + " in " + std::string(phase_names()[p]));
   }
 }
 
 // More than the frame in which the one ends and the other begins.
-bool overlap(const PlannedAction& x, const PlannedAction& y) {
-  return x.first_frame < y.last_frame && y.first_frame < x.last_frame;
+bool overlap(const IntendedAction& x, const IntendedAction& y) {
+  return x.sequence == y.sequence && x.part == y.part && x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
 // Of actions that are planned for one part at the same time.
-std::set<std::string> pairs_of(const Stage& stage) {
+std::set<std::string> pairs_of(const Intent& intent, const Character& character) {
   std::set<std::string> pairs;
-  const Timeline& timeline = stage.timeline;
-  for (std::size_t i = 0; i < timeline.of_part.size(); ++i) {
-    const Part& part = stage.character->parts()[i % stage.character->parts().size()];
-    for (const int a : timeline.of_part[i])
-      for (const int b : timeline.of_part[i]) {
-        const PlannedAction& x = timeline.actions[static_cast<std::size_t>(a)];
-        const PlannedAction& y = timeline.actions[static_cast<std::size_t>(b)];
-        if (a < b && overlap(x, y)) pairs.insert(pair_label(x.name, y.name, part.slot));
-      }
-  }
+  for (auto x = intent.actions.begin(); x != intent.actions.end(); ++x)
+    for (auto y = x + 1; y != intent.actions.end(); ++y)
+      if (overlap(*x, *y))
+        pairs.insert(pair_label(x->name, y->name, character.parts()[static_cast<std::size_t>(x->part)].slot));
   return pairs;
 }
 
@@ -75,26 +87,28 @@ void add_scene(const Spec& spec, std::vector<std::string>& labels) {
 
 }  // namespace
 
-std::vector<std::string> labels_of(const Spec& spec, const Stage& stage, const Motion& motion) {
+std::vector<std::string> labels_of(const Spec& spec, Generator& generator, const Execution& execution) {
+  const Offers& offers = generator.offers(*execution.character);
   std::vector<std::string> labels;
   add_scene(spec, labels);
-  add_uses(stage, motion, labels);
-  for (const std::string& pair : pairs_of(stage)) labels.push_back(pair);
+  add_uses(spec, offers, *execution.character, labels);
+  if (!execution.intent) return labels;
+  add_phases(*execution.intent, offers, execution, labels);
+  for (const std::string& pair : pairs_of(*execution.intent, *execution.character)) labels.push_back(pair);
   return labels;
 }
 
 // A slot's pairs are of what its parts can do, an action with itself too, and of what moves them from elsewhere.
-std::set<std::string> possible_labels(const Character& character) {
+std::set<std::string> possible_labels(Generator& generator, const Character& character) {
+  const Offers& offers = generator.offers(character);
+  const auto slot_of = [&](std::size_t part) -> const std::string& { return character.parts()[part].slot; };
   std::set<std::string> labels;
   std::map<std::string, std::set<std::string>> movers;  // actions, by the slot that they move
-  for (std::size_t p = 0; p < character.parts().size(); ++p) {
-    const Part& part = character.parts()[p];
-    for (const Action& action : actions_of(character, part)) {
-      labels.insert(use_label(std::string(action.name), *action.def, part));
-      for (const int moved : parts_moved(*action.def, character, static_cast<int>(p)))
-        movers[character.parts()[static_cast<std::size_t>(moved)].slot].emplace(action.name);
+  for (std::size_t p = 0; p < offers.size(); ++p)
+    for (const OfferedAction& action : offers[p]) {
+      labels.insert(use_label(action, slot_of(p)));
+      for (const int moved : action.moves) movers[slot_of(static_cast<std::size_t>(moved))].insert(action.name);
     }
-  }
   for (const auto& [slot, names] : movers)
     for (auto a = names.begin(); a != names.end(); ++a)
       for (auto b = a; b != names.end(); ++b) labels.insert(pair_label(*a, *b, slot));

@@ -6,17 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "generator/stage.h"
-#include "model/character/library.h"
-#include "model/motion/motion.h"
-#include "model/spec/spec.h"
+#include "model/generator.h"
 
 namespace contort {
 
-// An action, and each phase in which it moved its part, once for each use; the others once. The motion is the stage's.
-std::vector<std::string> labels_of(const Spec& spec, const Stage& stage, const Motion& motion);
+// An action, and each phase in which it moved its part, once for each use; the others once. The execution is the spec's;
+// phases and pairs are known where the generator says its intent.
+std::vector<std::string> labels_of(const Spec& spec, Generator& generator, const Execution& execution);
 
 // "action reach (ik) on arm_left", "pair pose + reach on arm_left": all that cases of this character could be made of.
-std::set<std::string> possible_labels(const Character& character);
+std::set<std::string> possible_labels(Generator& generator, const Character& character);
 
 }  // namespace contort

@@ -22,12 +22,12 @@ constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a 
 // families, and even draws 144 (docs/fuzzing.md).
 constexpr double kLearning = 4096.0;
 
-// `config` and `library` say what the numbers mean.
+// `config` and `generator` say what the numbers mean.
 RawSpec child_of(const RawSpec& parent, const RawSpec& mate, Dice& dice, const DrawConfig& config,
-                 const Library& library) {
-  const Spec before = compose(parent, config, library);
+                 Generator& generator) {
+  const Spec before = compose(parent, config, generator);
   RawSpec child = parent;
-  for (int throws = 0; throws < kThrows && compose(child, config, library) == before; ++throws) {
+  for (int throws = 0; throws < kThrows && compose(child, config, generator) == before; ++throws) {
     child = parent;
     mutate(child, mate, dice);
   }
@@ -68,7 +68,7 @@ Arm unguided(const Odds& odds, std::int64_t index) {
   return Arm::corners_and_swarm;
 }
 
-RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage) {
+RawSpec raw_of(const DrawConfig& config, Generator& generator, std::int64_t seed, const Lineage& lineage) {
   const std::int64_t drawn = lineage.front();
   const Arm arm = unguided(odds_of(seed, config.profile), drawn);
   RawSpec raw = arm == Arm::uniform ? draw_raw(seed, drawn) : crowded(seed, drawn, config.profile);
@@ -77,7 +77,7 @@ RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t se
   if (arm == Arm::swarm || arm == Arm::corners_and_swarm) leave_out(raw, dice);
   for (std::size_t i = 1; i < lineage.size(); ++i) {
     Dice own(seed, lineage[i], kChange);
-    raw = child_of(raw, draw_raw(seed, lineage[i]), own, config, library);
+    raw = child_of(raw, draw_raw(seed, lineage[i]), own, config, generator);
   }
   return raw;
 }

@@ -39,6 +39,6 @@ inline Arm arm_of(const Odds& odds, const Lineage& lineage) {
 
 // A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in
 // it.
-RawSpec raw_of(const DrawConfig& config, const Library& library, std::int64_t seed, const Lineage& lineage);
+RawSpec raw_of(const DrawConfig& config, Generator& generator, std::int64_t seed, const Lineage& lineage);
 
 }  // namespace contort

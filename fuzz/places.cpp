@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "generator/actions/action.h"
 #include "model/spec/spec_fields.h"
 
 namespace contort {
@@ -61,16 +60,16 @@ void add_other(Leaves& out, const std::string& pointer, T& at, const T& preset) 
   out.push_back({place, at == preset, [&at, preset] { at = preset; }, {}, {}});
 }
 
-const Part* part_in(const Character& character, const std::string& slot) {
-  for (const Part& part : character.parts())
-    if (part.slot == slot) return &part;
-  return nullptr;
-}
+// A character, or none, and what its parts can do.
+struct Actor {
+  const Character* character = nullptr;
+  const Offers* offers = nullptr;
+};
 
-std::vector<ParamDef> defs_of(const ActionUse& use, const Character* character) {
-  const Part* part = character != nullptr ? part_in(*character, use.slot) : nullptr;
-  const std::optional<Action> action = part != nullptr ? find_action(*character, *part, use.action) : std::nullopt;
-  return action ? params_of(*action, *character, *part) : std::vector<ParamDef>{};
+std::span<const ParamDef> defs_of(const ActionUse& use, const Actor& actor) {
+  if (actor.character == nullptr) return {};
+  const OfferedAction* action = find_offer(*actor.offers, actor.character->find_part(use.slot), use.action);
+  return action != nullptr ? std::span<const ParamDef>(action->params) : std::span<const ParamDef>();
 }
 
 void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const std::string& name,
@@ -101,11 +100,11 @@ void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const st
   }
 }
 
-void add_params(Leaves& out, const std::string& at, ActionUse& use, const Character* character) {
+void add_params(Leaves& out, const std::string& at, ActionUse& use, const Actor& actor) {
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  const std::vector<ParamDef> defs = defs_of(use, character);
+  const std::span<const ParamDef> defs = defs_of(use, actor);
   for (const auto& [name, value] : use.params) {
-    const auto def = std::find_if(defs.begin(), defs.end(), [&n = name](const ParamDef& d) { return d.name == n; });
+    const auto def = std::ranges::find(defs, name, &ParamDef::name);
     ParamDef unknown;
     unknown.low = -kNoLimit, unknown.high = kNoLimit;
     add_param(out, at + "/params/" + name, use, name, def != defs.end() ? *def : unknown);
@@ -116,10 +115,10 @@ void add_params(Leaves& out, const std::string& at, ActionUse& use, const Charac
 template <class S>
 class PlaceWalker {
  public:
-  PlaceWalker(S& value, std::string at, const Character* character, Leaves& out)
-      : value_(value), at_(std::move(at)), character_(character), out_(out) {
+  PlaceWalker(S& value, std::string at, const Actor& actor, Leaves& out)
+      : value_(value), at_(std::move(at)), actor_(actor), out_(out) {
     fields(*this, static_cast<const S*>(nullptr));
-    if constexpr (std::is_same_v<S, ActionUse>) add_params(out_, at_, value_, character_);
+    if constexpr (std::is_same_v<S, ActionUse>) add_params(out_, at_, value_, actor_);
   }
 
   void constant(std::string_view, std::string_view) {}
@@ -161,20 +160,20 @@ class PlaceWalker {
   // What is inside comes before the whole: resetting the whole ends what is inside.
   template <class T>
   void descend(const std::string& at, T& value, const T&) {
-    PlaceWalker<T>(value, at, character_, out_);
+    PlaceWalker<T>(value, at, actor_, out_);
   }
   template <class T>
   void descend(const std::string& at, std::vector<T>& list, const std::vector<T>&) {
     if constexpr (std::is_class_v<T>)
       for (std::size_t i = 0; i < list.size(); ++i)
-        PlaceWalker<T>(list[i], at + "/" + std::to_string(i), character_, out_);
+        PlaceWalker<T>(list[i], at + "/" + std::to_string(i), actor_, out_);
   }
   void descend(const std::string& at, Ground& ground, const Ground& preset) {
-    std::visit([&]<class G>(G& kind) { PlaceWalker<G>(kind, at, character_, out_); }, ground);
+    std::visit([&]<class G>(G& kind) { PlaceWalker<G>(kind, at, actor_, out_); }, ground);
     add_other(out_, at, ground, preset);
   }
   void descend(const std::string& at, ConditionDesc& condition, const ConditionDesc& preset) {
-    PlaceWalker<ConditionDesc>(condition, at, character_, out_);
+    PlaceWalker<ConditionDesc>(condition, at, actor_, out_);
     add_other(out_, at, condition, preset);
   }
   void descend(const std::string&, ColliderShape&, const ColliderShape&) {}      // an obstacle is removed whole
@@ -184,28 +183,29 @@ class PlaceWalker {
 
   S& value_;
   std::string at_;
-  const Character* character_;
+  const Actor& actor_;
   Leaves& out_;
 };
 
-Leaves leaves_of(Spec& spec, const Character* character) {
+Leaves leaves_of(Spec& spec, const Actor& actor) {
   Leaves leaves;
-  PlaceWalker<Spec>(spec, "", character, leaves);
+  PlaceWalker<Spec>(spec, "", actor, leaves);
   return leaves;
 }
 
 template <class Change>
 void change(Spec& spec, const SpecPlace& place, const Change& how) {
-  for (const Leaf& leaf : leaves_of(spec, nullptr))
+  for (const Leaf& leaf : leaves_of(spec, {}))
     if (leaf.place.pointer == place.pointer) return how(leaf);
 }
 
 }  // namespace
 
-std::vector<SpecPlace> places_of(const Spec& spec, const Character* character) {
+std::vector<SpecPlace> places_of(const Spec& spec, Generator& generator, const Character* character) {
   Spec copy = spec;
+  const Actor actor{character, character != nullptr ? &generator.offers(*character) : nullptr};
   std::vector<SpecPlace> places;
-  for (Leaf& leaf : leaves_of(copy, character))
+  for (Leaf& leaf : leaves_of(copy, actor))
     if (!leaf.is_default) places.push_back(std::move(leaf.place));
   return places;
 }
@@ -213,7 +213,7 @@ std::vector<SpecPlace> places_of(const Spec& spec, const Character* character) {
 void reset_places(Spec& spec, std::span<const SpecPlace> places) {
   std::map<std::string_view, double> presets;
   for (const SpecPlace& place : places) presets[place.pointer] = place.preset;
-  for (const Leaf& leaf : leaves_of(spec, nullptr)) {
+  for (const Leaf& leaf : leaves_of(spec, {})) {
     const auto wanted = presets.find(leaf.place.pointer);
     if (wanted == presets.end()) continue;
     if (leaf.reset)

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/character/character.h"
-#include "model/spec/spec.h"
+#include "model/generator.h"
 
 namespace contort {
 
@@ -26,9 +25,9 @@ struct SpecPlace {
   bool operator==(const SpecPlace&) const = default;
 };
 
-// Those that are not at their defaults, in the spec's order. Without the character the limits and defaults of
-// parameters are not known: then they have no limits, and 0 stands for the default.
-std::vector<SpecPlace> places_of(const Spec& spec, const Character* character);
+// Those that are not at their defaults, in the spec's order. The generator says the limits and defaults of parameters.
+// Without the character they are not known: then parameters have no limits, and 0 stands for the default.
+std::vector<SpecPlace> places_of(const Spec& spec, Generator& generator, const Character* character);
 
 // Back to their defaults.
 void reset_places(Spec& spec, std::span<const SpecPlace> places);

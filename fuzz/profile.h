@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/core/result.h"
 
 namespace contort {
@@ -74,6 +74,6 @@ std::string profile_schema();
 // What would test nothing, and look clean, is refused: names that the library does not have, a character that nothing
 // moves (profile.nothing_moves), rules for what is no number or vector, and ranges that a parameter does not have
 // (profile.bad_rule, .no_range). `characters` are those that will be drawn.
-Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, const Library& library);
+Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, Generator& generator);
 
 }  // namespace contort

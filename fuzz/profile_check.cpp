@@ -1,10 +1,9 @@
-// What a profile says, held against a library.
+// Holds what a profile says against a generator and its library.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "fuzz/profile.h"
-#include "generator/actions/action.h"
 #include "model/core/json_fields.h"
 #include "model/core/nearest.h"
 #include "model/spec/spec_fields.h"
@@ -27,27 +26,28 @@ struct Known {
   std::vector<Movement> movements;
 };
 
-void add_movements(const CharacterChoice& choice, const Library& library, std::vector<Movement>& movements) {
-  const Result<Character> character = build_character(choice, library);
+void add_movements(const CharacterChoice& choice, Generator& generator, std::vector<Movement>& movements) {
+  const Result<Character> character = build_character(choice, *generator.manifest().library);
   if (!character) return;
-  for (const Part& part : character->parts())
-    for (const Action& action : actions_of(*character, part))
-      movements.push_back({choice.name, part.slot, std::string(action.name), params_of(action, *character, part)});
+  const Offers& offers = generator.offers(*character);
+  for (std::size_t p = 0; p < offers.size(); ++p)
+    for (const OfferedAction& action : offers[p])
+      movements.push_back({choice.name, character->parts()[p].slot, action.name, action.params});
 }
 
-Known known_of(const Library& library) {
+Known known_of(Generator& generator) {
   Known known;
-  for (const auto& [name, desc] : library.characters) {
+  const Manifest& manifest = generator.manifest();
+  for (const auto& [name, desc] : manifest.library->characters) {
     known.characters.insert(name);
-    add_movements({name, {}, {}}, library, known.movements);
+    add_movements({name, {}, {}}, generator, known.movements);
     for (const SlotDesc& slot : desc.slots) {
       known.slots.insert(slot.name);
       for (const std::string& part : slot.parts)
-        add_movements({name, {{slot.name, part}}, {}}, library, known.movements);
+        add_movements({name, {{slot.name, part}}, {}}, generator, known.movements);
     }
   }
-  for (const ActionDef& action : all_actions()) known.actions.insert(std::string(action.name));
-  for (const ActionDesc& action : library.actions) known.actions.insert(action.name);
+  known.actions.insert(manifest.actions.begin(), manifest.actions.end());
   return known;
 }
 
@@ -135,8 +135,8 @@ Result<Done> check_moves(const Profile& profile, const std::vector<std::string>&
 
 }  // namespace
 
-Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, const Library& library) {
-  const Known known = known_of(library);
+Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, Generator& generator) {
+  const Known known = known_of(generator);
   for (const auto& [names, of_library, field] :
        {std::tuple(&profile.characters, &known.characters, "characters"),
         std::tuple(&profile.slots, &known.slots, "slots"), std::tuple(&profile.actions, &known.actions, "actions")})

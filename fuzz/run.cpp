@@ -24,10 +24,10 @@ std::string plan_of(const RunConfig& config) {
 
 class Run {
  public:
-  Run(const RunConfig& config, const Library& library, const Corpus& corpus,
+  Run(const RunConfig& config, Generator& generator, const Corpus& corpus,
       const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
       const std::function<void(const FailingCase&)>& failing)
-      : config_(config), library_(library), corpus_(corpus), progress_(progress), stop_(stop), failing_(failing) {
+      : config_(config), generator_(generator), corpus_(corpus), progress_(progress), stop_(stop), failing_(failing) {
     if (config_.time_s > 0.0) config_.deadline_s = start_s_ + config_.time_s;
     state_.plan = plan_of(config_);
     state_.record.name = run_name(config_);
@@ -63,7 +63,7 @@ class Run {
   }
 
   void search() {
-    WorkerPool pool(config_.jobs, config_.limits, CaseWork(config_, library_, corpus_));
+    WorkerPool pool(config_.jobs, config_.limits, CaseWork(config_, generator_, corpus_));
     running_.resize(static_cast<std::size_t>(config_.jobs));
     while (!is_last(state_.next) && !halted() && !is_cut_) {
       begin_round();
@@ -161,7 +161,7 @@ class Run {
       place.report = parse_report(event.text);
     else
       take_ending(place, running.place,
-                  case_of_ending(event, spec_of(config_, library_, place.task.lineage), config_.limits));
+                  case_of_ending(event, spec_of(config_, generator_, place.task.lineage), config_.limits));
     open_ -= place.report.has_value();
   }
 
@@ -210,7 +210,7 @@ class Run {
     for (const std::string& label : report.tested) ++record.tested[label];
     add_uses(report.waivers, state_.waivers);
     if (failing_ && !report.broken.empty())
-      failing_({index, arm_name, report.broken, spec_of(config_, library_, task.lineage)});
+      failing_({index, arm_name, report.broken, spec_of(config_, generator_, task.lineage)});
     state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
     for (std::size_t rank = 0; rank < report.broken.size(); ++rank) {
       const std::string& family = report.broken[rank];
@@ -279,7 +279,7 @@ class Run {
   static constexpr double kSettlingPatience = 4.0;  // what hangs is run to its limit in a process of its own
 
   RunConfig config_;
-  const Library& library_;
+  Generator& generator_;
   const Corpus& corpus_;
   const std::function<void(const RunProgress&)>& progress_;
   const std::function<bool()>& stop_;
@@ -294,7 +294,7 @@ class Run {
   bool is_cut_ = false;     // the last round was not done whole; what is kept is from before it
   std::vector<int> again_;  // places whose process ended, to be tried once more
   double fold_at_s_ = 0.0;
-  Settling settling_{config_, library_, corpus_, state_};
+  Settling settling_{config_, generator_, corpus_, state_};
   std::vector<Running> running_;  // by worker
   RunResult result_;
 };
@@ -308,10 +308,10 @@ Provenance provenance_in(const RunConfig& config, std::int64_t index) {
   return from;
 }
 
-Spec spec_of(const RunConfig& config, const Library& library, const Lineage& lineage) {
+Spec spec_of(const RunConfig& config, Generator& generator, const Lineage& lineage) {
   const std::int64_t index = lineage.back();
   if (is_seed(config, index)) return config.seeds[static_cast<std::size_t>(index)];
-  return compose(raw_of(config.draw, library, config.seed, lineage), config.draw, library);
+  return compose(raw_of(config.draw, generator, config.seed, lineage), config.draw, generator);
 }
 
 std::string run_name(const RunConfig& config) {
@@ -321,10 +321,10 @@ std::string run_name(const RunConfig& config) {
   return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);
 }
 
-RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
+RunResult run_fuzz(const RunConfig& config, Generator& generator, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
                    const std::function<void(const FailingCase&)>& failing) {
-  return Run(config, library, corpus, progress, stop, failing).run();
+  return Run(config, generator, corpus, progress, stop, failing).run();
 }
 
 }  // namespace contort

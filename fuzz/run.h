@@ -83,12 +83,12 @@ std::string run_name(const RunConfig& config);
 Provenance provenance_in(const RunConfig& config, std::int64_t index);
 
 // A case of the run, by its ancestry.
-Spec spec_of(const RunConfig& config, const Library& library, const Lineage& lineage);
+Spec spec_of(const RunConfig& config, Generator& generator, const Lineage& lineage);
 
 // `progress` is called now and then. `stop` is asked often; when it answers true the run ends early and keeps what it
 // found. `failing`, if there is one, hears of each failing case in the order of indices; after a resume, of some again.
 // The caller must have no other threads.
-RunResult run_fuzz(const RunConfig& config, const Library& library, const Corpus& corpus,
+RunResult run_fuzz(const RunConfig& config, Generator& generator, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
                    const std::function<void(const FailingCase&)>& failing = {});
 

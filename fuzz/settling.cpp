@@ -74,7 +74,7 @@ void Settling::take(const CaseTask& task, const WorkerEvent& event) {
 void Settling::settled(const CaseTask& task, const WorkerEvent& event) {
   if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
   if (event.end != WorkerEnd::replied)
-    keep_unsteady(seen_once(task, spec_of(config_, library_, task.lineage), library_, config_.limits), task);
+    keep_unsteady(seen_once(task, spec_of(config_, generator_, task.lineage), generator_, config_.limits), task);
   const CaseReport report = report_of(event);
   settle_no_more(task, {task.family});
   if (report.confirmed && config_.shard.count == 1) settle_no_more(task, report.also);
@@ -117,7 +117,7 @@ void Settling::settle_no_more(const CaseTask& of_case, const std::vector<std::st
 // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
 // again, or else it is not confirmed. It still comes before the later failures of its case.
 void Settling::shrink_guarded(CaseTask task, const WorkerEvent& event) {
-  const Spec given = spec_of(config_, library_, task.lineage);
+  const Spec given = spec_of(config_, generator_, task.lineage);
   Lead lead{state_.record.name, case_of_ending(event, given, config_.limits), {}};
   lead.original.provenance = provenance_in(config_, task.lineage.back());
   lead.original.provenance.met_shrinking = task.family;

@@ -17,8 +17,8 @@ namespace contort {
 class Settling {
  public:
   // `state` is the run's; what is wanted and what was filed is written there.
-  Settling(const RunConfig& config, const Library& library, const Corpus& corpus, RunState& state)
-      : config_(config), library_(library), corpus_(corpus), state_(state) {}
+  Settling(const RunConfig& config, Generator& generator, const Corpus& corpus, RunState& state)
+      : config_(config), generator_(generator), corpus_(corpus), state_(state) {}
 
   // With what the state of an interrupted run wants.
   void go_on();
@@ -63,7 +63,7 @@ class Settling {
   void fail(const Issue& issue);
 
   const RunConfig& config_;
-  const Library& library_;
+  Generator& generator_;
   const Corpus& corpus_;
   RunState& state_;
   std::deque<CaseTask> wanted_;    // those of the state that no worker has in hand

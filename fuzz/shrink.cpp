@@ -46,21 +46,20 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
 }
 
 // What there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
-void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const Library& library,
-                 const ShrinkConfig& config) {
+void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const ShrinkConfig& config) {
   for (const Case& other : others) state.meet(other);
   const Case* precursor = precursor_of(shrunk.minimal, others, config.onward.value_or(Onward{}).left);
   if (precursor != nullptr) shrunk.precursor = state.before(*precursor);
   if (shrunk.precursor && config.onward) return;
   state.allow_frames(std::max(kShortFrames, 2 * state.shown().most_frames));
-  shrunk.minimal.free_fields = free_fields_of(state, library);
+  shrunk.minimal.free_fields = free_fields_of(state);
   shrunk.worst = worst_of(state);
 }
 
 }  // namespace
 
-Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config) {
-  ShrinkState state(trial, original, config);
+Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config) {
+  ShrinkState state(trial, original, generator, config);
   Shrunk shrunk;
   shrunk.original = original;
   std::vector<Case> others;
@@ -73,25 +72,25 @@ Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, c
   shrunk.stopped = state.stopped();
   shrunk.minimal = shrunk.worst = state.best();
   shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : state.still_shown(others);
-  if (shrunk.stopped == "fixpoint") look_closer(shrunk, state, others, library, config);
+  if (shrunk.stopped == "fixpoint") look_closer(shrunk, state, others, config);
   shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(shrunk.original, state, shrunk.stopped);
   shrunk.met = state.met();
   shrunk.evaluations = state.evaluations();
   return shrunk;
 }
 
-Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& config) {
+Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config) {
   if (!is_ending(original.expect)) {
-    CheckTrial trial(original.expect, library, config.checks, config.before_run);
+    CheckTrial trial(original.expect, generator, config.checks, config.before_run);
     GuardedTrial guarded(trial, config.isolation);
-    return shrink_with(config.guarded ? static_cast<Trial&>(guarded) : trial, original, library, config);
+    return shrink_with(config.guarded ? static_cast<Trial&>(guarded) : trial, original, generator, config);
   }
   const auto work = [&](const Spec& spec) {
     if (config.before_run) config.before_run(spec);
-    if (const Result<Stage> stage = build_stage(spec, library)) Evaluator(config.checks).run(*stage);
+    (void)Evaluator(generator, config.checks).run(spec);  // how that ends is what is asked
   };
   EndingTrial trial(original.expect, work, isolation_of(original.expect, config.isolation));
-  return shrink_with(trial, original, library, config);
+  return shrink_with(trial, original, generator, config);
 }
 
 }  // namespace contort

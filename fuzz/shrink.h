@@ -13,7 +13,7 @@
 #include "corpus/evaluator.h"
 #include "process/isolate.h"
 #include "fuzz/trial.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 
 namespace contort {
 
@@ -49,9 +49,9 @@ struct Shrunk {
 
 // Keeps check, subject and character of `original`. A case that ends its process (isolate.h) is run in others: then the
 // caller has one thread only. So is a guarded one.
-Shrunk shrink(const Case& original, const Library& library, const ShrinkConfig& config);
+Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config);
 
-// The same by any way of running specs.
-Shrunk shrink_with(Trial& trial, const Case& original, const Library& library, const ShrinkConfig& config);
+// The same by any way of running specs. The generator says what parameters of actions may be.
+Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config);
 
 }  // namespace contort

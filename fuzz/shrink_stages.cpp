@@ -111,7 +111,7 @@ void queue_interrupts(ShrinkState& state) {
 }
 
 void reset_fields(ShrinkState& state) {
-  std::vector<SpecPlace> left = places_of(state.spec(), state.shown().character.get());
+  std::vector<SpecPlace> left = state.places(state.spec());
   ddmin([&] { return static_cast<int>(left.size()); },
         [&](int first, int n) {
           const auto from = left.begin() + first;
@@ -171,7 +171,7 @@ class Lowering {
 }  // namespace
 
 void lower_numbers(ShrinkState& state) {
-  for (const SpecPlace& place : places_of(state.spec(), state.shown().character.get()))
+  for (const SpecPlace& place : state.places(state.spec()))
     if (place.is_number && !state.halted()) Lowering(state, place).run();
 }
 
@@ -180,7 +180,7 @@ namespace {
 constexpr std::size_t kMostForAllPairs = 8;  // 28 pairs; of more, only neighbours
 
 bool reset_two_fields(ShrinkState& state) {
-  const std::vector<SpecPlace> places = places_of(state.spec(), state.shown().character.get());
+  const std::vector<SpecPlace> places = state.places(state.spec());
   const std::size_t apart = places.size() <= kMostForAllPairs ? places.size() : 2;
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = i + 1; j < std::min(i + apart, places.size()); ++j) {

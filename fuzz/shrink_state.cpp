@@ -20,8 +20,12 @@ double least_depth_of(const Case& stored, double depth, double floor) {
 
 }  // namespace
 
-ShrinkState::ShrinkState(Trial& trial, const Case& original, const ShrinkConfig& config)
-    : trial_(trial), config_(config), best_(original) {}
+ShrinkState::ShrinkState(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config)
+    : trial_(trial), generator_(generator), config_(config), best_(original) {}
+
+std::vector<SpecPlace> ShrinkState::places(const Spec& spec) const {
+  return places_of(spec, generator_, shown_.character.get());
+}
 
 bool ShrinkState::spent() {
   if (evaluations_ >= config_.max_evaluations)

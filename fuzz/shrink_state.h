@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/places.h"
 #include "fuzz/shrink.h"
 
 namespace contort {
 
 class ShrinkState {
  public:
-  ShrinkState(Trial& trial, const Case& original, const ShrinkConfig& config);
+  ShrinkState(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config);
 
   // Runs the original twice. Only where it fails both times, in the same way, is there something to shrink.
   bool confirm();
@@ -38,6 +39,11 @@ class ShrinkState {
   // From here on motions may have this many frames, whatever the original has.
   void allow_frames(int most_frames) { most_frames_ = most_frames; }
 
+  // The places of a spec that has the character of best().
+  std::vector<SpecPlace> places(const Spec& spec) const;
+
+  const Library& library() const { return *generator_.manifest().library; }
+
   bool halted() const { return stopped_ != "fixpoint"; }
   const Spec& spec() const { return best_.spec; }
   const Case& best() const { return best_; }
@@ -58,6 +64,7 @@ class ShrinkState {
   bool spent();
 
   Trial& trial_;
+  Generator& generator_;
   const ShrinkConfig& config_;
   Case best_;
   TrialResult shown_;

@@ -9,47 +9,37 @@
 
 namespace contort {
 
-CheckTrial::CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings,
+CheckTrial::CheckTrial(const Expectation& family, Generator& generator, const CheckSettings& settings,
                        BeforeRun before)
     : check_(family.check),
       subject_(family.subject),
-      library_(library),
-      evaluator_(settings),
+      evaluator_(generator, settings),
       before_(std::move(before)) {}
-
-// Most candidates keep the character: it need not be assembled again for them.
-Result<Stage> CheckTrial::build(const Spec& spec) const {
-  if (stage_.ok() && spec.character == choice_) return build_stage(spec, stage_->character, library_);
-  return build_stage(spec, library_);
-}
 
 TrialResult CheckTrial::run(const Spec& spec, int most_frames) {
   TrialResult shown;
   if (before_) before_(spec);
-  Result<Stage> stage = build(spec);
-  if (!stage || stage->most_frames > most_frames) return shown;
-  stage_ = std::move(stage);
-  choice_ = spec.character;
+  const Result<Admission> admitted = evaluator_.generator().admit(spec);
+  if (!admitted || admitted->most_frames > most_frames) return shown;
+  const Result<Evaluation> evaluation = evaluator_.run(spec, check_);
+  if (!evaluation) return shown;
   shown.built = true;
-  shown.most_frames = stage_->most_frames;
-  shown.character = stage_->character;
-  const Evaluation evaluation = evaluator_.run(*stage_, check_);
+  shown.most_frames = admitted->most_frames;
+  shown.character = evaluator_.execution().character;
   shown.spans = evaluator_.motion().spans;
-  shown.met = others_among(spec, evaluation);
-  const Finding* finding = deepest(evaluation.findings, check_, subject_);
+  shown.met = others_among(spec, *evaluation);
+  const Finding* finding = deepest(evaluation->findings, check_, subject_);
   if (finding == nullptr) return shown;
   shown.fails = true;
   shown.depth = finding->depth;
-  shown.expect = expectation_of(*stage_, evaluator_.motion(), evaluation, *finding);
+  shown.expect = expectation_of(evaluator_.execution(), *evaluation, *finding);
   return shown;
 }
 
 std::vector<Case> CheckTrial::others(const Spec& spec) {
-  const Execution& execution = evaluator_.execution();
   Evaluation evaluation;
-  evaluation.motion_hash = motion_hash(execution.motion);
-  evaluation.findings =
-      evaluator_.judge(*execution.character, execution.motion, {}, execution.environment, execution.said());
+  evaluation.motion_hash = motion_hash(evaluator_.motion());
+  evaluation.findings = evaluator_.judge_by_all_checks();
   return others_among(spec, evaluation);
 }
 
@@ -62,7 +52,7 @@ std::vector<Case> CheckTrial::others_among(const Spec& spec, const Evaluation& e
   std::vector<Case> cases;
   for (const auto& [family, finding] : deepest_of)
     if (finding->check != check_ || finding->subject != subject_)
-      cases.push_back({spec, expectation_of(*stage_, evaluator_.motion(), evaluation, *finding), {}});
+      cases.push_back({spec, expectation_of(evaluator_.execution(), evaluation, *finding), {}});
   return cases;
 }
 

@@ -9,7 +9,7 @@
 #include "corpus/case.h"
 #include "corpus/evaluator.h"
 #include "process/isolate.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 
 namespace contort {
 
@@ -39,20 +39,16 @@ class Trial {
 // For a failure that a check found: that check alone is measured.
 class CheckTrial final : public Trial {
  public:
-  CheckTrial(const Expectation& family, const Library& library, const CheckSettings& settings, BeforeRun before = {});
+  CheckTrial(const Expectation& family, Generator& generator, const CheckSettings& settings, BeforeRun before = {});
   TrialResult run(const Spec& spec, int most_frames) override;
   std::vector<Case> others(const Spec& spec) override;
 
  private:
-  Result<Stage> build(const Spec& spec) const;
   std::vector<Case> others_among(const Spec& spec, const Evaluation& evaluation) const;
 
   std::string check_, subject_;
-  const Library& library_;
   Evaluator evaluator_;
   BeforeRun before_;
-  Result<Stage> stage_ = Issue{};  // that was run last
-  CharacterChoice choice_;         // what its character was built from
 };
 
 // Where some candidate ends the process that runs it: each is first run in another one. What ends that is met as a

@@ -29,7 +29,7 @@ class Climb {
  private:
   bool sweep(double share) {
     bool climbed = false;
-    for (const SpecPlace& place : places_of(worst_.spec, state_.shown().character.get()))
+    for (const SpecPlace& place : state_.places(worst_.spec))
       for (const double end : {place.low, place.high})
         if (place.is_number && std::isfinite(end)) climbed |= step(place, place.value + share * (end - place.value));
     return climbed;

@@ -5,6 +5,7 @@
 #include "generator/actions/hand.h"
 #include "generator/happened.h"
 #include "generator/motion/blend.h"
+#include "generator/motion/place_foot.h"
 #include "generator/motion/root_blend.h"
 #include "model/motion/kinematics.h"
 

@@ -10,7 +10,8 @@ namespace {
 
 IntendedAction intended(const PlannedAction& action) {
   return {action.sequence,   action.clip,  action.action, action.part,     action.named,    action.name,
-          action.def->layer, action.start, action.end,    action.blend_in, action.blend_out};
+          action.def->layer, action.start, action.end,    action.blend_in, action.blend_out, action.first_frame,
+          action.last_frame};
 }
 
 IntendedSequence intended(const PlannedSequence& sequence) {

@@ -65,7 +65,8 @@ class StageBuilder {
 
   Result<Stage> build() {
     for (const auto step : {&StageBuilder::add_timeline, &StageBuilder::add_environment, &StageBuilder::find_length,
-                            &StageBuilder::find_obstacles, &StageBuilder::add_recording, &StageBuilder::add_dynamics})
+                            &StageBuilder::find_obstacles, &StageBuilder::leave_one_part, &StageBuilder::add_recording,
+                            &StageBuilder::add_dynamics})
       if (const Result<Done> done = (this->*step)(); !done) return done.issue();
     return std::move(out_);
   }
@@ -109,6 +110,18 @@ class StageBuilder {
         return Issue{"spec.unknown_name", "/interrupts/" + std::to_string(i) + "/when/name",
                      "found \"" + interrupt.when.name + "\", which no obstacle is called"};
     }
+    return Done{};
+  }
+
+  Result<Done> leave_one_part() {
+    if (spec_.only_slot.empty()) return Done{};
+    const int part = character_.find_part(spec_.only_slot);
+    if (part < 0)
+      return Issue{"spec.unknown_slot", "/only_slot",
+                   "found \"" + spec_.only_slot + "\", which is no slot of the character"};
+    std::vector<std::vector<int>>& of_part = out_.timeline.of_part;
+    for (std::size_t i = 0; i < of_part.size(); ++i)
+      if (i % character_.parts().size() != static_cast<std::size_t>(part)) of_part[i].clear();
     return Done{};
   }
 

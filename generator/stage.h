@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "generator/dynamics/simulate.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "generator/timeline/timeline.h"
 #include "model/character/character.h"
 #include "model/spec/spec.h"

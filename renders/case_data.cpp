@@ -34,16 +34,17 @@ Motion target_of(const Motion& motion) {
   return target;
 }
 
-Result<Json> motion_json(const ShownCase& shown, const Library& library, const CheckSettings& settings) {
-  const Result<Stage> stage = build_stage(shown.stored.spec, library);
-  if (!stage) return stage.issue();
-  Evaluator evaluator(settings);
-  const Evaluation evaluation = evaluator.run(*stage);
-  const Motion& motion = evaluator.motion();
+Result<Json> motion_json(const ShownCase& shown, Generator& generator, const CheckSettings& settings) {
+  Evaluator evaluator(generator, settings);
+  const Result<Evaluation> evaluation = evaluator.run(shown.stored.spec);
+  if (!evaluation) return evaluation.issue();
+  const Execution& execution = evaluator.execution();
+  const Character& character = *execution.character;
+  const Motion& motion = execution.motion;
   Finding about;
   about.check = shown.stored.expect.check, about.subject = shown.stored.expect.subject;
   about.first_frame = about.worst_frame = about.last_frame = -1;
-  if (const Finding* found = deepest(evaluation.findings, about.check, about.subject)) about = *found;
+  if (const Finding* found = deepest(evaluation->findings, about.check, about.subject)) about = *found;
   const Motion target = target_of(motion);
   return Json{{"role", shown.role},
               {"rate_hz", motion.rate_hz},
@@ -53,21 +54,21 @@ Result<Json> motion_json(const ShownCase& shown, const Library& library, const C
               {"last_frame", about.last_frame},
               {"spec", *json_fields::parse_document(print_spec(shown.stored.spec))},
               {"free_fields", shown.stored.free_fields},
-              {"glb", glb_text(*stage->character, motion)},
-              {"ghost_glb", target.frame_count > 0 ? glb_text(*stage->character, target) : ""},
-              {"colliders", colliders_json(*stage->character)},
-              {"highlight", highlight_json(*stage->character, highlighted(*stage->character, about))},
-              {"ground", ground_json(stage->environment, motion.root)},
-              {"obstacles", obstacles_json(stage->environment)},
-              {"spans", spans_json(*stage, motion)},
-              {"marks", marks_json(*stage, motion)},
+              {"glb", glb_text(character, motion)},
+              {"ghost_glb", target.frame_count > 0 ? glb_text(character, target) : ""},
+              {"colliders", colliders_json(character)},
+              {"highlight", highlight_json(character, highlighted(character, about))},
+              {"ground", ground_json(execution.environment, motion.root)},
+              {"obstacles", obstacles_json(execution.environment)},
+              {"spans", spans_json(execution)},
+              {"marks", marks_json(execution)},
               {"balance", balance_json(motion)},
               {"curves", curves_json(evaluator.curves(about, kMostCurves))}};
 }
 
 }  // namespace
 
-Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
+Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, Generator& generator,
                               const CheckSettings& settings, const std::string& strip) {
   const Expectation& expect = shown.front().stored.expect;
   const auto check = std::ranges::find(all_checks(), expect.check, &CheckDef::name);
@@ -86,7 +87,7 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
   if (!strip.empty()) json["strip"] = strip;
   if (!expect.phase.empty()) json["phase"] = phase_text(expect.phase);
   for (const ShownCase& one : shown) {
-    Result<Json> motion = motion_json(one, library, settings);
+    Result<Json> motion = motion_json(one, generator, settings);
     if (motion)
       json["motions"].push_back(std::move(motion).value());
     else if (&one == &shown.front())

@@ -7,7 +7,7 @@
 
 #include "checks/settings.h"
 #include "corpus/case.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/core/result.h"
 
 namespace contort {
@@ -22,8 +22,9 @@ struct ShownCase {
 inline constexpr std::size_t kMostCurves = 16;
 
 // JSON in one line, safe inside of a <script>. The first of `shown` is what the failure is told by. `strip`: path of its
-// film strip from the page, "" where there is none. Codes of build_stage: the library may have changed since.
-Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, const Library& library,
+// film strip from the page, "" where there is none. Codes of the generator, which may refuse by now
+// what it did then.
+Result<std::string> case_data(const std::string& key, std::span<const ShownCase> shown, Generator& generator,
                               const CheckSettings& settings, const std::string& strip = "");
 
 // What the viewer gets where the case cannot be shown: a sentence that says why.

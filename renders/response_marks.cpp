@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "generator/dynamics/dynamics.h"
-#include "generator/dynamics/ground.h"
 #include "model/core/index.h"
+#include "model/motion/kinematics.h"
 #include "renders/arrow.h"
 
 namespace contort {
@@ -47,8 +46,10 @@ int only_child(const Character& character, int joint) {
 // What control adds to a joint's own freedoms.
 std::span<const double> control_of(const ResponseFrame& of, int joint) {
   const Response& response = of.motion.response;
-  const Link& link = of.figure.body.links()[at(joint)];
-  return std::span(response.control).subspan(at(of.frame) * at(response.dof_count) + at(link.dof), at(link.dof_count));
+  int before = 0;
+  for (int j = 0; j < joint; ++j) before += freedom_count(of.character.joints()[at(j)].kind);
+  return std::span(response.control)
+      .subspan(at(of.frame) * at(response.dof_count) + at(before), at(freedom_count(of.character.joints()[at(joint)].kind)));
 }
 
 void add_turning_arrow(const ResponseFrame& of, int joint, const Vec3& acceleration_rad_s2, DrawList& list,
@@ -73,18 +74,41 @@ bool is_placed(const ResponseFrame& of) {
                              [](const Rigid& place) { return std::isfinite(glm::dot(place.p_m, place.p_m)); });
 }
 
+// > 0 where a, b, c turn to the left seen from above, which is from +Y down.
+double turn_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
+}
+
+// The convex hull of points seen from above, counter-clockwise (A. M. Andrew, "Another efficient algorithm for convex
+// hulls in two dimensions", 1979): the lower chain in order of z and x, then the upper one back.
+std::vector<Vec3> hull_from_above(std::vector<Vec3> points) {
+  std::ranges::sort(points, [](const Vec3& a, const Vec3& b) { return std::pair(a.z, a.x) < std::pair(b.z, b.x); });
+  std::vector<Vec3> hull;
+  const auto extend = [&](const auto& chain) {
+    const std::size_t first = hull.size();
+    for (const Vec3& point : chain) {
+      while (hull.size() >= first + 2 && turn_of(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();  // the other chain begins with it
+  };
+  if (points.size() < 3) return {};
+  extend(points);
+  extend(std::vector<Vec3>(points.rbegin(), points.rend()));
+  return hull;
+}
+
 // Corners of the area that standing soles span, counter-clockwise seen from above.
 std::vector<Vec3> support_corners(const ResponseFrame& of) {
-  std::vector<int> standing;
-  for (int s = 0; s < static_cast<int>(of.figure.soles.size()); ++s)
-    if ((of.motion.response.stances[at(of.frame)].standing >> s & 1U) != 0) standing.push_back(s);
-  DynamicsScratch scratch;
-  place(of.figure.body, of.world[0], of.motion.row(of.frame), scratch);
-  SupportArea area;
-  find_support_area(of.figure, standing, scratch, area);
   std::vector<Vec3> corners;
-  for (const SupportEdge& edge : area.edges) corners.push_back(edge.from_m);
-  return corners;
+  for (std::size_t i = 0; i < of.legs.size(); ++i) {
+    if ((of.motion.response.stances[at(of.frame)].standing >> i & 1U) == 0) continue;
+    const Leg& leg = of.legs[i];
+    const Rigid world_from_sole = world_from_socket(of.character, of.world, leg.sole);
+    for (const double x : {leg.low_m.x, leg.high_m.x})
+      for (const double z : {leg.low_m.z, leg.high_m.z}) corners.push_back(world_from_sole * Vec3(x, 0.0, z));
+  }
+  return hull_from_above(std::move(corners));
 }
 
 // A fan around the origin, seen from above.

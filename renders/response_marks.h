@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/dynamics/figure.h"
+#include "model/motion/legs.h"
 #include "model/motion/motion.h"
 #include "model/spec/dynamics_desc.h"
 #include "renders/draw_list.h"
@@ -30,7 +30,7 @@ inline constexpr Vec3 kUnbalancedColor{0.80, 0.03, 0.03};
 // A frame of a motion with a response, and its pose.
 struct ResponseFrame {
   const Character& character;
-  const DynamicFigure& figure;  // of that character
+  std::span<const Leg> legs;  // of that character
   const Motion& motion;
   int frame = 0;
   std::span<const Rigid> world;  // world_from_joint

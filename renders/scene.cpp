@@ -128,8 +128,8 @@ Json obstacles_json(const Environment& environment) {
 
 namespace {
 
-std::string name_of(const Timeline& timeline, const ActionSpan& span) {
-  for (const PlannedAction& action : timeline.actions)
+std::string name_of(const Intent& intent, const ActionSpan& span) {
+  for (const IntendedAction& action : intent.actions)
     if (action.sequence == span.sequence && action.clip == span.clip && action.action == span.action)
       return action.name;
   return "";
@@ -137,11 +137,11 @@ std::string name_of(const Timeline& timeline, const ActionSpan& span) {
 
 }  // namespace
 
-Json spans_json(const Stage& stage, const Motion& motion) {
+Json spans_json(const Execution& execution) {
   Json all = Json::array();
-  for (const ActionSpan& span : motion.spans)
-    all.push_back({{"name", name_of(stage.timeline, span)},
-                   {"slot", stage.character->parts()[static_cast<std::size_t>(span.part)].slot},
+  for (const ActionSpan& span : execution.motion.spans)
+    all.push_back({{"name", execution.intent ? name_of(*execution.intent, span) : ""},
+                   {"slot", execution.character->parts()[static_cast<std::size_t>(span.part)].slot},
                    {"sequence", span.sequence},
                    {"clip", span.clip},
                    {"action", span.action},
@@ -150,17 +150,18 @@ Json spans_json(const Stage& stage, const Motion& motion) {
   return all;
 }
 
-Json marks_json(const Stage& stage, const Motion& motion) {
+Json marks_json(const Execution& execution) {
   Json all = Json::array();
+  const Motion& motion = execution.motion;
   for (const QueueSpan& span : motion.queue)
-    if (span.sequence >= stage.timeline.queued)
+    if (execution.intent && span.sequence >= execution.intent->queued)
       all.push_back({{"frame", span.first_frame},
                      {"kind", "interrupt"},
-                     {"text", "interrupt " + std::to_string(span.sequence - stage.timeline.queued + 1)}});
+                     {"text", "interrupt " + std::to_string(span.sequence - execution.intent->queued + 1)}});
   for (const ImpactMark& mark : motion.response.impacts)
     all.push_back({{"frame", mark.frame},
                    {"kind", "impact"},
-                   {"text", "blow on " + stage.character->joints()[static_cast<std::size_t>(mark.joint)].name},
+                   {"text", "blow on " + execution.character->joints()[static_cast<std::size_t>(mark.joint)].name},
                    {"point", vector(mark.point_m)},
                    {"impulse", vector(mark.impulse_N_s)}});
   return all;

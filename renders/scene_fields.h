@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "corpus/evaluator.h"
-#include "generator/stage.h"
 #include "model/core/json_fields.h"
 #include "renders/highlight.h"
 
@@ -24,9 +23,9 @@ Json highlight_json(const Character& character, const Highlight& highlight);
 Json ground_json(const Environment& environment, std::span<const Rigid> path);
 Json obstacles_json(const Environment& environment);
 
-// What happened, over frames.
-Json spans_json(const Stage& stage, const Motion& motion);
-Json marks_json(const Stage& stage, const Motion& motion);
+// What happened, over frames. Names of actions and interrupts are known where the generator says its intent.
+Json spans_json(const Execution& execution);
+Json marks_json(const Execution& execution);
 Json balance_json(const Motion& motion);
 Json curves_json(const std::vector<MarginCurve>& curves);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 #include "renders/contact_marks.h"
@@ -23,9 +23,16 @@ bool is_whole(const Character& character, const Motion& motion) {
          motion.root.size() == at(motion.frame_count);
 }
 
+// Of the root and all joints: the numbers in a row of Response::control.
+int freedoms_of(const Character& character) {
+  int count = 0;
+  for (const Joint& joint : character.joints()) count += freedom_count(joint.kind);
+  return count;
+}
+
 bool is_whole(const Character& character, const Motion& motion, const Response& response) {
   const auto frames = at(motion.frame_count);
-  return response.dof_count == Multibody::of(character).dof_count() && response.stances.size() == frames &&
+  return response.dof_count == freedoms_of(character) && response.stances.size() == frames &&
          response.target_coords.size() == motion.coords.size() && response.target_root.size() == frames &&
          response.control.size() == frames * at(response.dof_count);
 }
@@ -49,7 +56,7 @@ class Photographer {
         world_(story.character.joints().size()) {
     if (story.finding && story.finding->check == "joint_range") ranged_ = highlight.joints;
     if (story.skin) groups_ = highlight_groups_of_joints(story.character, highlight, story.skin->moved);
-    if (has_response(story.motion)) physics_ = build_figure(story.character, find_legs(story.character), {});
+    if (has_response(story.motion)) legs_ = find_legs(story.character);
   }
 
   DrawList shoot(int frame, std::vector<Triangles>& meshes) {
@@ -61,8 +68,8 @@ class Photographer {
     for (const int joint : ranged_)
       add_range_mark(story_.character, joint, world_, story_.motion.row(frame), list, meshes);
     if (const auto contact = contact_of_finding()) add_contact_mark(*contact, figure_m_, list, meshes);
-    if (!physics_) return list;
-    const ResponseFrame of{story_.character, *physics_, story_.motion, frame, world_};
+    if (!has_response(story_.motion)) return list;
+    const ResponseFrame of{story_.character, legs_, story_.motion, frame, world_};
     if (story_.dynamics) add_loads(story_.dynamics->loads, story_.character, world_, list, meshes);
     add_balance_marks(of, list, meshes);
     add_control_arrows(of, list, meshes);
@@ -97,12 +104,12 @@ class Photographer {
     if (story_.ghost) {
       if (frame >= story_.ghost->frame_count) return false;
       place_figure(story_.ghost->root[at(frame)], story_.ghost->row(frame));
-    } else if (physics_) {
+    } else if (has_response(story_.motion)) {
       const auto count = at(story_.motion.coord_count);
       place_figure(response.target_root[at(frame)],
                    std::span(response.target_coords).subspan(at(frame) * count, count));
     }
-    return story_.ghost || physics_;
+    return story_.ghost || has_response(story_.motion);
   }
 
   std::optional<NearestPoints> contact_of_finding() const {
@@ -120,7 +127,7 @@ class Photographer {
   std::vector<Rigid> world_;
   std::vector<int> groups_;               // of joints, by highlight; for a skin
   std::vector<int> ranged_;               // joints whose range is shown
-  std::optional<DynamicFigure> physics_;  // of a motion with a response
+  std::vector<Leg> legs_;                 // of a motion with a response
 };
 
 Vec3 anchor_of(const Motion& motion, const Environment& environment, int frame) {

@@ -32,18 +32,18 @@ Worked worked_of(const BrokerReply& reply) {
   return {parse_reply(end == answer.size() ? "" : answer.substr(end + 1)), 1e-6 * std::strtod(answer.c_str(), nullptr)};
 }
 
-WorkerPool::Work make_work(const Library& library, const CheckSettings& settings, const std::string& tool) {
-  auto worker = std::make_shared<Worker>(library, settings, tool);
+WorkerPool::Work make_work(Generator& generator, const CheckSettings& settings, const std::string& tool) {
+  auto worker = std::make_shared<Worker>(generator, settings, tool);
   return [worker](const std::string& task, WorkerSlot&) { return work(*worker, task); };
 }
 
 }  // namespace
 
-Engine::Engine(const Limits& limits, const BrokerLimits& workers, const Library& library, const CheckSettings& settings,
+Engine::Engine(const Limits& limits, const BrokerLimits& workers, Generator& generator, const CheckSettings& settings,
                const std::string& tool)
     : limits_(limits),
       cpu_left_(limits.cpu_s_per_minute / 60.0, limits.cpu_s_per_minute * limits.cpu_minutes_at_once),
-      broker_(workers, make_work(library, settings, tool)),
+      broker_(workers, make_work(generator, settings, tool)),
       thread_([this] { do_later(); }) {}
 
 Engine::~Engine() {

@@ -40,8 +40,8 @@ struct Worked {
 
 class Engine {
  public:
-  // Before the process has threads.
-  Engine(const Limits& limits, const BrokerLimits& workers, const Library& library, const CheckSettings& settings,
+  // Before the process has threads. The generator must outlive it.
+  Engine(const Limits& limits, const BrokerLimits& workers, Generator& generator, const CheckSettings& settings,
          const std::string& tool);
   ~Engine();
 

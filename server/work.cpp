@@ -101,32 +101,38 @@ Json joints_json(const Character& character) {
   return all;
 }
 
-// What can aim, with the points that it can aim with; of look_at there are none.
-Json aims_json(const Character& character) {
+// Actions that aim, with the points that a part can aim with; of look_at there are none.
+Json aims_json(const Character& character, const Offers& offers) {
   Json all = Json::array();
-  for (const Part& part : character.parts())
-    for (const char* name : {"aim", "look_at"})
-      if (const std::optional<Action> action = find_action(character, part, name))
-        all.push_back({{"slot", part.slot},
-                       {"action", name},
-                       {"points", action->name == "aim" ? own_points(character, part) : std::vector<std::string>{}}});
+  for (std::size_t p = 0; p < offers.size(); ++p)
+    for (const OfferedAction& action : offers[p]) {
+      if (action.promise != Promise::aims) continue;
+      const auto point = std::ranges::find(action.params, ParamType::own_point, &ParamDef::type);
+      all.push_back({{"slot", character.parts()[p].slot},
+                     {"action", action.name},
+                     {"points", point == action.params.end() ? std::vector<std::string>{} : point->points}});
+    }
   return all;
 }
 
-Result<Reply> model_of(const Stage& stage) {
-  const Character& character = *stage.character;
+Result<Reply> model_of(const Spec& spec, Generator& generator) {
+  const Result<Character> built = build_character(spec.character, *generator.manifest().library);
+  if (!built) return built.issue();
+  const Character& character = *built;
+  const Result<Environment> environment = build_environment(spec.environment);
+  if (!environment) return environment.issue();
   const Result<std::vector<std::byte>> glb = write_glb(character, Motion{}, {});
   if (!glb) return glb.issue();
-  const Rigid here{kNoRotation, stage.start.p_m};
-  const Rigid path[] = {{kNoRotation, here.p_m + Vec3(kSight_m, 0, kSight_m)},
-                        {kNoRotation, here.p_m - Vec3(kSight_m, 0, kSight_m)}};
+  const Vec3 here_m(spec.start.position_m.x, 0.0, spec.start.position_m.z);
+  const Rigid path[] = {{kNoRotation, here_m + Vec3(kSight_m, 0, kSight_m)},
+                        {kNoRotation, here_m - Vec3(kSight_m, 0, kSight_m)}};
   const Quat rest = character.rest_root().q;
   return Reply{json_fields::compact_text({{"joints", joints_json(character)},
                                           {"glb", to_base64(*glb)},
                                           {"colliders", scene::colliders_json(character)},
-                                          {"ground", scene::ground_json(stage.environment, path)},
-                                          {"obstacles", scene::obstacles_json(stage.environment)},
-                                          {"aims", aims_json(character)},
+                                          {"ground", scene::ground_json(*environment, path)},
+                                          {"obstacles", scene::obstacles_json(*environment)},
+                                          {"aims", aims_json(character, generator.offers(character))},
                                           {"rest", {rest.x, rest.y, rest.z, rest.w}}}),
                ""};
 }
@@ -161,9 +167,9 @@ Issue too_long(int frames, const Task& task) {
               std::to_string(task.most_frames)};
 }
 
-Result<Done> refuse_long(const Stage& stage, const Task& task) {
-  if (task.most_frames == 0 || stage.most_frames <= task.most_frames) return Done{};
-  return too_long(stage.most_frames, task);
+Result<Done> refuse_long(int most_frames, const Task& task) {
+  if (task.most_frames == 0 || most_frames <= task.most_frames) return Done{};
+  return too_long(most_frames, task);
 }
 
 // The longest time that the queue is dry before something comes into it.
@@ -178,19 +184,19 @@ int longest_gap(const Motion& motion) {
 
 // Frames to hold still so that the motion has `take_frames`, and does not end before the last interrupt. When the queue
 // runs dry does not depend on dynamics.
-Result<int> hold_for(const Task& task, const Library& library) {
+Result<int> hold_for(const Task& task, Generator& generator) {
   Spec plain = task.spec;
   plain.dynamics.mode = Mode::kinematic, plain.hold_frames = 0;
-  const Result<Stage> bare = build_stage(plain, library);
+  const Result<Admission> bare = generator.admit(plain);
   if (!bare) return bare.issue();
+  const int most_frames = bare->most_frames - 1;  // without frame 0
   const int ends = 1 + static_cast<int>(plain.interrupts.size());
-  const int room = std::clamp((kMaxFrames - bare->timeline.frame_count) / ends, 0, kMostHold);
-  if (task.most_frames > 0 && bare->timeline.frame_count > task.most_frames)
-    return too_long(bare->timeline.frame_count, task);
+  const int room = std::clamp((kMaxFrames - most_frames) / ends, 0, kMostHold);
+  if (task.most_frames > 0 && most_frames > task.most_frames) return too_long(most_frames, task);
   plain.hold_frames = std::min(room, task.take_frames);
-  const Result<Stage> stage = build_stage(plain, library);
-  if (!stage) return stage.issue();
-  const Motion motion = generate(*stage);
+  const Result<Execution> execution = execute(generator, plain);
+  if (!execution) return execution.issue();
+  const Motion& motion = execution->motion;
   const int ended = motion.queue.empty() ? 0 : motion.queue.back().last_frame;
   const int gap = longest_gap(motion);
   if (gap > room)
@@ -198,96 +204,100 @@ Result<int> hold_for(const Task& task, const Library& library) {
   return std::clamp(std::max(task.take_frames - 1 - ended, gap), 0, room);
 }
 
-Result<Reply> make_case(const Stage& stage, const Task& task, const std::string& tool, Evaluator& evaluator) {
-  const Evaluation evaluation = evaluator.run(stage);
-  const Finding* found = deepest(evaluation.findings, task.check, task.subject);
-  if (found == nullptr)
-    return Issue{"case.no_such_finding", "", "this motion does not show " + task.check + " of " + task.subject};
-  Case made;
-  made.spec = task.spec;
-  made.expect = expectation_of(stage, evaluator.motion(), evaluation, *found);
-  made.provenance.tool = tool;
-  return Reply{print_case(made), ""};
+Result<Reply> play(Task task, Generator& generator) {
+  if (task.take_frames > 0 && task.spec.recording.name.empty()) {
+    const Result<int> hold = hold_for(task, generator);
+    if (!hold) return hold.issue();
+    task.spec.hold_frames = *hold;
+  }
+  const Result<Execution> execution = execute(generator, task.spec);
+  if (!execution) return execution.issue();
+  const Motion& motion = execution->motion;
+  if (task.most_frames > 0 && motion.frame_count > task.most_frames) return too_long(motion.frame_count, task);
+  return Reply{json_fields::compact_text({{"rate_hz", motion.rate_hz},
+                                          {"frame_count", motion.frame_count},
+                                          {"joint_count", execution->character->joints().size()},
+                                          {"hold_frames", task.spec.hold_frames},
+                                          {"motion_hash", to_hex(motion_hash(motion))},
+                                          {"queue", queue_json(motion)},
+                                          {"spans", scene::spans_json(*execution)},
+                                          {"marks", scene::marks_json(*execution)}}),
+               compact_frames(*execution->character, motion)};
 }
 
-Result<Reply> model_file(const Stage& stage, const Task& task) {
-  const Motion motion = generate(stage);
-  const Result<std::vector<std::byte>> glb = write_glb(*stage.character, motion, {spec_id(task.spec), ""});
+Result<Reply> model_file(const Spec& spec, Generator& generator) {
+  const Result<Execution> execution = execute(generator, spec);
+  if (!execution) return execution.issue();
+  const Motion& motion = execution->motion;
+  const Result<std::vector<std::byte>> glb = write_glb(*execution->character, motion, {spec_id(spec), ""});
   if (!glb) return glb.issue();
   return Reply{
       json_fields::compact_text({{"motion_hash", to_hex(motion_hash(motion))}, {"frame_count", motion.frame_count}}),
       std::string(reinterpret_cast<const char*>(glb->data()), glb->size())};
 }
 
-}  // namespace
-
-Worker::Worker(const Library& library, CheckSettings settings, std::string tool)
-    : base_(library), tool_(std::move(tool)), evaluator_(std::move(settings)) {}
-
-Result<const Library*> Worker::library_of(const Task& task) {
-  if (task.library.empty()) return &base_;
-  if (task.library == registered_) return &with_registered_;
-  Library merged = base_;
-  if (const Result<Done> loaded = load_folder(task.library, merged); !loaded) return loaded.issue();
-  if (const Result<Done> fit = check_actions(merged); !fit) return fit.issue();
-  with_registered_ = std::move(merged);
-  registered_ = task.library;
-  return &with_registered_;
+Result<Reply> make_case(const Evaluator& evaluator, const Evaluation& evaluation, const Task& task,
+                        const std::string& tool) {
+  const Finding* found = deepest(evaluation.findings, task.check, task.subject);
+  if (found == nullptr)
+    return Issue{"case.no_such_finding", "", "this motion does not show " + task.check + " of " + task.subject};
+  Case made;
+  made.spec = task.spec;
+  made.expect = expectation_of(evaluator.execution(), evaluation, *found);
+  made.provenance.tool = tool;
+  return Reply{print_case(made), ""};
 }
 
-Result<Reply> Worker::play(Task task, const Library& library) {
-  if (task.take_frames > 0 && task.spec.recording.name.empty()) {
-    const Result<int> hold = hold_for(task, library);
-    if (!hold) return hold.issue();
-    task.spec.hold_frames = *hold;
-  }
-  const Result<Stage> stage = build_stage(task.spec, library);
-  if (!stage) return stage.issue();
-  const Motion motion = generate(*stage);
-  if (task.most_frames > 0 && motion.frame_count > task.most_frames) return too_long(motion.frame_count, task);
-  return Reply{json_fields::compact_text({{"rate_hz", motion.rate_hz},
-                                          {"frame_count", motion.frame_count},
-                                          {"joint_count", stage->character->joints().size()},
-                                          {"hold_frames", task.spec.hold_frames},
-                                          {"motion_hash", to_hex(motion_hash(motion))},
-                                          {"queue", queue_json(motion)},
-                                          {"spans", scene::spans_json(*stage, motion)},
-                                          {"marks", scene::marks_json(*stage, motion)}}),
-               compact_frames(*stage->character, motion)};
-}
-
-Result<Reply> Worker::judge(const Stage& stage, const Task& task) {
-  const Evaluation evaluation = evaluator_.run(stage);
+Reply judge(const Evaluator& evaluator, const Evaluation& evaluation, const Task& task) {
   Finding about;
   about.check = task.check, about.subject = task.subject;
   if (about.check.empty() && !evaluation.findings.empty()) about = evaluation.findings.front();
   return Reply{json_fields::compact_text({{"motion_hash", to_hex(evaluation.motion_hash)},
-                                          {"curves", scene::curves_json(evaluator_.curves(about, 12))},
+                                          {"curves", scene::curves_json(evaluator.curves(about, 12))},
                                           {"findings", findings_json(evaluation.findings)}}),
                ""};
 }
 
-Result<Reply> Worker::run(const Task& task) {
-  const Result<const Library*> library = library_of(task);
-  if (!library) return library.issue();
-  if (task.kind == TaskKind::play) return play(task, **library);
-  const Result<Stage> stage = build_stage(task.spec, **library);
-  if (!stage) return stage.issue();
-  if (const Result<Done> fits = refuse_long(*stage, task); !fits) return fits.issue();
-  switch (task.kind) {
-    case TaskKind::model: return model_of(*stage);
-    case TaskKind::judge: return judge(*stage, task);
-    case TaskKind::model_file: return model_file(*stage, task);
-    case TaskKind::make_case: return make_case(*stage, task, tool_, evaluator_);
-    case TaskKind::play:
-    case TaskKind::evaluate: break;
-  }
-  const Evaluation evaluation = evaluator_.run(*stage);
+Reply result_of(const Evaluator& evaluator, const Evaluation& evaluation) {
   return Reply{json_fields::compact_text({{"motion_hash", to_hex(evaluation.motion_hash)},
                                           {"frame_count", evaluation.frame_count},
-                                          {"rate_hz", stage->rate_hz},
+                                          {"rate_hz", evaluator.motion().rate_hz},
                                           {"findings", findings_json(evaluation.findings)}}),
                ""};
+}
+
+}  // namespace
+
+Worker::Worker(Generator& generator, CheckSettings settings, std::string tool)
+    : base_(generator), settings_(std::move(settings)), tool_(std::move(tool)) {}
+
+Result<Generator*> Worker::generator_of(const Task& task) {
+  if (task.library.empty()) return &base_;
+  if (registered_ && task.library == registered_->folder) return registered_->generator.get();
+  auto merged = std::make_unique<Registered>(Registered{task.library, *base_.manifest().library, nullptr});
+  if (const Result<Done> loaded = load_folder(task.library, merged->library); !loaded) return loaded.issue();
+  Result<std::unique_ptr<Generator>> generator = base_.with(merged->library);
+  if (!generator) return generator.issue();
+  merged->generator = std::move(generator).value();
+  registered_ = std::move(merged);
+  return registered_->generator.get();
+}
+
+Result<Reply> Worker::run(const Task& task) {
+  const Result<Generator*> chosen = generator_of(task);
+  if (!chosen) return chosen.issue();
+  Generator& generator = **chosen;
+  if (task.kind == TaskKind::play) return play(task, generator);
+  const Result<Admission> admitted = generator.admit(task.spec);
+  if (!admitted) return admitted.issue();
+  if (const Result<Done> fits = refuse_long(admitted->most_frames, task); !fits) return fits.issue();
+  if (task.kind == TaskKind::model) return model_of(task.spec, generator);
+  if (task.kind == TaskKind::model_file) return model_file(task.spec, generator);
+  Evaluator evaluator(generator, settings_);
+  const Result<Evaluation> evaluation = evaluator.run(task.spec);
+  if (!evaluation) return evaluation.issue();
+  if (task.kind == TaskKind::make_case) return make_case(evaluator, *evaluation, task, tool_);
+  return task.kind == TaskKind::judge ? judge(evaluator, *evaluation, task) : result_of(evaluator, *evaluation);
 }
 
 }  // namespace contort::server

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "corpus/evaluator.h"
-#include "model/character/library.h"
+#include "model/generator.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
 
@@ -56,21 +56,25 @@ Result<Reply> parse_reply(const std::string& text);
 class Worker {
  public:
   // `tool` goes into cases.
-  Worker(const Library& library, CheckSettings settings, std::string tool);
+  Worker(Generator& generator, CheckSettings settings, std::string tool);
 
-  // Codes of build_stage, with pointers into the spec; take.too_long, case.no_such_finding.
+  // Codes of the generator, with pointers into the spec; take.too_long, case.no_such_finding.
   Result<Reply> run(const Task& task);
 
  private:
-  const Library& base_;
-  std::string tool_;
-  Evaluator evaluator_;
-  std::string registered_;  // the folder that `with_registered_` was made with
-  Library with_registered_;
+  // The base generator with the descriptions of a registered folder.
+  struct Registered {
+    std::string folder;
+    Library library;
+    std::unique_ptr<Generator> generator;
+  };
 
-  Result<const Library*> library_of(const Task& task);
-  Result<Reply> play(Task task, const Library& library);
-  Result<Reply> judge(const Stage& stage, const Task& task);
+  Generator& base_;
+  CheckSettings settings_;
+  std::string tool_;
+  std::unique_ptr<Registered> registered_;  // the one that was used last
+
+  Result<Generator*> generator_of(const Task& task);
 };
 
 // Bytes of a compact frame, for each joint.

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-#define X(name, layer, timing, spread, promise, help)                 \
+#define X(name, layer, timing, spread, promise, tells, help)          \
   std::vector<ParamDef> name##_params(const Character&, const Part&); \
   bool name##_supports(const Character&, const Part&);                \
   void name##_rule(const RuleInput&, Posture&);
@@ -18,18 +18,13 @@ namespace contort {
 
 std::span<const ActionDef> all_actions() {
   static const ActionDef actions[] = {
-#define X(name, layer, timing, spread, promise, help)                       \
-  {#name, Layer::layer,  Timing::timing,  Spread::spread, Promise::promise, \
-   help,  name##_params, name##_supports, name##_rule},
+#define X(name, layer, timing, spread, promise, tells, help)                \
+  {#name,          Layer::layer, Timing::timing, Spread::spread,  Promise::promise, \
+   Tells::tells,   help,         name##_params,  name##_supports, name##_rule},
 #include "generator/actions/action_list.inc"
 #undef X
   };
   return actions;
-}
-
-double steps_per_unit(std::string_view param_name) {
-  if (param_name.ends_with("_m_s")) return 10.0;
-  return param_name.ends_with("_m") || param_name == "share" ? 100.0 : 1.0;
 }
 
 const ActionDef* find_action(std::string_view name) {
@@ -100,15 +95,6 @@ std::vector<int> parts_moved(const ActionDef& action, const Character& character
   for (int p = named_part + 1; p < static_cast<int>(character.parts().size()); ++p)
     if (carrier_of(character, p) == moved.back()) moved.push_back(p);
   return moved;
-}
-
-std::string_view layer_name(Layer layer) {
-  switch (layer) {
-    case Layer::overwrite: return "overwrite";
-    case Layer::ik: return "ik";
-    case Layer::additive: return "additive";
-  }
-  return "";
 }
 
 namespace {

@@ -16,17 +16,13 @@
 #include "generator/motion/gait.h"
 #include "model/character/character.h"
 #include "model/core/result.h"
+#include "model/generator.h"
 #include "model/motion/intent.h"
 #include "model/motion/motion.h"
 #include "model/spec/action_use.h"
 #include "model/world/environment.h"
 
 namespace contort {
-
-std::string_view layer_name(Layer layer);
-
-// A goal is reached at the end of the action's period; a course is a posture as a function of time (docs/timeline.md).
-enum class Timing { goal, course };
 
 // What one use of an action moves.
 enum class Spread {
@@ -35,50 +31,12 @@ enum class Spread {
   legs,  // it must be the root part: and all legs and feet
 };
 
-// The goal that an action sets to the limb that it moves; the intent says it to checks (model/motion/intent.h).
-enum class Promise {
-  none,
-  arrives,  // at its end the part's tip is at its first parameter, a point in the character's frame
-  holds,    // while it is in force the part's grip is at its first parameter, a point of an object
-};
-
-enum class ParamType {
-  number,
-  vector,
-  choice,        // one of a few words: the rule sees its index
-  object_point,  // the name of a point of an attached object that others carry: the rule sees the index of its socket
-  own_point,     // the same of a point that the part carries: "grip", "muzzle"
-};
-
-// How the fuzzer chooses values; people may write any value within low and high.
-enum class Domain {
-  uniform,       // anywhere in [low, high]
-  joint_range,   // within the limits of the joint that the parameter is named after
-  within_reach,  // a point that the part's reach chain can just about reach
-  around,        // a point some metres around the character
-};
-
-// What becomes of a value on the other side of the character. Specs say what they mean; the files of actions are written
-// for the left side, as parts are.
-enum class Mirrored {
-  same,
-  opposite,  // an angle to the left is one to the right
-  point,     // x changes its sign
-  rotation,  // a rotation vector: y and z do
-};
-
-struct ParamDef {
-  std::string name;  // ends in its unit: "azimuth_deg", "target_m"
-  ParamType type = ParamType::number;
-  double low = 0.0;
-  double high = 0.0;
-  ParamValue preset = 0.0;  // the value where a spec gives none
-  std::vector<std::string> choices{};  // of a choice
-  bool optional = false;    // no value at all is allowed: the rule sees NaN
-  Domain domain = Domain::uniform;
-  Mirrored mirrored = Mirrored::same;
-  std::string help;
-  bool operator==(const ParamDef&) const = default;
+// The event that an action may bring about on the parts that it moves.
+enum class Tells {
+  nothing,
+  contact,      // of feet
+  aim_reached,  // of the part that the spec names
+  impact,       // the same
 };
 
 // What a rule has to say to those who wait for it, beside the posture (events of interrupts).
@@ -139,16 +97,13 @@ struct RuleInput {
   Feedback& feedback;
 };
 
-// The lattice on which the fuzzer draws and shrinks a parameter, by its unit: whole degrees, centimetres, 0.1 m/s,
-// hundredths of a share.
-double steps_per_unit(std::string_view param_name);
-
 struct ActionDef {
   std::string_view name;
   Layer layer;
   Timing timing;
   Spread spread;
   Promise promise;
+  Tells tells;
   std::string_view help;
   // The parameters on a given part; they may depend on its joints.
   std::vector<ParamDef> (*params)(const Character&, const Part&);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "generator/motion/ik.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {

@@ -75,7 +75,7 @@ bool has_joints(const Character&, const Part& part) { return part.joint_count > 
 
 const ActionDef& key_pose_def() {
   static const ActionDef def{"keys",      Layer::overwrite, Timing::course,
-                             Spread::own, Promise::none,    "Key poses, one after another.",
+                             Spread::own, Promise::none, Tells::nothing,   "Key poses, one after another.",
                              no_params,   has_joints,       keys_rule};
   return def;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "generator/actions/action.h"
+#include "generator/motion/place_foot.h"
 #include "generator/motion/foot_roll.h"
 #include "model/core/detmath.h"
 

@@ -129,13 +129,27 @@ ParamValue mirrored(Mirrored how, const ParamValue& value) {
   return value;
 }
 
+namespace {
+
+void add_points(const Character& character, const Part& part, std::vector<ParamDef>& defs) {
+  for (ParamDef& def : defs) {
+    if (def.type == ParamType::object_point) def.points = object_points(character, part);
+    if (def.type == ParamType::own_point) def.points = own_points(character, part);
+  }
+}
+
+}  // namespace
+
 std::vector<ParamDef> params_of(const Action& action, const Character& character, const Part& part) {
   std::vector<ParamDef> defs = action.def->params(character, part);
+  add_points(character, part, defs);
   if (action.desc == nullptr) return defs;
   for (ParamDef& def : defs)
-    if (const auto given = action.desc->params.find(def.name); given != action.desc->params.end())
-      def.preset = part.side == Side::right ? mirrored(def.mirrored, given->second) : given->second,
+    if (const auto given = action.desc->params.find(def.name); given != action.desc->params.end()) {
+      def.preset = part.side == Side::right ? mirrored(def.mirrored, given->second) : given->second;
       def.optional = false;
+      def.is_characteristic = true;
+    }
   return defs;
 }
 

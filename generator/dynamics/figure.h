@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/dynamics/multibody.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 // Perry, Gait Analysis, 1992: heel, ankle and forefoot rockers).
 #pragma once
 
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 
 namespace contort {
 

@@ -1,7 +1,7 @@
 // The ground under a foot.
 #pragma once
 
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/world/environment.h"
 
 namespace contort {

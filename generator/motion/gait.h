@@ -7,7 +7,7 @@
 #include <span>
 
 #include "generator/motion/foothold.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/world/environment.h"
 
 namespace contort {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/character/character.h"
 #include "model/world/environment.h"
 

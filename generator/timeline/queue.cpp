@@ -4,12 +4,6 @@
 
 namespace contort {
 
-std::span<const std::string_view> event_names() {
-  static constexpr std::string_view kNames[] = {"frame",       "clip_ended", "sequence_ended", "contact",
-                                                "aim_reached", "impact",     "near_obstacle",  "ground_steeper"};
-  return kNames;
-}
-
 void PlayQueue::start(std::span<const PlannedSequence> sequences, std::span<const PlannedInterrupt> interrupts,
                       int queued) {
   sequences_ = sequences, interrupts_ = interrupts;

@@ -26,23 +26,6 @@ double stretch_scale(double natural, int wanted_frames) {
   return wanted_frames > 0 && natural > 0.0 ? wanted_frames / natural : 1.0;
 }
 
-double natural_length(const ClipDesc& clip) {
-  int length = 0;
-  for (const ActionUse& use : clip.actions) length = std::max(length, use.start_frame + use.duration_frames);
-  return length;
-}
-
-// What a natural length becomes. Not natural * scale: 7 * (29.0 / 7) is more than 29.
-double stretched(double natural, int wanted_frames) {
-  return wanted_frames > 0 && natural > 0.0 ? wanted_frames : natural;
-}
-
-}  // namespace
-
-double clip_length(const ClipDesc& clip) { return stretched(natural_length(clip), clip.duration_frames) / clip.speed; }
-
-namespace {
-
 // The first frame at or after a time. Rounding in the stretches must not cost a frame.
 double frame_from(double time) { return std::ceil(time - 1e-6); }
 

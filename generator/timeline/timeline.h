@@ -11,8 +11,6 @@
 
 namespace contort {
 
-inline constexpr int kMaxFrames = 36000;  // of one motion: ten minutes at 60 Hz
-
 // One action on one part, at its place in its sequence. Times are in frames from the sequence's start, with fractions
 // where stretching made them. An action that moves several parts is planned once for each.
 struct PlannedAction {
@@ -48,9 +46,6 @@ struct Timeline {
   std::vector<int> part_order;            // carriers first, and what an action looks at before those that it moves
   int frame_count = 0;                    // up to the end of the last sequence, with every interrupt
 };
-
-// Frames of its sequence's content: natural or stretched, and at the clip's speed.
-double clip_length(const ClipDesc& clip);
 
 struct TimelineInput {
   const std::vector<SequenceDesc>& sequences;

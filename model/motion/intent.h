@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/core/math.h"
@@ -13,6 +14,7 @@ namespace contort {
 
 // Order of evaluation on one part: overwrite, then ik on top, then additive.
 enum class Layer : std::uint8_t { overwrite, ik, additive };
+std::string_view layer_name(Layer layer);
 
 // An action on one part, at its place in its sequence. Times are in frames of its sequence.
 struct IntendedAction {
@@ -27,6 +29,8 @@ struct IntendedAction {
   double end = 0.0;
   double blend_in = 0.0;
   double blend_out = 0.0;
+  int first_frame = 0;  // the whole frames in which it moves the part
+  int last_frame = 0;
   bool operator==(const IntendedAction&) const = default;
 };
 

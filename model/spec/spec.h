@@ -43,6 +43,7 @@ struct Spec {
   std::vector<InterruptDesc> interrupts;
   RecordingDesc recording;
   DynamicsDesc dynamics;
+  std::string only_slot;  // the part of this slot moves alone, as the whole moves it; "": all do
   bool operator==(const Spec&) const = default;
 };
 

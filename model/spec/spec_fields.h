@@ -136,6 +136,7 @@ void fields(V& v, const Spec*) {
   v.field("interrupts", &Spec::interrupts, {.max_count = 64}, "Sequences that wait for a condition.");
   v.field("recording", &Spec::recording, {}, "An animation made elsewhere, instead of sequences.");
   v.field("dynamics", &Spec::dynamics, {}, "Mass, loads and impacts.");
+  v.field("only_slot", &Spec::only_slot, {.may_be_empty = true}, "Moves this slot's part alone; all others stay.");
 }
 
 }  // namespace contort

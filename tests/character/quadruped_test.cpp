@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "tests/character/standing.h"
 
 namespace contort {

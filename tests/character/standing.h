@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "checks/distance.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
@@ -82,7 +82,7 @@ inline void expect_no_findings_at_rest(const CharacterChoice& choice) {
   spec.character = choice;
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage.ok());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (const Finding& finding : evaluator.run(*stage).findings) ADD_FAILURE() << text_of(choice) << finding.subject;
 }
 

@@ -3,6 +3,7 @@
 
 #include "tests/checks/small_character.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -40,14 +41,14 @@ TEST(AimError, ATargetInThePointItselfIsViolated) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, motion.root[0], motion.row(0), world);
   motion.aims = {{0, 0, socket, world_from_socket(character, world, socket).p_m}};
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const std::vector<Finding> findings = evaluator.judge(character, motion, "aim_error");
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_TRUE(std::isnan(findings[0].worst_margin));
 }
 
 Evaluation played(const std::vector<ActionUse>& actions, Motion* motion = nullptr) {
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Stage stage = fixtures::stage_of({fixtures::sequence(actions)});
   const Evaluation evaluation = evaluator.run(stage, "aim_error");
   if (motion != nullptr) *motion = evaluator.motion();

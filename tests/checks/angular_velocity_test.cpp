@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -34,7 +35,7 @@ TEST_F(AngularVelocity, ExactlyAtTheLimitIsSafe) {
   EXPECT_EQ(margin("arm_left/slide", 0.0, 1.0 / 32.0, 64.0), 0.0);
   Motion motion = small::at_rest(character_, 2, 64.0);
   small::set(motion, 1, small::joint_of(character_, "arm_left/slide"), 1.0 / 32.0);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   EXPECT_TRUE(evaluator.judge(character_, motion, "angular_velocity").empty());
   EXPECT_LT(margin("arm_left/slide", 0.0, std::nextafter(1.0 / 32.0, 1.0), 64.0), 0.0);
   // Findings begin one resolution (1e-6 m/s) beyond.
@@ -85,7 +86,7 @@ TEST_F(AngularVelocity, IsReportedAtTheFrameThatWasReached) {
   Motion motion = small::at_rest(character_, 6);
   const double lift_rad[] = {0.0, 0.0, 0.03, 0.13, 0.16, 0.16};  // 1.8, 6 and 1.8 rad/s
   for (int f = 0; f < 6; ++f) small::set(motion, f, small::joint_of(character_, "arm_left/lift"), lift_rad[f]);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const std::vector<Finding> findings = evaluator.judge(character_, motion, "angular_velocity");
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].subject, "arm_left/lift");
@@ -95,7 +96,7 @@ TEST_F(AngularVelocity, IsReportedAtTheFrameThatWasReached) {
 }
 
 TEST_F(AngularVelocity, OneFrameHasNoSpeed) {
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   EXPECT_TRUE(evaluator.judge(character_, small::at_rest(character_, 1), "angular_velocity").empty());
 }
 
@@ -104,7 +105,7 @@ TEST_F(AngularVelocity, ANumberThatIsNoneIsAFindingInBothFramesThatItTouches) {
   const double bad = std::numeric_limits<double>::quiet_NaN();
   small::set(motion, 1, small::joint_of(character_, "arm_left/lift"), bad);
   small::set(motion, 1, small::joint_of(character_, "arm_right/wrist"), Quat(1, 0, bad, 0));
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const std::vector<Finding> findings = evaluator.judge(character_, motion, "angular_velocity");
   ASSERT_EQ(findings.size(), 2U);
   for (const Finding& f : findings) {

@@ -5,6 +5,7 @@
 
 #include "tests/checks/small_character.h"
 #include "tests/checks/solids.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -30,7 +31,7 @@ Motion swept(const Character& character, std::initializer_list<double> angles_ra
 }
 
 std::vector<Finding> collisions(const Character& character, const Motion& motion) {
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   return evaluator.judge(character, motion, "self_collision");
 }
 

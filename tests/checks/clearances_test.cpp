@@ -9,6 +9,7 @@
 #include "model/motion/place_frames.h"
 #include "tests/checks/small_character.h"
 #include "tests/checks/solids.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -106,7 +107,7 @@ MarginFold folded(const Stage& stage, const Motion& motion, bool all) {
 TEST_P(ClearancesOf, WhatSelfCollisionLeavesOutChangesNothing) {
   int episodes = 0;
   for (int i = 0; i < 24; ++i) {
-    const Stage stage = *build_stage(draw_spec({{GetParam()}}, stock_library(), 5, i), stock_library());
+    const Stage stage = *build_stage(draw_spec({{GetParam()}}, stock_generator(), 5, i), stock_library());
     const Motion motion = generate(stage);
     const MarginFold some = folded(stage, motion, false), all = folded(stage, motion, true);
     ASSERT_EQ(some.smallest().size(), all.smallest().size());

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -107,7 +108,7 @@ TEST(DynamicsChecks, OnlyTheLossOfBalanceIsAFindingFromThenOn) {
     Judged judged(10);
     small::set(judged.motion, 5, judged.joint("arm_left/lift"), 2.0);
     judged.motion.response.stances[static_cast<std::size_t>(lost)].footing = Footing::tipping;
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     std::set<std::string> checks;
     for (const Finding& finding : evaluator.judge(judged.character, judged.motion)) checks.insert(finding.check);
     EXPECT_TRUE(checks.contains("balance"));

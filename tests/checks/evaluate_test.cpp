@@ -1,11 +1,11 @@
-// Evaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of each
+// StageEvaluator: the one path from a stage to findings; and the manifest of checks with an exemplar on either side of each
 // limit.
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "fuzz/draw.h"
 #include "generator/intent.h"
 #include "tests/checks/small_character.h"
@@ -206,7 +206,7 @@ const std::map<std::string, Exemplar>& exemplars() {
 }
 
 std::vector<Finding> findings_of(const Character& character, const Shown& shown) {
-  return Evaluator().judge(character, shown.motion, {}, shown.environment, &shown.intent);
+  return StageEvaluator().judge(character, shown.motion, {}, shown.environment, &shown.intent);
 }
 
 TEST(Manifest, EveryCheckHasAnExemplarInsideThatPassesAndOneOutsideThatFails) {
@@ -264,14 +264,14 @@ std::vector<Stage> stages() {
   std::vector<Stage> all;
   for (const NamedScene& named : all_scenes()) all.push_back(staged(scene(named.name)));
   for (int i = 0; i < 4; ++i)
-    all.push_back(staged(draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, i)));
+    all.push_back(staged(draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 11, i)));
   return all;
 }
 
 TEST(Evaluator, JudgingTheGeneratedMotionIsTheSameAsRunning) {
   std::size_t findings = 0;
   for (const Stage& stage : stages()) {
-    Evaluator runs, judges;
+    StageEvaluator runs, judges;
     const Evaluation evaluation = runs.run(stage);
     const Motion motion = generate(stage);
     const Intent intent = intent_of(stage, motion);
@@ -287,7 +287,7 @@ TEST(Evaluator, JudgingTheGeneratedMotionIsTheSameAsRunning) {
 
 TEST(Evaluator, OneCheckAloneFindsWhatItFindsAmongAll) {
   for (const Stage& stage : stages()) {
-    Evaluator all, alone;
+    StageEvaluator all, alone;
     const std::vector<Finding> findings = all.run(stage).findings;
     for (const CheckDef& check : all_checks()) {
       std::vector<Finding> expected;
@@ -300,10 +300,10 @@ TEST(Evaluator, OneCheckAloneFindsWhatItFindsAmongAll) {
 
 TEST(Evaluator, NothingOfOneRunReachesTheNext) {
   const std::vector<Stage> all = stages();
-  Evaluator shared;
+  StageEvaluator shared;
   for (const Stage& stage : all) {
     for (const Stage* other : {&all.front(), &all.back()}) {
-      const Evaluation alone = Evaluator().run(stage);
+      const Evaluation alone = StageEvaluator().run(stage);
       EXPECT_EQ(shared.run(stage), alone);
       shared.run(*other, other == &all.front() ? "joint_range" : "");
       EXPECT_EQ(shared.run(stage), alone);
@@ -320,7 +320,7 @@ int place_of(const std::string& check) {
 TEST(Evaluator, FindingsStandByFirstFrameThenCheckThenSubject) {
   bool tied = false;
   for (const Stage& stage : stages()) {
-    const std::vector<Finding> findings = Evaluator().run(stage).findings;
+    const std::vector<Finding> findings = StageEvaluator().run(stage).findings;
     std::map<std::string, std::vector<std::string>> subjects;
     for (const CheckDef& check : all_checks())
       subjects[std::string(check.name)] = small::subjects_of(std::string(check.name), *stage.character);
@@ -352,7 +352,7 @@ TEST(Evaluator, ARootThatIsNowhereIsAFindingAndNoCrash) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Motion motion = small::at_rest(character, 3);
     motion.root[1].p_m.y = bad;
-    const std::vector<Finding> findings = Evaluator().judge(character, motion);
+    const std::vector<Finding> findings = StageEvaluator().judge(character, motion);
     ASSERT_FALSE(findings.empty());
     EXPECT_EQ(findings[0].check, "non_finite") << "the cause comes first";
     EXPECT_EQ(findings[0].subject, "root");
@@ -372,20 +372,20 @@ TEST(Evaluator, HugeCoordinatesDoNotCrash) {
   for (const double huge : {1e30, -1e160, 1e308, std::numeric_limits<double>::infinity()}) {
     Motion motion = small::at_rest(*human, 2);
     for (double& value : motion.row(1)) value = huge;
-    EXPECT_FALSE(Evaluator().judge(*human, motion).empty()) << huge;
+    EXPECT_FALSE(StageEvaluator().judge(*human, motion).empty()) << huge;
   }
 }
 
 TEST(Evaluator, AMotionWithoutFramesHasNoFindings) {
   const Character character = small::build();
-  EXPECT_TRUE(Evaluator().judge(character, small::at_rest(character, 0)).empty());
+  EXPECT_TRUE(StageEvaluator().judge(character, small::at_rest(character, 0)).empty());
 }
 
 // An ease away from a limit came out 5.6e-17 rad beyond it, which no one would call a failure.
 TEST(Evaluate, RoundingAtALimitIsNoFinding) {
   const Character character = small::build();
   const Joint& lift = small::joint_of(character, "arm_left/lift");
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (const double beyond : {5.6e-17, 0.9e-9, 1.1e-9}) {
     Motion motion = small::at_rest(character);
     small::set(motion, 0, lift, lift.high + beyond);

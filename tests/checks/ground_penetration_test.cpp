@@ -4,7 +4,7 @@
 #include <random>
 
 #include "checks/check.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 
@@ -73,14 +73,14 @@ TEST(GroundPenetration, NoNumberIsAViolation) {
   EXPECT_TRUE(std::isnan(least_margin(character, root, Environment())));
   Motion motion = small::at_rest(character);
   motion.root[0] = root;
-  EXPECT_FALSE(Evaluator().judge(character, motion, "ground_penetration").empty());
+  EXPECT_FALSE(StageEvaluator().judge(character, motion, "ground_penetration").empty());
 }
 
 TEST(GroundPenetration, JudgesTheGroundOfTheSpec) {
   Spec spec;
   spec.hold_frames = 2;
   spec.environment.ground = SlopeGround{10.0, 0.0};
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Stage stage = *build_stage(spec, stock_library());
   EXPECT_TRUE(evaluator.run(stage, "ground_penetration").findings.empty());
   // On a plane the uphill foot of the same posture would float and the other one sink.

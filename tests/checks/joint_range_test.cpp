@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -120,7 +121,7 @@ TEST_F(JointRange, EveryCoordinateThatIsNotANumberIsAFinding) {
     for (int c = 0; c < coord_size(joint.kind); ++c) {
       Motion motion = small::at_rest(character_);
       motion.row(0)[static_cast<std::size_t>(joint.coord + c)] = bad;
-      Evaluator evaluator;
+      StageEvaluator evaluator;
       const std::vector<Finding> findings = evaluator.judge(character_, motion, "joint_range");
       EXPECT_EQ(findings.size(), joint.kind == JointKind::ball ? 3U : 2U) << joint.name;
       for (const Finding& f : findings) EXPECT_TRUE(std::isnan(f.worst_margin) && std::isinf(f.depth)) << f.subject;

@@ -2,7 +2,7 @@
 // known: made by hand for one property, or generated from specs that must be quiet.
 #include <gtest/gtest.h>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/intent.h"
 #include "tests/checks/small_character.h"
 
@@ -22,7 +22,7 @@ std::string playing(const std::string& actions, const std::string& more = R"("ch
          actions + "]}]}]}";
 }
 
-std::vector<Finding> found(const Stage& stage, const char* check) { return Evaluator().run(stage, check).findings; }
+std::vector<Finding> found(const Stage& stage, const char* check) { return StageEvaluator().run(stage, check).findings; }
 
 // ---- foot_slide
 
@@ -50,7 +50,7 @@ std::vector<Finding> found_of_ball(double rolls, double height_m = 0.0) {
     const Vec3 center(0, 0.1 + height_m, rolls * 0.1 * angle);
     motion.root[static_cast<std::size_t>(frame)] = {q, center - q * Vec3(0, 0.1, 0)};
   }
-  return Evaluator().judge(ball, motion, "foot_slide");
+  return StageEvaluator().judge(ball, motion, "foot_slide");
 }
 
 TEST(FootSlide, WhatRollsDoesNotSlide) {
@@ -66,14 +66,14 @@ TEST(FootSlide, IsMeasuredFromWhereItCameDown) {
   for (int frame = 0; frame < 30; ++frame) {  // 2 mm a frame: each step is small, all together are 5.8 cm
     motion.root[static_cast<std::size_t>(frame)].p_m.z += 0.002 * frame;
   }
-  const std::vector<Finding> findings = Evaluator().judge(character, motion, "foot_slide");
+  const std::vector<Finding> findings = StageEvaluator().judge(character, motion, "foot_slide");
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0].first_frame, 11);
   EXPECT_NEAR(findings[0].worst_margin, 0.02 - 0.058, 1e-9);
   Motion hopping = motion;
   for (int frame = 0; frame < 30; ++frame)
     if (frame % 8 == 7) hopping.root[static_cast<std::size_t>(frame)].p_m.y += 0.01;
-  EXPECT_TRUE(Evaluator().judge(character, hopping, "foot_slide").empty()) << "it came down anew";
+  EXPECT_TRUE(StageEvaluator().judge(character, hopping, "foot_slide").empty()) << "it came down anew";
 }
 
 TEST(FootSlide, WalksOnPlanesSlopesAndStairsStandFirm) {
@@ -98,7 +98,7 @@ std::size_t flashes(const std::vector<double>& lift_deg) {
   for (std::size_t frame = 0; frame < lift_deg.size(); ++frame)
     small::set(motion, static_cast<int>(frame), small::joint_of(character, "arm_left/lift"),
                lift_deg[frame] * kRadPerDeg);
-  return Evaluator().judge(character, motion, "bind_pose_flash").size();
+  return StageEvaluator().judge(character, motion, "bind_pose_flash").size();
 }
 
 TEST(BindPoseFlash, IsOneOrTwoFramesAmongOthers) {
@@ -125,7 +125,7 @@ TEST(JointPop, AnIntervalIsAPopOrTooFast) {
                  lift_deg[frame] * kRadPerDeg);
     std::string names;
     for (const char* check : {"angular_velocity", "pop"})
-      for (const Finding& f : Evaluator().judge(character, motion, check))
+      for (const Finding& f : StageEvaluator().judge(character, motion, check))
         names += f.check + " " + std::to_string(f.first_frame) + "-" + std::to_string(f.last_frame) + " ";
     return names;
   };
@@ -152,9 +152,9 @@ TEST(AngularAcceleration, ABlowMayChangeSpeedsAtOnce) {
   Motion motion = small::moved_by_dynamics(character, 6);
   for (int frame = 3; frame < 6; ++frame)
     small::set(motion, frame, small::joint_of(character, "arm_left/lift"), 4.9 * kRadPerDeg * (frame - 2));
-  EXPECT_EQ(Evaluator().judge(character, motion, "angular_acceleration").size(), 1U);
+  EXPECT_EQ(StageEvaluator().judge(character, motion, "angular_acceleration").size(), 1U);
   motion.response.impacts = {{2, 1, {}, {}}};
-  EXPECT_TRUE(Evaluator().judge(character, motion, "angular_acceleration").empty());
+  EXPECT_TRUE(StageEvaluator().judge(character, motion, "angular_acceleration").empty());
 }
 
 // ---- residue, reach_error, stuck, queue_gap
@@ -176,7 +176,7 @@ TEST(Residue, IsFoundWhereAnAdditiveStays) {
   for (int frame = motion.spans[0].last_frame; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
   const Intent intent = intent_of(stage, motion);
   const std::vector<Finding> findings =
-      Evaluator().judge(*stage.character, motion, "residue", stage.environment, &intent);
+      StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].subject, "arm_right");
   EXPECT_NEAR(findings[0].worst_margin, 0.1 * kRadPerDeg - 0.01, 1e-9);
@@ -260,7 +260,7 @@ TEST(ReachError, AHoldThatDoesNotComeBackAfterACutIsFound) {
   const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
   for (int frame = 60; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
   const std::vector<Finding> findings =
-      Evaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
+      StageEvaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_TRUE(findings[0].subject.ends_with("/grip")) << findings[0].subject;
   EXPECT_EQ(findings[0].first_frame, intent.goals[2].first_frame);
@@ -268,7 +268,7 @@ TEST(ReachError, AHoldThatDoesNotComeBackAfterACutIsFound) {
 
 TEST(ReachError, IsNotJudgedWhereTheGeneratorDoesNotSayWhatItMeant) {
   const Stage stage = staged(reach_to("[0.2, 1.4, 3.0]"));
-  EXPECT_TRUE(Evaluator().judge(*stage.character, generate(stage), "reach_error", stage.environment).empty());
+  EXPECT_TRUE(StageEvaluator().judge(*stage.character, generate(stage), "reach_error", stage.environment).empty());
 }
 
 TEST(Stuck, QueuesOfSpecsRunDry) {
@@ -278,7 +278,7 @@ TEST(Stuck, QueuesOfSpecsRunDry) {
   ASSERT_EQ(motion.queue.size(), 1U);
   motion.queue[0].last_frame = motion.frame_count - 1;
   const Intent intent = intent_of(stage, motion);
-  EXPECT_EQ(Evaluator().judge(*stage.character, motion, "stuck", stage.environment, &intent).size(), 1U);
+  EXPECT_EQ(StageEvaluator().judge(*stage.character, motion, "stuck", stage.environment, &intent).size(), 1U);
 }
 
 // A pose of 40 frames, cut by others in frames 10 and 20.
@@ -299,7 +299,7 @@ TEST(QueueGap, WhatIsCutGoesOnWhereItWas) {
   EXPECT_TRUE(found(stage, "queue_gap").empty());
   const auto judged = [&](const Motion& changed) {
     const Intent intent = intent_of(stage, changed);
-    return Evaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &intent);
+    return StageEvaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &intent);
   };
   for (std::size_t span = 0; span < motion.queue.size(); ++span)
     for (const int skipped : {-1, 1}) {

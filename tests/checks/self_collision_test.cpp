@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -59,7 +60,7 @@ TEST(SelfCollision, TheLeastOfABodysCollidersCounts) {
 
 TEST(SelfCollision, AFindingNamesBothBodiesAndItsDepthInTwoCentimetres) {
   const Character character = small::build();
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const std::vector<Finding> findings = evaluator.judge(character, pushed_together(character, -0.03));
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].check, "self_collision");
@@ -88,7 +89,7 @@ TEST(SelfCollision, AnAllowedPairIsSilent) {
   Library library = small::library();
   library.characters["small"].allowed_pairs = {{"arm_left/box", "arm_right/box", "They are bumpers."}};
   const Character character = small::build(library);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   EXPECT_TRUE(evaluator.judge(character, pushed_together(character, -0.03)).empty());
 }
 
@@ -104,7 +105,7 @@ TEST(SelfCollision, NeighboursAreSilent) {  // the slider runs into the base tha
   const Character character = small::build();
   Motion motion = small::at_rest(character);
   small::set(motion, 0, small::joint_of(character, "arm_left/slide"), -0.3);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   EXPECT_TRUE(evaluator.judge(character, motion, "self_collision").empty());
 }
 
@@ -126,7 +127,7 @@ TEST(SelfCollision, APlaceThatIsNoPlaceIsAFindingWithNaN) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Motion motion = small::at_rest(character);
     small::set(motion, 0, small::joint_of(character, "arm_left/slide"), bad);
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     const std::vector<Finding> findings = evaluator.judge(character, motion, "self_collision");
     ASSERT_EQ(findings.size(), 1U) << bad;
     EXPECT_TRUE(std::isnan(findings[0].worst_margin)) << bad;

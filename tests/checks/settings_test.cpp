@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "checks/waive.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/intent.h"
 #include "tests/checks/small_character.h"
 
@@ -70,7 +70,7 @@ Motion lifted(const Character& character, double left_deg, double right_deg) {
 
 std::vector<std::string> subjects_found(const CheckSettings& settings, const Motion& motion) {
   std::vector<std::string> subjects;
-  for (const Finding& f : Evaluator(settings).judge(small::build(), motion)) subjects.push_back(f.subject);
+  for (const Finding& f : StageEvaluator(settings).judge(small::build(), motion)) subjects.push_back(f.subject);
   return subjects;
 }
 
@@ -97,8 +97,8 @@ TEST(Settings, WhatIsIgnoredMayBeNoNumber) {
   small::set(motion, 1, small::joint_of(character, "arm_left/lift"), std::numeric_limits<double>::quiet_NaN());
   CheckSettings settings;
   settings.limits = {{"non_finite", "arm_left/lift", "", LimitUse::ignore, 0.0, "r"}};
-  for (const Finding& f : Evaluator(settings).judge(character, motion)) EXPECT_NE(f.check, "non_finite");
-  EXPECT_FALSE(Evaluator().judge(character, motion, "non_finite").empty());
+  for (const Finding& f : StageEvaluator(settings).judge(character, motion)) EXPECT_NE(f.check, "non_finite");
+  EXPECT_FALSE(StageEvaluator().judge(character, motion, "non_finite").empty());
 }
 
 // One second at rest, then an elbow bent too far for a second.
@@ -113,11 +113,11 @@ Stage bent_too_far() {
 
 TEST(Settings, ALimitOfOnePhaseCountsInItsFramesOnly) {
   const Stage stage = bent_too_far();
-  const std::vector<Finding> all = Evaluator().run(stage, "joint_range").findings;
+  const std::vector<Finding> all = StageEvaluator().run(stage, "joint_range").findings;
   ASSERT_EQ(all.size(), 1U);
   CheckSettings settings;
   settings.limits = {{"joint_range", "*", "at_rest", LimitUse::ignore, 0.0, "r"}};
-  const std::vector<Finding> moving = Evaluator(settings).run(stage, "joint_range").findings;
+  const std::vector<Finding> moving = StageEvaluator(settings).run(stage, "joint_range").findings;
   ASSERT_EQ(moving.size(), 1U);
   EXPECT_EQ(moving[0].first_frame, all[0].first_frame);
   EXPECT_LT(moving[0].last_frame, all[0].last_frame);
@@ -136,13 +136,13 @@ TEST(Waivers, HideUntilTheirLastDayAndNoLonger) {
   const Stage stage = bent_too_far();
   const Waiver waiver{"joint_range", "arm_left/*", "", 0.0, "ticket", "ana", "2027-03-01"};
   for (const char* day : {"2026-11-21", "2027-03-01", ""}) {
-    const Evaluation hidden = Evaluator(waiving(waiver, day)).run(stage, "joint_range");
+    const Evaluation hidden = StageEvaluator(waiving(waiver, day)).run(stage, "joint_range");
     EXPECT_TRUE(hidden.findings.empty()) << day;
     ASSERT_EQ(hidden.waived.size(), 1U);
-    EXPECT_EQ(hidden.waived[0].finding, Evaluator().run(stage, "joint_range").findings.at(0));
+    EXPECT_EQ(hidden.waived[0].finding, StageEvaluator().run(stage, "joint_range").findings.at(0));
     EXPECT_EQ(hidden.waivers, (std::vector<WaiverUse>{{1, false}}));
   }
-  const Evaluation expired = Evaluator(waiving(waiver, "2027-03-02")).run(stage, "joint_range");
+  const Evaluation expired = StageEvaluator(waiving(waiver, "2027-03-02")).run(stage, "joint_range");
   EXPECT_EQ(expired.findings.size(), 1U);
   EXPECT_EQ(expired.waivers, (std::vector<WaiverUse>{{1, true}}));
 }
@@ -151,7 +151,7 @@ TEST(Waivers, HideOnlyWhatTheyAreAbout) {
   const Stage stage = bent_too_far();
   const Waiver fits{"joint_range", "*", "", 0.0, "r", "ana", "2099-01-01"};
   const auto is_hidden = [&](Waiver waiver) {
-    return Evaluator(waiving(waiver, "2026-11-21")).run(stage, "joint_range").findings.empty();
+    return StageEvaluator(waiving(waiver, "2026-11-21")).run(stage, "joint_range").findings.empty();
   };
   EXPECT_TRUE(is_hidden(fits));
   Waiver other = fits;
@@ -161,7 +161,7 @@ TEST(Waivers, HideOnlyWhatTheyAreAbout) {
   EXPECT_FALSE(is_hidden(other));
   other = fits, other.phase = "impact";
   EXPECT_FALSE(is_hidden(other));
-  const double margin = Evaluator().run(stage, "joint_range").findings.at(0).worst_margin;
+  const double margin = StageEvaluator().run(stage, "joint_range").findings.at(0).worst_margin;
   other = fits, other.deepest = -1.01 * margin;
   EXPECT_TRUE(is_hidden(other));
   other.deepest = -0.99 * margin;
@@ -170,7 +170,7 @@ TEST(Waivers, HideOnlyWhatTheyAreAbout) {
 
 TEST(Waivers, ThatHideNothingAreKnown) {
   const Waiver idle{"pop", "*", "", 0.0, "r", "ana", "2099-01-01"};
-  EXPECT_EQ(Evaluator(waiving(idle, "2026-11-21")).run(bent_too_far()).waivers, (std::vector<WaiverUse>{{0, false}}));
+  EXPECT_EQ(StageEvaluator(waiving(idle, "2026-11-21")).run(bent_too_far()).waivers, (std::vector<WaiverUse>{{0, false}}));
 }
 
 TEST(Waivers, TheFirstThatFitsHidesAndNoNumberIsOnlyHiddenHoweverDeep) {

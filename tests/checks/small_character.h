@@ -9,7 +9,7 @@
 #include <string>
 
 #include "checks/check.h"
-#include "corpus/evaluator.h"
+#include "checks/judge.h"
 #include "model/character/library.h"
 #include "model/motion/kinematics.h"
 

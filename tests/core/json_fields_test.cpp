@@ -96,7 +96,8 @@ TEST(JsonFields, UnknownFieldsAreNamedWithWhatIsAllowed) {
   ASSERT_FALSE(spec.ok());
   EXPECT_EQ(to_line(spec.issue()),
             "spec.unknown_field at /colour: found \"colour\", allowed are \"format\", \"character\", \"rate_hz\", "
-            "\"hold_frames\", \"environment\", \"start\", \"sequences\", \"interrupts\", \"recording\", \"dynamics\"");
+            "\"hold_frames\", \"environment\", \"start\", \"sequences\", \"interrupts\", \"recording\", \"dynamics\", "
+            "\"only_slot\"");
 }
 
 TEST(JsonFields, PointersAreEscaped) {

@@ -13,6 +13,7 @@
 #include "fuzz/draw.h"
 #include "model/core/hash.h"
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -33,7 +34,7 @@ double draw_margin() {
 
 Case draw_case() {
   Case c;
-  c.spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), *rc::gen::inRange(0, 1000),
+  c.spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), *rc::gen::inRange(0, 1000),
                      *rc::gen::inRange(0, 1000));
   Expectation& e = c.expect;
   e.check = draw_text("abcxyz_09", 1, 20);
@@ -84,7 +85,7 @@ TEST(CaseFile, SaysWhatWasGoingOnInTheWorstFrame) {
   const Case c = failing_case(bent_elbow(158), "joint_range", kElbow);
   const Result<Stage> stage = build_stage(c.spec, stock_library());
   ASSERT_TRUE(stage);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   evaluator.run(*stage);
   EXPECT_EQ(c.expect.phase, phase_name(phase_of(*evaluator.execution().intent, evaluator.motion(), c.expect.worst_frame)));
   EXPECT_FALSE(c.expect.phase.empty());
@@ -120,11 +121,11 @@ TEST(CaseFile, AMarginThatIsNoNumberIsWrittenAsText) {
 TEST(CaseFile, AnInfinitelyDeepFindingMakesACaseThatCanBeReadBack) {
   const Result<Stage> stage = build_stage(bent_elbow(100), stock_library());
   ASSERT_TRUE(stage);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
   const double endless = std::numeric_limits<double>::infinity();
   const Case c{bent_elbow(100),
-               expectation_of(*stage, evaluator.motion(), evaluation,
+               expectation_of(evaluator.execution(), evaluation,
                               {"joint_range", kElbow, "rad", 1, 2, 3, -endless, endless}),
                {}};
   const Result<Case> read = parse_case(print_case(c));

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -25,20 +26,20 @@ double elbow_of(const Case& stored) {
 Replay faulty(const Case& stored) {
   if (elbow_of(stored) == kCrashes_deg) std::abort();
   while (elbow_of(stored) == kHangs_deg) ::pause();
-  Evaluator evaluator;
-  return replay(stored, stock_library(), evaluator);
+  Evaluator evaluator(stock_generator());
+  return replay(stored, evaluator);
 }
 
 TEST(GuardedReplay, ShowsWhatAReplayHereShows) {
   GuardedReplay guarded(faulty, {});
-  Evaluator evaluator;
+  Evaluator evaluator(stock_generator());
   Case refused = bent_elbow_case(170), passes = bent_elbow_case(170), other = bent_elbow_case(170);
   refused.spec.character.name = "nobody";
   passes.spec = bent_elbow(20);
   other.spec = bent_elbow(165);
   other.expect.trace[0] = other.expect.trace[0] == '0' ? '1' : '0';
   for (const Case& stored : {bent_elbow_case(170), refused, passes, other}) {
-    const Replay here = replay(stored, stock_library(), evaluator), there = guarded(stored);
+    const Replay here = replay(stored, evaluator), there = guarded(stored);
     EXPECT_EQ(there.verdict, here.verdict);
     EXPECT_EQ(there.first_difference, here.first_difference);
     EXPECT_EQ(there.character_changed, here.character_changed);

@@ -10,14 +10,16 @@
 #include <cstdlib>
 
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
 namespace {
 
 Replay replayed(const Case& stored, const Library& library = stock_library()) {
-  Evaluator evaluator;
-  return replay(stored, library, evaluator);
+  BuiltInGenerator generator(library);
+  Evaluator evaluator(generator);
+  return replay(stored, evaluator);
 }
 
 TEST(Replay, AnUntouchedCaseIsTheSame) {
@@ -31,9 +33,9 @@ TEST(Replay, AnUntouchedCaseIsTheSame) {
 
 TEST(Replay, IsTheSameAfterAnotherCaseWasReplayed) {
   const Case stored = elbow_case();
-  Evaluator evaluator;
-  replay(elbow_case(300, 20), stock_library(), evaluator);
-  EXPECT_EQ(replay(stored, stock_library(), evaluator).verdict, Verdict::same);
+  Evaluator evaluator(stock_generator());
+  replay(elbow_case(300, 20), evaluator);
+  EXPECT_EQ(replay(stored, evaluator).verdict, Verdict::same);
 }
 
 TEST(Replay, AnotherMotionWithTheSameFailureIsTheSameFamily) {
@@ -143,7 +145,7 @@ TEST(Replay, AFailureThatIsNoNumberIsStoredReadAndReplayedAsTheSame) {
   const Library nowhere = library_with_nowhere();
   const Result<Stage> stage = build_stage(bent_elbow(100), nowhere);
   ASSERT_TRUE(stage);
-  const Evaluation evaluation = Evaluator().run(*stage);
+  const Evaluation evaluation = StageEvaluator().run(*stage);
   ASSERT_FALSE(evaluation.findings.empty());
   const Finding& finding = evaluation.findings.front();
   ASSERT_TRUE(std::isnan(finding.worst_margin));

@@ -11,6 +11,7 @@
 #include "corpus/case.h"
 #include "corpus/corpus.h"
 #include "model/character/library.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -43,19 +44,19 @@ inline const char* const kElbow = "arm_left/elbow max";
 // The case of a failure that the spec really shows.
 inline Case failing_case(const Spec& spec, const std::string& check, const std::string& subject,
                          const Library& library = stock_library()) {
-  const Result<Stage> stage = build_stage(spec, library);
-  if (!stage) {
-    ADD_FAILURE() << to_line(stage.issue());
+  BuiltInGenerator generator(library);
+  Evaluator evaluator(generator);
+  const Result<Evaluation> evaluation = evaluator.run(spec);
+  if (!evaluation) {
+    ADD_FAILURE() << to_line(evaluation.issue());
     return {};
   }
-  Evaluator evaluator;
-  const Evaluation evaluation = evaluator.run(*stage);
-  const Finding* finding = deepest(evaluation.findings, check, subject);
+  const Finding* finding = deepest(evaluation->findings, check, subject);
   if (finding == nullptr) {
     ADD_FAILURE() << "no " << check << " of " << subject;
     return {};
   }
-  return {spec, expectation_of(*stage, evaluator.motion(), evaluation, *finding), {}};
+  return {spec, expectation_of(evaluator.execution(), *evaluation, *finding), {}};
 }
 
 inline Case elbow_case(double elbow_deg = 190, int duration = 60) {

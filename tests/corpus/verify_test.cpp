@@ -7,6 +7,7 @@
 
 #include "corpus/bucket_files.h"
 #include "tests/corpus/sample_corpus.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -27,12 +28,12 @@ class ReplayedBucket : public testing::Test {
   }
   Replay run(const Case& c) {
     ++runs_;
-    return replay(c, stock_library(), evaluator_);
+    return replay(c, evaluator_);
   }
 
   TempFolder folder_;
   Corpus corpus_;
-  Evaluator evaluator_;
+  Evaluator evaluator_{stock_generator()};
   int runs_ = 0;
 };
 

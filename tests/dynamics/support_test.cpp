@@ -8,7 +8,7 @@
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/tracker.h"
 #include "generator/generate.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
 #include "tests/dynamics/states.h"
 #include "tests/generator/scenes_of_one.h"

@@ -8,6 +8,7 @@
 #include "fuzz/draw.h"
 #include "fuzz/shrink.h"
 #include "generator/generate.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -29,10 +30,10 @@ TEST(Departures, ADrawnSpecHasNone) {
   for (const Profile& profile : known_profiles()) {
     DrawConfig draw{profile.characters, profile};
     if (draw.characters.empty()) draw.characters = {"human", "mech", "quadruped"};
-    ASSERT_TRUE(validate(profile, draw.characters, stock_library()).ok()) << profile.name;
+    ASSERT_TRUE(validate(profile, draw.characters, stock_generator()).ok()) << profile.name;
     for (int i = 0; i < 60; ++i) {
-      const Spec spec = draw_spec(draw, stock_library(), 5, i);
-      ASSERT_EQ(departures(spec, profile, stock_library()), 0) << profile.name << pretty_spec(spec);
+      const Spec spec = draw_spec(draw, stock_generator(), 5, i);
+      ASSERT_EQ(departures(spec, profile, stock_generator()), 0) << profile.name << pretty_spec(spec);
     }
   }
 }
@@ -65,7 +66,7 @@ ActionUse slow_walk() {
   return walk;
 }
 
-int departures_of(const Spec& spec) { return departures(spec, kSlow, stock_library()); }
+int departures_of(const Spec& spec) { return departures(spec, kSlow, stock_generator()); }
 
 TEST(Departures, EachIsCounted) {
   ASSERT_EQ(departures_of(spec_of_one(slow_walk())), 0);
@@ -102,10 +103,10 @@ TEST(Departures, ClipsAndTurnsAreHeldAgainstTheProfile) {
   EXPECT_EQ(departures_of(spec), 1) << "one takes over from the other";
   spec.sequences[0].clips[0].actions[1].start_frame = 30;
   EXPECT_EQ(departures_of(spec), 0);
-  EXPECT_EQ(departures(spec_of_one(use_of("walk", "waist")), Profile{}, stock_library()), 0);
+  EXPECT_EQ(departures(spec_of_one(use_of("walk", "waist")), Profile{}, stock_generator()), 0);
   Spec stretched = spec_of_one(use_of("walk", "waist"));
   stretched.sequences[0].clips[0].duration_frames = 4;
-  EXPECT_EQ(departures(stretched, Profile{}, stock_library()), 1) << "20 frames is the least";
+  EXPECT_EQ(departures(stretched, Profile{}, stock_generator()), 1) << "20 frames is the least";
 }
 
 TEST(Departures, WhatALibraryDoesNotKnowIsSomebodyElsesError) {
@@ -124,21 +125,21 @@ TEST(Departures, AShrunkCaseHasNoMoreThanItsOriginal) {
   const Spec spec = spec_of_one(look);
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage.ok());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
   ASSERT_FALSE(evaluation.findings.empty());
-  const Case original{spec, expectation_of(*stage, evaluator.motion(), evaluation, evaluation.findings.front()), {}};
+  const Case original{spec, expectation_of(evaluator.execution(), evaluation, evaluation.findings.front()), {}};
   const Profile quick = profile_of(R"({"format": "contort.profile/1", "name": "quick", "shortest_frames": 40,
     "rules": [{"param": "blend_in_frames", "low": [2], "high": [4]}]})");
   ShrinkConfig config;
-  const Shrunk free = shrink(original, stock_library(), config);
-  EXPECT_GT(departures(free.minimal.spec, quick, stock_library()), 0);
-  config.allowed = within(quick, spec, stock_library());
-  const Shrunk kept = shrink(original, stock_library(), config);
-  EXPECT_EQ(departures(kept.minimal.spec, quick, stock_library()), 0) << pretty_spec(kept.minimal.spec);
-  EXPECT_EQ(departures(kept.worst.spec, quick, stock_library()), 0) << pretty_spec(kept.worst.spec);
+  const Shrunk free = shrink(original, stock_generator(), config);
+  EXPECT_GT(departures(free.minimal.spec, quick, stock_generator()), 0);
+  config.allowed = within(quick, spec, stock_generator());
+  const Shrunk kept = shrink(original, stock_generator(), config);
+  EXPECT_EQ(departures(kept.minimal.spec, quick, stock_generator()), 0) << pretty_spec(kept.minimal.spec);
+  EXPECT_EQ(departures(kept.worst.spec, quick, stock_generator()), 0) << pretty_spec(kept.worst.spec);
   EXPECT_EQ(kept.stopped, "fixpoint");
-  const Shrunk again = shrink(kept.minimal, stock_library(), config);
+  const Shrunk again = shrink(kept.minimal, stock_generator(), config);
   EXPECT_EQ(again.minimal.spec, kept.minimal.spec);
 }
 

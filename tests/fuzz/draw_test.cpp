@@ -16,6 +16,7 @@
 #include "generator/generate.h"
 #include "generator/stage.h"
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -23,7 +24,7 @@ namespace {
 
 const DrawConfig kAll{{"human", "mech", "quadruped"}};
 
-Spec draw(std::int64_t seed, std::int64_t index) { return draw_spec(kAll, stock_library(), seed, index); }
+Spec draw(std::int64_t seed, std::int64_t index) { return draw_spec(kAll, stock_generator(), seed, index); }
 
 std::vector<std::string> texts(std::int64_t first, std::int64_t step, int count) {
   std::vector<std::string> out;
@@ -150,7 +151,7 @@ TEST(Draw, MostInterruptsComeIn) {
   config.profile.tracking = config.profile.dynamic = 0.0;
   int drawn = 0, came = 0;
   for (int i = 0; i < 600; ++i) {
-    const Spec spec = draw_spec(config, stock_library(), 7, i);
+    const Spec spec = draw_spec(config, stock_generator(), 7, i);
     if (spec.interrupts.empty()) continue;
     const Motion motion = generate(*build_stage(spec, stock_library()));
     for (std::size_t k = 0; k < spec.interrupts.size(); ++k)
@@ -188,7 +189,7 @@ TEST(Draw, PosesStayWithinTheRangesOfTheirJoints) {
         std::erase_if(clip.actions, [](const ActionUse& use) { return use.action != "pose"; });
     const Result<Stage> stage = build_stage(spec, stock_library());
     ASSERT_TRUE(stage);
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     const Evaluation evaluation = evaluator.run(*stage, "joint_range");
     for (const Finding& finding : evaluation.findings) {
       const bool ball =
@@ -216,7 +217,7 @@ TEST(Compose, EveryRawValueMakesASpecThatBuilds) {
   for (const int value : {0, 1, 3333, 3334, 4999, 5000, 5001, 6666, 9998, 9999, kLattice})
     for (const std::vector<std::string>& names :
          {std::vector<std::string>{"human"}, {"mech"}, {"quadruped"}, {"human", "mech", "quadruped"}}) {
-      const Spec spec = compose(filled(value), {names}, stock_library());
+      const Spec spec = compose(filled(value), {names}, stock_generator());
       const Result<Stage> stage = build_stage(spec, stock_library());
       ASSERT_TRUE(stage) << value << ": " << to_line(stage.issue());
       EXPECT_EQ(spec.sequences.size(), 2U);
@@ -226,15 +227,16 @@ TEST(Compose, EveryRawValueMakesASpecThatBuilds) {
 TEST(Compose, WithoutSequencesNothingMoves) {
   RawSpec raw = filled(5000);
   raw.sequences.clear();
-  EXPECT_TRUE(compose(raw, {{"human"}}, stock_library()).sequences.empty());
+  EXPECT_TRUE(compose(raw, {{"human"}}, stock_generator()).sequences.empty());
   raw.sequences = {{}, {RawClip{}}};
-  EXPECT_TRUE(compose(raw, {{"human"}}, stock_library()).sequences.empty());
+  EXPECT_TRUE(compose(raw, {{"human"}}, stock_generator()).sequences.empty());
 }
 
 TEST(Compose, ACharacterOfOnesOwnIsDrawnToo) {
   const Library library = small::library();
+  BuiltInGenerator generator(library);
   for (int i = 0; i < 50; ++i) {
-    const Spec spec = draw_spec({{"small"}}, library, 1, i);
+    const Spec spec = draw_spec({{"small"}}, generator, 1, i);
     EXPECT_FALSE(spec.sequences.empty());
     ASSERT_TRUE(build_stage(spec, library)) << i;
   }

@@ -7,13 +7,14 @@
 #include "fuzz/draw.h"
 #include "model/character/library.h"
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
 namespace {
 
 Spec drawn() {
-  return draw_spec({{"human", "mech"}}, stock_library(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
+  return draw_spec({{"human", "mech"}}, stock_generator(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
 }
 
 RC_GTEST_PROP(Edits, RemovingUnitsLowersTheirNumberByThatMany, ()) {

@@ -8,6 +8,7 @@
 
 #include "fuzz/compose.h"
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -99,7 +100,7 @@ TEST(Lineages, AMutationChangesTheSpec) {
   int same = 0;
   for (std::int64_t index = 0; index < 200; ++index) {
     const auto spec_of = [&](const Lineage& line) {
-      return compose(raw_of(config, stock_library(), 5, line), config, stock_library());
+      return compose(raw_of(config, stock_generator(), 5, line), config, stock_generator());
     };
     same += spec_of({index}) == spec_of({index, 1000 + index});
   }
@@ -112,7 +113,7 @@ TEST(Lineages, AnInterruptMayComeAtAnotherTime) {
   int moved = 0;
   for (std::int64_t index = 0; index < 400 && moved < 3; ++index) {
     const auto spec_of = [&](const Lineage& line) {
-      return compose(raw_of(config, stock_library(), 5, line), config, stock_library());
+      return compose(raw_of(config, stock_generator(), 5, line), config, stock_generator());
     };
     const Spec parent = spec_of({index});
     if (parent.interrupts.size() != 1) continue;

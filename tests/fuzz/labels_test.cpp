@@ -5,6 +5,7 @@
 
 #include "fuzz/draw.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -15,9 +16,9 @@ using fixtures::use;
 std::vector<std::string> labels_of_scene(std::vector<SequenceDesc> sequences) {
   Spec spec;
   spec.sequences = std::move(sequences);
-  const Result<Stage> stage = build_stage(spec, stock_library());
-  if (!stage) throw std::logic_error(to_line(stage.issue()));
-  return labels_of(spec, *stage, generate(*stage));
+  const Result<Execution> execution = execute(stock_generator(), spec);
+  if (!execution) throw std::logic_error(to_line(execution.issue()));
+  return labels_of(spec, stock_generator(), *execution);
 }
 
 std::int64_t times(const std::vector<std::string>& labels, const std::string& label) {
@@ -47,7 +48,7 @@ TEST(Labels, ActionsThatOnlyTouchAreNoPair) {
 }
 
 TEST(Labels, WhatIsCountedIsAmongWhatIsPossible) {
-  const std::set<std::string> of_human = possible_labels(*fixtures::shared_human());
+  const std::set<std::string> of_human = possible_labels(stock_generator(), *fixtures::shared_human());
   EXPECT_TRUE(of_human.contains("action pose (overwrite) on arm_left"));
   EXPECT_TRUE(of_human.contains("pair look_at + look_at on head"));
   EXPECT_FALSE(of_human.contains("action walk (ik) on head"));
@@ -55,10 +56,10 @@ TEST(Labels, WhatIsCountedIsAmongWhatIsPossible) {
   plain.swaps = plain.objects = 0.0;
   int seen = 0;
   for (int i = 0; i < 40; ++i) {
-    const Spec spec = draw_spec({{"human"}, plain}, stock_library(), 1, i);
-    const Result<Stage> stage = build_stage(spec, stock_library());
-    ASSERT_TRUE(stage) << to_line(stage.issue());
-    for (const std::string& label : labels_of(spec, *stage, generate(*stage))) {
+    const Spec spec = draw_spec({{"human"}, plain}, stock_generator(), 1, i);
+    const Result<Execution> execution = execute(stock_generator(), spec);
+    ASSERT_TRUE(execution) << to_line(execution.issue());
+    for (const std::string& label : labels_of(spec, stock_generator(), *execution)) {
       const bool is_use = label.starts_with("action ") || label.starts_with("pair ");
       if (!is_use) continue;
       EXPECT_TRUE(of_human.contains(label.substr(0, label.find(" in ")))) << label;

@@ -14,6 +14,7 @@
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
 #include "generator/stage.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -42,7 +43,7 @@ TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
   DrawConfig config{{"human"}};
   config.profile.guided = 0.0, config.profile.uniform = 1.0;
   for (std::int64_t index = 0; index < 50; ++index)
-    EXPECT_EQ(raw_of(config, stock_library(), 3, {index}), draw_raw(3, index));
+    EXPECT_EQ(raw_of(config, stock_generator(), 3, {index}), draw_raw(3, index));
 }
 
 TEST(Lineage, EveryArmHasItsShare) {
@@ -127,10 +128,10 @@ TEST(Crowding, MakesCasesThatBuildAndHaveTwiceTheActions) {
   std::size_t even = 0, crowded = 0;
   for (std::int64_t index = 0; index < 300; ++index) {
     if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
-    const Spec spec = compose(raw_of(config, stock_library(), 1, {index}), config, stock_library());
+    const Spec spec = compose(raw_of(config, stock_generator(), 1, {index}), config, stock_generator());
     const Result<Stage> stage = build_stage(spec, stock_library());
     ASSERT_TRUE(stage) << to_line(stage.issue());
-    even += action_count(draw_spec(config, stock_library(), 1, index));
+    even += action_count(draw_spec(config, stock_generator(), 1, index));
     crowded += action_count(spec);
   }
   EXPECT_GT(even, 0U);
@@ -143,7 +144,7 @@ TEST(Crowding, BringsGroundsThatAreNotLevel) {
     double level = 0.0, all = 0.0;
     for (std::int64_t index = 0; index < 4000; ++index) {
       if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
-      const Spec spec = compose(raw_of(config, stock_library(), 1, {index}), config, stock_library());
+      const Spec spec = compose(raw_of(config, stock_generator(), 1, {index}), config, stock_generator());
       ++all, level += std::holds_alternative<PlaneGround>(spec.environment.ground);
     }
     return 100.0 * level / all;

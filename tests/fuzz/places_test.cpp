@@ -9,6 +9,7 @@
 
 #include "fuzz/draw.h"
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -17,12 +18,12 @@ namespace {
 using Json = nlohmann::json;
 
 Spec drawn_at_random() {
-  return draw_spec({{"human", "mech"}}, stock_library(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
+  return draw_spec({{"human", "mech"}}, stock_generator(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
 }
 
 std::vector<SpecPlace> places(const Spec& spec) {
   const Result<Character> character = build_character(spec.character, stock_library());
-  return places_of(spec, character ? &*character : nullptr);
+  return places_of(spec, stock_generator(), character ? &*character : nullptr);
 }
 
 RC_GTEST_PROP(Places, PointersLeadToTheirValuesInTheFile, ()) {
@@ -111,12 +112,12 @@ TEST(Places, AModeIsLoweredByOne) {
 
 TEST(Places, WithoutTheCharacterParametersHaveNoLimits) {
   const Spec spec = bent_elbow(90);
-  const SpecPlace elbow = place_at(places_of(spec, nullptr), "/params/elbow_deg");
+  const SpecPlace elbow = place_at(places_of(spec, stock_generator(), nullptr), "/params/elbow_deg");
   EXPECT_EQ(elbow.preset, 0.0);
   EXPECT_TRUE(std::isinf(elbow.low) && std::isinf(elbow.high));
 }
 
-TEST(Places, ASpecAsItIsByDefaultHasNone) { EXPECT_TRUE(places_of(Spec{}, nullptr).empty()); }
+TEST(Places, ASpecAsItIsByDefaultHasNone) { EXPECT_TRUE(places_of(Spec{}, stock_generator(), nullptr).empty()); }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -171,7 +172,7 @@ TEST(ShrinkOnward, TellsThePrecursorAsTheOriginalShowsIt) {
   const Case original = preceded_elbow_case();
   ShrinkConfig config;
   config.onward = Onward{};
-  const Shrunk result = shrink_with(trial, original, stock_library(), config);
+  const Shrunk result = shrink_with(trial, original, stock_generator(), config);
   ASSERT_TRUE(result.precursor);
   EXPECT_EQ(result.precursor->expect.subject, "wrist");
   EXPECT_EQ(result.precursor->spec, original.spec);
@@ -183,17 +184,17 @@ TEST(ShrinkOnward, LooksCloserOnlyAtWhatHasNoPrecursor) {
   PlantedMotion crowded({shown("wrist", 19, 20, 2.0)}), alone({});
   ShrinkConfig alone_config, onward;
   onward.onward = Onward{};
-  const int looked = shrink_with(crowded, preceded_elbow_case(), stock_library(), alone_config).evaluations;
-  EXPECT_LT(shrink_with(crowded, preceded_elbow_case(), stock_library(), onward).evaluations, looked);
-  EXPECT_EQ(shrink_with(alone, preceded_elbow_case(), stock_library(), onward).evaluations, looked);
+  const int looked = shrink_with(crowded, preceded_elbow_case(), stock_generator(), alone_config).evaluations;
+  EXPECT_LT(shrink_with(crowded, preceded_elbow_case(), stock_generator(), onward).evaluations, looked);
+  EXPECT_EQ(shrink_with(alone, preceded_elbow_case(), stock_generator(), onward).evaluations, looked);
 }
 
 TEST(ShrinkOnward, BeginsWithTheSpecThatTheOtherCameTo) {
   PlantedMotion trial({});
   ShrinkConfig config;
-  const Shrunk slow = shrink_with(trial, preceded_elbow_case(), stock_library(), config);
+  const Shrunk slow = shrink_with(trial, preceded_elbow_case(), stock_generator(), config);
   config.onward = Onward{slow.minimal.spec, {}};
-  const Shrunk quick = shrink_with(trial, preceded_elbow_case(), stock_library(), config);
+  const Shrunk quick = shrink_with(trial, preceded_elbow_case(), stock_generator(), config);
   EXPECT_EQ(quick.minimal.spec, slow.minimal.spec);
   EXPECT_EQ(quick.minimal.provenance.shrunk_from, spec_id(preceded_elbow_case().spec));
   EXPECT_LT(quick.evaluations, slow.evaluations);
@@ -202,11 +203,11 @@ TEST(ShrinkOnward, BeginsWithTheSpecThatTheOtherCameTo) {
 // The deepest of each other family, as shrinking sees them.
 std::vector<Case> others_of(const Case& stored) {
   const Result<Stage> stage = build_stage(stored.spec, small_runs::library());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
   std::map<std::string, Case> deepest;
   for (const Finding& finding : evaluation.findings) {
-    const Case other{stored.spec, expectation_of(*stage, evaluator.motion(), evaluation, finding), {}};
+    const Case other{stored.spec, expectation_of(evaluator.execution(), evaluation, finding), {}};
     const auto [known, is_new] = deepest.try_emplace(family_of(other), other);
     if (!is_new && depth_of(known->second.expect) < depth_of(other.expect)) known->second = other;
   }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "fuzz/draw.h"
 #include "generator/stage.h"
 
@@ -26,7 +26,7 @@ Profile profile(const std::string& fields) {
 std::string refused(const std::string& fields) {
   Result<Profile> parsed = parse_profile(profile_json(fields));
   const Result<Done> good =
-      parsed ? validate(*parsed, {"human", "mech"}, stock_library()) : Result<Done>(parsed.issue());
+      parsed ? validate(*parsed, {"human", "mech"}, stock_generator()) : Result<Done>(parsed.issue());
   return good ? "" : good.issue().code + " at " + good.issue().pointer;
 }
 
@@ -35,7 +35,7 @@ template <class Visit>
 int for_uses(const Profile& profile, int count, Visit visit) {
   int uses = 0;
   for (int i = 0; i < count; ++i) {
-    const Spec spec = draw_spec({{"human"}, profile}, stock_library(), 1, i);
+    const Spec spec = draw_spec({{"human"}, profile}, stock_generator(), 1, i);
     for (const SequenceDesc& sequence : spec.sequences)
       for (const ClipDesc& clip : sequence.clips)
         for (const ActionUse& use : clip.actions) visit(use), ++uses;
@@ -93,7 +93,7 @@ TEST(Profile, ARuleNarrowsAParameter) {
 int most_at_once(const Profile& profile, int specs) {
   int most = 0;
   for (int i = 0; i < specs; ++i) {
-    const Spec spec = draw_spec({{"human"}, profile}, stock_library(), 1, i);
+    const Spec spec = draw_spec({{"human"}, profile}, stock_generator(), 1, i);
     const Result<Stage> stage = build_stage(spec, stock_library());
     if (!stage) throw std::logic_error(to_line(stage.issue()));
     const std::vector<PlannedAction>& actions = stage->timeline.actions;
@@ -140,7 +140,7 @@ TEST(Profile, ARuleIsKeptWithinWhatTheActionDeclares) {
         profile(R"("slots":["waist"],"actions":["walk"],"rules":[{"actions":["walk"],"param":"speed_m_s",)" +
                 std::string(range) + "}]");
     for (int i = 0; i < 200; ++i) {
-      const Spec spec = draw_spec({{"human"}, walks}, stock_library(), 1, i);
+      const Spec spec = draw_spec({{"human"}, walks}, stock_generator(), 1, i);
       EXPECT_TRUE(build_stage(spec, stock_library())) << print_spec(spec);
     }
     const bool between_steps = std::string_view(range).starts_with(R"("low":[0.33])");
@@ -198,9 +198,9 @@ TEST(Profile, ABaseThatIsNotBuiltInIsRefused) {
 // What it finds is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.
 TEST(Profile, TameFindsNothing) {
   const Profile tame = load_profile("tame").value();
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (int i = 0; i < 96; ++i) {
-    const Spec spec = draw_spec({{"human"}, tame}, stock_library(), 99, i);
+    const Spec spec = draw_spec({{"human"}, tame}, stock_generator(), 99, i);
     const Result<Stage> stage = build_stage(spec, stock_library());
     ASSERT_TRUE(stage) << to_line(stage.issue());
     for (const Finding& finding : evaluator.run(*stage).findings)
@@ -214,7 +214,7 @@ TEST(Profile, BuiltInOnesAreGoodAndReadBack) {
     ASSERT_TRUE(read) << built_in.name << to_line(read.issue());
     EXPECT_EQ(*read, built_in);
     const std::vector<std::string> all = {"human", "mech", "quadruped"};
-    EXPECT_TRUE(validate(built_in, built_in.characters.empty() ? all : built_in.characters, stock_library()))
+    EXPECT_TRUE(validate(built_in, built_in.characters.empty() ? all : built_in.characters, stock_generator()))
         << built_in.name;
   }
 }

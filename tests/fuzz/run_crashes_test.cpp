@@ -12,6 +12,7 @@
 #include "corpus/runs.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -65,7 +66,7 @@ TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
   config.seeds[0].dynamics.mode = Mode::tracking;
   const Result<Stage> stage = build_stage(config.seeds[0], library());
   ASSERT_TRUE(stage);
-  const std::int64_t idle = most_bytes_of([] {}), busy = most_bytes_of([&] { Evaluator().run(*stage); });
+  const std::int64_t idle = most_bytes_of([] {}), busy = most_bytes_of([&] { StageEvaluator().run(*stage); });
   ASSERT_GT(busy, idle + (32 << 20));
   config.limits.bytes = idle + (busy - idle) / 2;
   config.limits.seconds = 60.0;

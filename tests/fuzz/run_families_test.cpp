@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tests/fuzz/small_runs.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -35,7 +36,7 @@ std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::v
 // When each family begins, and how deep it is then, negated: in this order they come.
 std::map<std::string, std::pair<int, double>> begins_of(const Spec& spec) {
   std::map<std::string, std::pair<int, double>> begins;
-  for (const Finding& f : Evaluator().run(*build_stage(spec, library())).findings) {
+  for (const Finding& f : StageEvaluator().run(*build_stage(spec, library())).findings) {
     const std::string family = f.check + "|" + spec.character.name + "|" + f.subject;
     const std::pair begin(f.first_frame, -f.depth);
     const auto [known, is_new] = begins.try_emplace(family, begin);
@@ -50,7 +51,7 @@ TEST_F(RunFamilies, ComeByTheirFirstFramesAndThoseThatBeginTogetherTheDeepestFir
   config.shrink.max_evaluations = 0;
   int together = 0;
   run_fuzz(
-      config, library(), create(folder_ / "corpus"), [](const RunProgress&) {}, [] { return false; },
+      config, generator(), create(folder_ / "corpus"), [](const RunProgress&) {}, [] { return false; },
       [&](const FailingCase& one) {
         const auto begins = begins_of(one.spec);
         ASSERT_EQ(one.families.size(), begins.size());
@@ -70,7 +71,7 @@ TEST_F(RunFamilies, TheEarliestOfACaseAreShrunkAndTheOthersCounted) {
     config.shrinks_per_case = most, config.shrinks_per_family = 3, config.shrink.max_evaluations = 0;
     std::vector<FailingCase> failing;
     const RunResult result = run_fuzz(
-        config, library(), create(folder_ / std::to_string(most)), [](const RunProgress&) {}, [] { return false; },
+        config, generator(), create(folder_ / std::to_string(most)), [](const RunProgress&) {}, [] { return false; },
         [&](const FailingCase& one) { failing.push_back(one); });
     std::map<std::string, std::vector<std::int64_t>> shrunk;
     for (const auto& [family, count] : result.record.families) shrunk[family] = count.first_indices;

@@ -16,6 +16,7 @@
 #include "model/core/files.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -168,7 +169,7 @@ TEST_F(Runs, ShrinkWithinTheirProfile) {
   for (const Bucket& bucket : buckets)
     for (const std::string& file : {bucket.min, bucket.worst}) {
       const Case stored = read_case(corpus.folder_of(bucket) + "/" + file).value();
-      EXPECT_EQ(departures(stored.spec, config.draw.profile, library()), 0) << pretty_spec(stored.spec);
+      EXPECT_EQ(departures(stored.spec, config.draw.profile, generator()), 0) << pretty_spec(stored.spec);
       EXPECT_EQ(stored.provenance.profile, "long");
     }
 }
@@ -225,7 +226,7 @@ std::vector<pid_t> children() {
 RunResult run_disturbed(const RunConfig& config, const Corpus& corpus, int every) {
   int asked = 0;
   return run_fuzz(
-      config, library(), corpus, [](const RunProgress&) {},
+      config, generator(), corpus, [](const RunProgress&) {},
       [&] {
         if (++asked % every == 0 && !children().empty()) ::kill(children().front(), SIGKILL);
         return false;
@@ -295,7 +296,7 @@ TEST_F(RunsSlow, OfSixteenShardsMergeToOneRun) { expect_shards_make_one_run(fold
 TEST_F(Runs, ThatAreStoppedAtOnceHaveNoCases) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult result = run_fuzz(
-      config_of(100, 2), library(), corpus, [](const RunProgress&) {}, [] { return true; });
+      config_of(100, 2), generator(), corpus, [](const RunProgress&) {}, [] { return true; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.record.cases, 0);
 }
@@ -305,7 +306,7 @@ TEST_F(Runs, WhoseCorpusBreaksMidwayEndWithAnIssue) {
   const Corpus corpus = create(folder_ / "corpus");
   std::atomic<bool> broken{false};
   const RunResult result = run_fuzz(
-      config_of(2000, 2), library(), corpus,
+      config_of(2000, 2), generator(), corpus,
       [&](const RunProgress& p) {
         if (p.cases < 16 || broken.exchange(true)) return;
         fs::remove_all(corpus.folder() + "/leads");

@@ -9,6 +9,7 @@
 #include "corpus/leads.h"
 #include "fuzz/run_state.h"
 #include "tests/fuzz/small_runs.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -58,8 +59,8 @@ TEST_F(TimedRuns, LeaveWhatTimeDidNotReachToTheNext) {
     const Result<Lead> lead = read_lead(path);
     ASSERT_TRUE(lead) << to_line(lead.issue());
     EXPECT_TRUE(waits(*lead));
-    Evaluator evaluator;
-    EXPECT_EQ(replay(lead->original, library(), evaluator).verdict, Verdict::same);
+    Evaluator evaluator(generator());
+    EXPECT_EQ(replay(lead->original, evaluator).verdict, Verdict::same);
     waiting.insert(family_of(lead->original));
   }
   for (const auto& [family, count] : first.record.families)

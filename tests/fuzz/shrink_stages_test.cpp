@@ -44,7 +44,7 @@ Shrunk shrunk(const Spec& spec, std::function<double(const Spec&)> depth, double
   original.expect = {"planted", "rule", "", 0, 0, 0, -1.0, 1.0, "0", "0", ""};
   ShrinkConfig config;
   config.depth_floor = floor;
-  return shrink_with(trial, original, stock_library(), config);
+  return shrink_with(trial, original, stock_generator(), config);
 }
 
 int staged_actions(const Spec& spec) {
@@ -235,7 +235,7 @@ TEST(ShrinkStages, WhatDoesNotFailTheSameWayTwiceIsFlakyAndStays) {
     int runs_ = 0;
   } trial;
   const Case original = elbow_case();
-  const Shrunk result = shrink_with(trial, original, stock_library(), {});
+  const Shrunk result = shrink_with(trial, original, stock_generator(), {});
   EXPECT_EQ(result.stopped, "flaky");
   EXPECT_EQ(result.minimal.spec, original.spec);
   EXPECT_EQ(result.evaluations, 2);
@@ -245,7 +245,7 @@ TEST(ShrinkStages, WhatDoesNotFailAnyMoreIsGone) {
   const Case original = elbow_case();
   Case healthy = original;
   healthy.spec = bent_elbow(100);
-  const Shrunk result = shrink(healthy, stock_library(), {});
+  const Shrunk result = shrink(healthy, stock_generator(), {});
   EXPECT_EQ(result.stopped, "gone");
   EXPECT_EQ(result.minimal.spec, healthy.spec);
 }
@@ -288,7 +288,7 @@ Case holding() {
 
 TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
   CrowdedTrial trial;
-  const Shrunk result = shrink_with(trial, holding(), stock_library(), {});
+  const Shrunk result = shrink_with(trial, holding(), stock_generator(), {});
   ASSERT_EQ(result.met.size(), 2U) << "what the original shows is no news";
   EXPECT_EQ(family_of(result.met[0]), "at_once|human|it");
   EXPECT_EQ(family_of(result.met[1]), "later|human|it");
@@ -297,10 +297,10 @@ TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
 
 TEST(ShrinkStages, TheMinimalCaseNamesWhatOfTheOriginalItStillShowsHalfAsDeep) {
   CrowdedTrial trial;
-  const Shrunk result = shrink_with(trial, holding(), stock_library(), {});
+  const Shrunk result = shrink_with(trial, holding(), stock_generator(), {});
   EXPECT_EQ(result.minimal.also, (std::vector<std::string>{"nan|human|it", "old|human|it"}));
   EXPECT_TRUE(result.worst.also.empty());
-  const Shrunk again = shrink_with(trial, result.minimal, stock_library(), {});
+  const Shrunk again = shrink_with(trial, result.minimal, stock_generator(), {});
   EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
 }
 
@@ -310,12 +310,12 @@ TEST(ShrinkStages, NothingIsMadeReadyForATrialOnceTheBudgetIsSpent) {
   int ready = 0;
   config.allowed = [&](const Spec&) { return ++ready, false; };  // costs no evaluation
   PlantedTrial trial([](const Spec& spec) { return staged_actions(spec) >= 2 ? 1.0 : 0.0; });
-  EXPECT_EQ(shrink_with(trial, holding(), stock_library(), config).stopped, "fixpoint");
+  EXPECT_EQ(shrink_with(trial, holding(), stock_generator(), config).stopped, "fixpoint");
   const int all = ready;
   ready = 0;
   config.out_of_time = [&] { return ready >= 1; };
   config.allowed = [&](const Spec&) { return ++ready, true; };
-  EXPECT_EQ(shrink_with(trial, holding(), stock_library(), config).stopped, "time");
+  EXPECT_EQ(shrink_with(trial, holding(), stock_generator(), config).stopped, "time");
   EXPECT_GT(all, 1);
   EXPECT_EQ(ready, 1);
 }
@@ -324,7 +324,7 @@ TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
   CrowdedTrial trial;
   ShrinkConfig config;
   config.max_evaluations = 2;
-  const Shrunk result = shrink_with(trial, holding(), stock_library(), config);
+  const Shrunk result = shrink_with(trial, holding(), stock_generator(), config);
   EXPECT_EQ(result.stopped, "evaluations");
   EXPECT_EQ(result.minimal.also,
             (std::vector<std::string>{"gone|human|it", "nan|human|it", "old|human|it", "shallow|human|it"}));
@@ -333,7 +333,7 @@ TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
 Shrunk shrunk_ending(const Spec& spec, const Ending& ending, const std::function<void(const Spec&)>& work) {
   const Case original = ending_case(spec, ending);
   EndingTrial trial(original.expect, work, {});
-  return shrink_with(trial, original, stock_library(), {});
+  return shrink_with(trial, original, stock_generator(), {});
 }
 
 TEST(ShrinkEndings, ACrashIsShrunkToWhatCrashes) {
@@ -360,7 +360,7 @@ TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
 
 TEST(ShrinkEndings, ARealSpecThatFinishesIsGone) {
   const Case crashed = ending_case(bent_elbow(100), {Ending::Kind::crash, "SIGSEGV", ""});
-  EXPECT_EQ(shrink(crashed, stock_library(), {}).stopped, "gone");
+  EXPECT_EQ(shrink(crashed, stock_generator(), {}).stopped, "gone");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fuzz/draw.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/sample_cases.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -24,23 +25,24 @@ ShrinkConfig config(double depth_floor, int evaluations = 300) {
 }
 
 Case shrunk(const Case& original, const ShrinkConfig& how, const Library& library = stock_library()) {
-  return shrink(original, library, how).minimal;
+  BuiltInGenerator generator(library);
+  return shrink(original, generator, how).minimal;
 }
 
 // The deepest failure of each drawn spec that fails.
 std::vector<Case> drawn_failures(int wanted) {
   std::vector<Case> failures;
   for (int i = 0; static_cast<int>(failures.size()) < wanted && i < 200; ++i) {
-    const Spec spec = draw_spec({{"human", "mech"}}, stock_library(), 21, i);
+    const Spec spec = draw_spec({{"human", "mech"}}, stock_generator(), 21, i);
     const Result<Stage> stage = build_stage(spec, stock_library());
     if (!stage) continue;
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     const Evaluation evaluation = evaluator.run(*stage);
     const Finding* deepest_of_all = nullptr;
     for (const Finding& f : evaluation.findings)
       if (deepest_of_all == nullptr || f.depth > deepest_of_all->depth) deepest_of_all = &f;
     if (deepest_of_all != nullptr)
-      failures.push_back({spec, expectation_of(*stage, evaluator.motion(), evaluation, *deepest_of_all), {}});
+      failures.push_back({spec, expectation_of(evaluator.execution(), evaluation, *deepest_of_all), {}});
   }
   return failures;
 }
@@ -53,8 +55,8 @@ TEST(ShrinkLawsSlow, TheResultFailsTheSameWayAndDeepEnough) {
       EXPECT_GE(least.expect.depth, floor * original.expect.depth);
       EXPECT_FALSE(cheaper(original.spec, least.spec)) << pretty_spec(least.spec);
       EXPECT_EQ(least.provenance.shrunk_from, spec_id(original.spec));
-      Evaluator evaluator;
-      EXPECT_EQ(replay(least, stock_library(), evaluator).verdict, Verdict::same);
+      Evaluator evaluator(stock_generator());
+      EXPECT_EQ(replay(least, evaluator).verdict, Verdict::same);
     }
 }
 
@@ -68,9 +70,9 @@ int count_of_actions(const Spec& spec) {
 TEST(ShrinkGuarded, ChangesNothingWhereNoCandidateEndsItsProcess) {
   const Case original = elbow_case();
   ShrinkConfig how = config(0.5);
-  const Shrunk plain = shrink(original, stock_library(), how);
+  const Shrunk plain = shrink(original, stock_generator(), how);
   how.guarded = true;
-  const Shrunk guarded = shrink(original, stock_library(), how);
+  const Shrunk guarded = shrink(original, stock_generator(), how);
   EXPECT_EQ(print_case(guarded.minimal), print_case(plain.minimal));
   EXPECT_EQ(print_case(guarded.worst), print_case(plain.worst));
   EXPECT_EQ(guarded.evaluations, plain.evaluations);
@@ -86,7 +88,7 @@ TEST(ShrinkGuarded, GoesRoundWhatCrashesAndHandsItBack) {
   how.before_run = [](const Spec& candidate) {
     if (count_of_actions(candidate) == 1) ::raise(SIGUSR1);
   };
-  const Shrunk result = shrink(original, stock_library(), how);
+  const Shrunk result = shrink(original, stock_generator(), how);
   EXPECT_EQ(result.stopped, "fixpoint");
   EXPECT_EQ(family_of(result.minimal), family_of(original));
   EXPECT_EQ(count_of_actions(result.minimal.spec), 2);
@@ -113,14 +115,14 @@ TEST(ShrinkLawsSlow, ShrinkingAgainChangesNothing) {
 TEST(ShrinkLawsSlow, TheWorstAndTheOthersFailAsTheySay) {
   std::size_t others = 0;
   for (const Case& original : drawn_failures(30)) {
-    const Shrunk result = shrink(original, stock_library(), config(0.5));
+    const Shrunk result = shrink(original, stock_generator(), config(0.5));
     EXPECT_GE(result.worst.expect.depth, result.minimal.expect.depth);
     std::vector<Case> all = result.met;
     others += all.size();
     all.push_back(result.worst);
     for (const Case& shown : all) {
-      Evaluator evaluator;
-      EXPECT_EQ(replay(shown, stock_library(), evaluator).verdict, Verdict::same) << family_of(shown);
+      Evaluator evaluator(stock_generator());
+      EXPECT_EQ(replay(shown, evaluator).verdict, Verdict::same) << family_of(shown);
     }
   }
   EXPECT_GT(others, 0U);  // measured: 92
@@ -156,7 +158,7 @@ TEST(ShrinkLaws, NoEvaluationsChangeNothing) {
 }
 
 TEST(ShrinkLaws, NothingIsExplainedOrClimbedOnceTheBudgetIsSpent) {
-  const Shrunk early = shrink(elbow_case(250, 77), stock_library(), config(0.5, 4));
+  const Shrunk early = shrink(elbow_case(250, 77), stock_generator(), config(0.5, 4));
   EXPECT_EQ(early.stopped, "evaluations");
   EXPECT_EQ(early.worst.spec, early.minimal.spec);
   EXPECT_TRUE(early.minimal.free_fields.empty());
@@ -220,7 +222,7 @@ TEST(ShrinkPlanted, TwoActionsThatNeedEachOtherBothStay) {
   }
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage) << to_line(stage.issue());
-  const Evaluation evaluation = Evaluator().run(*stage);
+  const Evaluation evaluation = StageEvaluator().run(*stage);
   const Finding* clash = nullptr;
   for (const Finding& f : evaluation.findings)
     if (f.subject.find("_left") != std::string::npos && f.subject.find("_right") != std::string::npos) clash = &f;

@@ -12,6 +12,7 @@
 #include "fuzz/run.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/temp_folder.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort::small_runs {
 
@@ -25,6 +26,11 @@ inline const Library& library() {
     return all;
   }();
   return small_and_stock;
+}
+
+inline Generator& generator() {
+  static BuiltInGenerator built_in(library());
+  return built_in;
 }
 
 inline RunConfig config_of(std::int64_t cases, int jobs) {
@@ -47,7 +53,7 @@ inline Corpus create(const std::string& folder) {
 
 inline RunResult run(const RunConfig& config, const Corpus& corpus) {
   return run_fuzz(
-      config, library(), corpus, [](const RunProgress&) {}, [] { return false; });
+      config, generator(), corpus, [](const RunProgress&) {}, [] { return false; });
 }
 
 inline std::vector<Bucket> buckets_of(const Corpus& corpus) {
@@ -58,12 +64,12 @@ inline std::vector<Bucket> buckets_of(const Corpus& corpus) {
 }
 
 inline void expect_all_replay_as_the_same(const Corpus& corpus) {
-  Evaluator evaluator;
+  Evaluator evaluator(generator());
   for (const Bucket& bucket : buckets_of(corpus))
     for (const std::string& file : {bucket.min, bucket.orig, bucket.worst}) {
       const Result<Case> stored = read_case(corpus.folder_of(bucket) + "/" + file);
       ASSERT_TRUE(stored) << to_line(stored.issue());
-      EXPECT_EQ(replay(*stored, library(), evaluator).verdict, Verdict::same) << file;
+      EXPECT_EQ(replay(*stored, evaluator).verdict, Verdict::same) << file;
       EXPECT_EQ(family_of(*stored), bucket.family);
     }
 }
@@ -72,7 +78,7 @@ inline void expect_all_replay_as_the_same(const Corpus& corpus) {
 inline RunResult run_until(int questions, const RunConfig& config, const Corpus& corpus) {
   int asked = 0;
   return run_fuzz(
-      config, library(), corpus, [](const RunProgress&) {}, [&] { return ++asked > questions; });
+      config, generator(), corpus, [](const RunProgress&) {}, [&] { return ++asked > questions; });
 }
 
 // A run as one and as `count` shards that are merged: the same bytes.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
@@ -151,7 +151,7 @@ TEST(Actions, AWalkAfterALeanBeginsWhereTheFigureStands) {
                     sequence({walk})};
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage) << to_line(stage.issue());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (const Finding& finding : evaluator.run(*stage).findings)
     EXPECT_FALSE(finding.check == "foot_slide" || finding.check == "pop") << finding.subject << finding.first_frame;
   const Motion& motion = evaluator.motion();
@@ -176,7 +176,7 @@ TEST(Actions, AimPointsTheMuzzleAtItsTarget) {
         glm::dot(world_from_muzzle.q * Vec3(0, 0, 1), unit_or(target_m - world_from_muzzle.p_m, Vec3(0.0)));
     ASSERT_GT(cosine, std::cos(0.1 * kRadPerDeg)) << f;
   }
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   for (const Finding& finding : evaluator.judge(*played.character, played.motion, "joint_range"))
     EXPECT_EQ(finding.subject.find("arm_right"), std::string::npos) << finding.subject;
 }

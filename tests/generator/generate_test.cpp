@@ -10,6 +10,7 @@
 #include "fuzz/draw.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -141,7 +142,7 @@ TEST(Generate, ChainsMayHangOnAJointOfTheirOwnPart) {
 }
 
 Stage drawn_stage(std::int64_t index, bool interrupted = true) {
-  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 11, index);
+  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 11, index);
   if (!interrupted) spec.interrupts.clear();
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) ADD_FAILURE() << to_line(stage.issue());

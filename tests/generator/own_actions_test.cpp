@@ -5,6 +5,7 @@
 
 #include "fuzz/draw.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -212,9 +213,10 @@ TEST(OwnActions, CountAsAPartOfTheCharacter) {
 
 TEST(OwnActions, TheFuzzerDrawsThem) {
   const Library library = with({kNod, kPoint});
+  BuiltInGenerator generator(library);
   int nods = 0, points = 0, plain_points = 0;
   for (int i = 0; i < 300; ++i)
-    for (const SequenceDesc& sequence : draw_spec({{"human"}}, library, 1, i).sequences)
+    for (const SequenceDesc& sequence : draw_spec({{"human"}}, generator, 1, i).sequences)
       for (const ClipDesc& clip : sequence.clips)
         for (const ActionUse& action : clip.actions) {
           nods += action.action == "nod", points += action.action == "point";

@@ -14,6 +14,7 @@
 #include "model/character/library.h"
 #include "tests/core/random_space.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -95,7 +96,7 @@ RC_GTEST_PROP(Spec, PrintedSpecsReadBackTheSame, ()) {
 
 TEST(Spec, DrawnSpecsReadBackTheSameAndBuild) {
   for (std::int64_t i = 0; i < 200; ++i) {
-    const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 7, i);
+    const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 7, i);
     const Result<Spec> back = parse_spec(print_spec(spec));
     ASSERT_TRUE(back.ok()) << i << to_line(back.issue());
     ASSERT_EQ(*back, spec) << i;

@@ -8,6 +8,7 @@
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -33,7 +34,7 @@ void remove(Spec& spec, const std::vector<std::string>& actions) {
 // Without aim: it is iterated until it is within 1e-5 rad, so its postures have that freedom. A test of its own is
 // below.
 Spec drawn(std::int64_t index) {
-  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 21, index);
+  Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_generator(), 21, index);
   spec.dynamics = {};  // laws of what actions make; control decides by thresholds
   remove(spec, {"aim"});
   return spec;

@@ -9,6 +9,7 @@
 #include "formats/gltf/from_model.h"
 #include "model/asset/labels.h"
 #include "tests/gltf/glb_builder.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {

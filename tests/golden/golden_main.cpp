@@ -14,6 +14,7 @@
 #include "model/core/hash.h"
 #include "tests/dynamics/states.h"
 #include "tests/scenes.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 
@@ -30,7 +31,7 @@ void add_findings(Hash64& hash, const std::vector<Finding>& findings) {
 
 void print_scene(const NamedScene& named) {
   const Result<Stage> stage = build_stage(scene(named.name), stock_library());
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
   Hash64 findings;
   add_findings(findings, evaluation.findings);
@@ -101,14 +102,16 @@ void print_recursions(const char* which, const RecursionSet& set) {
 void print_drawn(int jobs) {
   constexpr int kCases = 200;
   std::vector<std::uint64_t> hashes(kCases);
-  std::vector<Evaluator> evaluators(static_cast<std::size_t>(jobs));
+  std::vector<BuiltInGenerator> generators(static_cast<std::size_t>(jobs));
   parallel_for(
       jobs, kCases,
       [&](int worker, int i) {
-        const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, stock_library(), 7, i);
-        const Result<Stage> stage = build_stage(spec, stock_library());
-        if (!stage) return;
-        const Evaluation evaluation = evaluators[static_cast<std::size_t>(worker)].run(*stage);
+        BuiltInGenerator& generator = generators[static_cast<std::size_t>(worker)];
+        const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, generator, 7, i);
+        Evaluator evaluator(generator);
+        const Result<Evaluation> run = evaluator.run(spec);
+        if (!run) return;
+        const Evaluation& evaluation = *run;
         Hash64 hash;
         hash.add(print_spec(spec));
         hash.add(evaluation.motion_hash);

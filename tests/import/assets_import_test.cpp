@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "formats/gltf/read.h"
 #include "generator/motion/recording.h"
 #include "import/import.h"
@@ -75,7 +75,7 @@ TEST(AssetImport, EveryModelWithSkinnedVerticesBecomesACharacterThatRestsWithout
     spec.hold_frames = 2;
     const Result<Stage> stage = build_stage(spec, library_of(model.in));
     ASSERT_TRUE(stage.ok()) << file << ": " << to_line(stage.issue());
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     for (const Finding& finding : evaluator.run(*stage).findings)
       ADD_FAILURE() << file << ": " << finding.check << " " << finding.subject << " " << finding.worst_margin;
   }
@@ -110,7 +110,7 @@ TEST(AssetImportSlow, OwnClipsStayInTheRangesThatCameFromThem) {
       const Result<Motion> motion =
           follow_recording(*character, {model.asset.asset, clip, joints, 0.0, 30.0, 0, Rigid{}});
       ASSERT_TRUE(motion.ok()) << file << ": " << to_line(motion.issue());
-      Evaluator evaluator;
+      StageEvaluator evaluator;
       for (const Finding& finding : evaluator.judge(*character, *motion, "joint_range")) {
         const std::string joint = finding.subject.substr(0, finding.subject.find(' '));
         if (const auto known = source.find(joint); known != source.end() && known->second == LimitSource::clips)

@@ -4,6 +4,7 @@
 #include "fuzz/draw.h"
 #include "generator/stage.h"
 #include "tests/import/rigged_model.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -15,9 +16,10 @@ TEST(ImportedFuzz, EverySpecOfAGiantBuilds) {
   const Result<Imported> in = fixtures::imported(fixtures::rigged(fixtures::person()), options);
   ASSERT_TRUE(in.ok()) << to_line(in.issue());
   const Library library = fixtures::library_of(*in);
+  BuiltInGenerator generator(library);
   int moved_by_forces = 0;
   for (int index = 0; index < 400; ++index) {
-    const Spec spec = draw_spec({{"figure"}}, library, 3, index);
+    const Spec spec = draw_spec({{"figure"}}, generator, 3, index);
     moved_by_forces += spec.dynamics.mode != Mode::kinematic;
     const Result<Spec> read = parse_spec(pretty_spec(spec));
     ASSERT_TRUE(read.ok()) << index << ": " << to_line(read.issue());

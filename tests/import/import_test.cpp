@@ -5,9 +5,9 @@
 
 #include <set>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/actions/action.h"
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
 #include "tests/import/rigged_model.h"
 
@@ -83,7 +83,7 @@ TEST(Import, RestPoseViolatesNothing) {
     spec.hold_frames = 5;
     const Result<Stage> stage = build_stage(spec, fixtures::library_of(in));
     ASSERT_TRUE(stage.ok()) << to_line(stage.issue());
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     EXPECT_EQ(evaluator.run(*stage).findings, std::vector<Finding>{});
   }
 }
@@ -292,7 +292,7 @@ TEST(Import, ManyArmedFiguresCanBeSimulated) {
   ASSERT_TRUE(stage.ok()) << to_line(stage.issue());
   ASSERT_NE(stage->dynamics, nullptr);
   for (const ControlGroup& group : stage->dynamics->figure.groups) EXPECT_LE(group.handles.size(), 8U) << group.name;
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   EXPECT_EQ(evaluator.run(*stage).frame_count, 61);
 }
 

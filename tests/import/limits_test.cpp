@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "tests/import/rigged_model.h"
 
 namespace contort {
@@ -39,7 +39,7 @@ std::vector<Finding> judged(const Imported& in, const std::vector<Quat>& poses) 
     double* row = motion.coords.data() + motion.frame_count++ * motion.coord_count + joint.coord;
     row[0] = q.w, row[1] = q.x, row[2] = q.y, row[3] = q.z;
   }
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   return evaluator.judge(*character, motion, "joint_range");
 }
 
@@ -91,7 +91,7 @@ TEST(ImportedLimits, ShouldersTakeThePosesOfPeopleFromAnyRestPose) {
     motion.root.push_back(character->rest_root());
     double* row = motion.coords.data() + shoulder.coord;
     row[0] = q.w, row[1] = q.x, row[2] = q.y, row[3] = q.z;
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     return evaluator.judge(*character, motion, "joint_range").empty();
   };
   const Quat hanging = axis_angle(Vec3(0, 0, 1), -0.5 * kPi);

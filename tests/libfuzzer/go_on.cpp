@@ -5,7 +5,7 @@
 
 #include "checks/circumstances.h"
 #include "checks/clip_speed.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/motion/recording.h"
 #include "model/asset/sample.h"
 #include "tests/libfuzzer/targets.h"
@@ -57,7 +57,7 @@ bool play(const Spec& spec, const Library& library) {
   if (is_large) stage.most_frames = 1, stage.dynamics = nullptr;
   stage.most_frames = std::min(stage.most_frames, stage.dynamics ? kSimulatedFrames : kFrames);
   if (stage.recorded && stage.recorded->frame_count > kFrames) stage.dynamics = nullptr;
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(stage);
   const Execution& made = evaluator.execution();
   for (const Finding& finding : evaluation.findings)

@@ -1,4 +1,5 @@
 #include "corpus/replay.h"
+#include "generator/built_in.h"
 #include "tests/libfuzzer/go_on.h"
 #include "tests/libfuzzer/targets.h"
 
@@ -8,7 +9,9 @@ namespace {
 
 constexpr int kMostFrames = 12;  // of what is replayed: all of a motion, or nothing
 
-bool is_short(const Stage& stage) { return stage.most_frames <= kMostFrames && !stage.dynamics; }
+bool is_short(const Spec& spec, const Admission& admitted) {
+  return admitted.most_frames <= kMostFrames && spec.dynamics.mode == Mode::kinematic;
+}
 
 }  // namespace
 
@@ -18,10 +21,11 @@ bool try_case(std::string_view bytes) {
   const Result<Case> again = parse_case(print_case(*stored));
   require(again.ok() && print_case(*again) == print_case(*stored), "what is printed reads back as the same case");
   require(!family_of(*stored).empty(), "every case is of a family");
-  const Result<Stage> stage = build_stage(stored->spec, stock_library());
-  if (stage.ok() && !is_short(*stage)) return true;
-  Evaluator evaluator;
-  replay(*stored, stock_library(), evaluator);
+  BuiltInGenerator generator;
+  const Result<Admission> admitted = generator.admit(stored->spec);
+  if (admitted.ok() && !is_short(stored->spec, *admitted)) return true;
+  Evaluator evaluator(generator);
+  replay(*stored, evaluator);
   return true;
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "checks/joint_map.h"
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/actions/action.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/libfuzzer/go_on.h"
@@ -91,7 +91,7 @@ bool read_settings(std::string_view bytes) {
   if (!settings) return require_clean(settings.issue()), false;
   Spec spec;
   spec.hold_frames = 2;
-  Evaluator(*settings).run(*build_stage(spec, stock_library()));
+  StageEvaluator(*settings).run(*build_stage(spec, stock_library()));
   return true;
 }
 

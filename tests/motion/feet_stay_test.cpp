@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/generate.h"
 #include "tests/character/stock.h"
 
@@ -38,7 +38,7 @@ Stage stage_of(const Spec& spec) {
 // Findings of feet, and jumps: "foot_slide foot_left/foot at 61, -0.03 m".
 std::vector<std::string> of_feet(const Spec& spec) {
   const Stage stage = stage_of(spec);
-  Evaluator evaluator;
+  StageEvaluator evaluator;
   std::vector<std::string> found;
   for (const Finding& finding : evaluator.run(stage).findings)
     if (finding.check == "foot_slide" || finding.check == "ground_penetration" || finding.check == "pop")

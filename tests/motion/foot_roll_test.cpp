@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/generate.h"
 #include "generator/motion/gait.h"
 #include "tests/character/stock.h"
@@ -106,7 +106,7 @@ std::vector<std::string> found_in_walk(const std::string& character, double spee
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) throw std::logic_error(to_line(stage.issue()));
   std::vector<std::string> found;
-  for (const Finding& f : Evaluator().run(*stage).findings)
+  for (const Finding& f : StageEvaluator().run(*stage).findings)
     found.push_back(f.check + " " + f.subject + " at " + std::to_string(f.worst_frame));
   return found;
 }

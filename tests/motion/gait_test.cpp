@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "corpus/evaluator.h"
+#include "tests/stage_evaluator.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
@@ -112,7 +112,7 @@ class Walks : public ::testing::Test {
       }
     }
     out.travel_m = length(motion.root.back().p_m - motion.root.front().p_m);
-    Evaluator evaluator;
+    StageEvaluator evaluator;
     for (const Finding& finding : evaluator.judge(*stage.character, motion, "joint_range")) {
       ++out.range_findings;
       if (out.range_findings < 4) std::printf("    %s %.3f\n", finding.subject.c_str(), finding.worst_margin);

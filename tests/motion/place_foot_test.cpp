@@ -1,7 +1,7 @@
 // Feet on legs in postures that walks never take.
 #include <gtest/gtest.h>
 
-#include "generator/motion/legs.h"
+#include "generator/motion/place_foot.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 

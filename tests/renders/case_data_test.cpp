@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json data_of(std::vector<ShownCase> shown) {
-  const Result<std::string> text = case_data("joint_range-0123", shown, stock_library(), {});
+  const Result<std::string> text = case_data("joint_range-0123", shown, stock_generator(), {});
   if (!text) throw std::logic_error(to_line(text.issue()));
   EXPECT_EQ(text->find('<'), std::string::npos);
   return Json::parse(*text);
@@ -131,7 +131,7 @@ TEST(CaseData, IsFoundAgainInItsScript) {
 TEST(CaseData, ALibraryWithoutTheCharacterIsAnIssue) {
   const Case stored = made_up(spec_of({}, "nobody"), "joint_range", "x");
   const std::vector<ShownCase> shown = {{"minimal", stored}};
-  const Result<std::string> data = case_data("k", shown, stock_library(), {});
+  const Result<std::string> data = case_data("k", shown, stock_generator(), {});
   ASSERT_FALSE(data);
   EXPECT_EQ(data.issue().code, "character.unknown_character");
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "generator/dynamics/dynamics.h"
+#include "generator/dynamics/figure.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 #include "renders/arrow.h"
@@ -24,7 +25,8 @@ Character stock(const char* name) {
 // A figure that stays at rest in two frames, with a response in which nothing happens.
 struct Still {
   Character character;
-  DynamicFigure figure = build_figure(character, find_legs(character), {});
+  std::vector<Leg> legs = find_legs(character);
+  DynamicFigure figure = build_figure(character, legs, {});
   Motion motion;
   std::vector<Rigid> world = std::vector<Rigid>(character.joints().size());
   DrawList list;
@@ -55,7 +57,7 @@ struct Still {
   }
 
   void place_joints() { forward_kinematics(character, motion.root[0], motion.row(0), world); }
-  ResponseFrame frame(int f = 0) const { return {character, figure, motion, f, world}; }
+  ResponseFrame frame(int f = 0) const { return {character, legs, motion, f, world}; }
   const Link& link(const std::string& joint) const { return figure.body.links()[at(character.find_joint(joint))]; }
   double& control(const std::string& joint, int k = 0) { return motion.response.control[at(link(joint).dof + k)]; }
   int count(const Vec3& color) const {

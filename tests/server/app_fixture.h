@@ -8,6 +8,7 @@
 
 #include "corpus/corpus.h"
 #include "server/app.h"
+#include "tests/stage_evaluator.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort::server {
@@ -25,7 +26,7 @@ struct Server {
 
   explicit Server(const Limits& wanted = {}, bool with_corpus = true, bool read_only = false,
                   const BrokerLimits& workers = {}) : limits(wanted) {
-    engine = std::make_unique<Engine>(limits, workers, stock_library(), CheckSettings{}, "contort test");
+    engine = std::make_unique<Engine>(limits, workers, stock_generator(), CheckSettings{}, "contort test");
     AppConfig config;
     config.guard.hosts = {kHost};
     config.read_only = read_only;

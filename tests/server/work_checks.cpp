@@ -8,6 +8,7 @@
 #include "process/broker.h"
 #include "server/work.h"
 #include "tests/scenes.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort::server {
 namespace {
@@ -34,8 +35,8 @@ TEST(Work, TasksAndRepliesReadBack) {
 }
 
 TEST(Work, EvaluatesAsTheOnePathDoes) {
-  Worker worker(stock_library(), {}, "test");
-  Evaluator evaluator;
+  Worker worker(stock_generator(), {}, "test");
+  StageEvaluator evaluator;
   for (Spec spec : {task_of(TaskKind::evaluate).spec, Spec{}}) {
     if (spec.character.name.empty()) spec.character.name = "human";
     const Evaluation expected = evaluator.run(*build_stage(spec, stock_library()));
@@ -46,7 +47,7 @@ TEST(Work, EvaluatesAsTheOnePathDoes) {
 }
 
 TEST(Work, ATakeHoldsStillUntilItsEnd) {
-  Worker worker(stock_library(), {}, "test");
+  Worker worker(stock_generator(), {}, "test");
   Task task = task_of(TaskKind::play);
   task.take_frames = 200, task.most_frames = 400;
   const Result<Reply> reply = worker.run(task);
@@ -58,7 +59,7 @@ TEST(Work, ATakeHoldsStillUntilItsEnd) {
 }
 
 TEST(Work, ATakeIsNoLongerThanItsSequencesNeed) {
-  Worker worker(stock_library(), {}, "test");
+  Worker worker(stock_generator(), {}, "test");
   Task task = task_of(TaskKind::play);
   task.take_frames = 200;
   ActionUse crouch;
@@ -76,7 +77,7 @@ TEST(Work, ATakeIsNoLongerThanItsSequencesNeed) {
 }
 
 TEST(Work, RefusesWhatIsTooLong) {
-  Worker worker(stock_library(), {}, "test");
+  Worker worker(stock_generator(), {}, "test");
   Task task = task_of(TaskKind::evaluate);
   task.most_frames = 100, task.spec.hold_frames = 100;
   EXPECT_EQ(worker.run(task).issue().code, "take.too_long");

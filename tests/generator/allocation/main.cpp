@@ -6,6 +6,7 @@
 
 #include "fuzz/draw.h"
 #include "generator/generate.h"
+#include "tests/stage_evaluator.h"
 
 namespace {
 long allocations = 0;
@@ -60,12 +61,13 @@ void expect_none_in_ticks(int index, contort::Spec spec, const contort::Library&
 
 int main() {
   const contort::Library library = contort::stock_library();
+  contort::BuiltInGenerator generator(library);
   contort::GenerateScratch scratch;
   contort::Motion motion;
   int simulated = 0;
   const long before = allocations;
   for (int i = 0; i < 200; ++i) {
-    contort::Spec spec = contort::draw_spec({{"human", "mech", "quadruped"}}, library, 3, i);
+    contort::Spec spec = contort::draw_spec({{"human", "mech", "quadruped"}}, generator, 3, i);
     if (!contort::build_stage(spec, library)) return 1;
     simulated += spec.dynamics.mode != contort::Mode::kinematic;
     if (spec.dynamics.mode != contort::Mode::kinematic) expect_none_in_ticks(i, spec, library, scratch, motion);

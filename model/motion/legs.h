@@ -3,11 +3,9 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "model/character/character.h"
-#include "model/motion/motion.h"
 
 namespace contort {
 
@@ -35,14 +33,5 @@ int find_sole(const Character& character, int leg_part);
 
 // In the order of slots. Legs whose feet are within 10 cm of each other along +Z are one row.
 std::vector<Leg> find_legs(const Character& character);
-
-// Turns the leg and its ankles so that the sole is where it should be, as nearly as its bones and hinges allow. `world`
-// must hold the carrier of the leg; its entries for leg and foot are scratch. Writes the coordinates of both parts.
-void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
-                std::span<double> row);
-
-// Only the ankles: the sole's +Y to a direction. `world` must hold the leg.
-void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
-                std::span<double> row);
 
 }  // namespace contort

@@ -1,10 +1,8 @@
-#include "generator/motion/legs.h"
+#include "model/motion/legs.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "generator/motion/ik.h"
-#include "model/core/detmath.h"
 #include "model/core/math.h"
 #include "model/motion/kinematics.h"
 
@@ -88,31 +86,6 @@ void number_rows(std::vector<Leg>& legs) {
   }
 }
 
-// Everything of leg and foot that moves with a joint of theirs.
-void place_below(const Character& character, const Leg& leg, int first, std::span<const double> row,
-                 std::span<Rigid> world) {
-  const auto end_of = [&](int part) {
-    const Part& own = character.parts()[static_cast<std::size_t>(part)];
-    return own.first_joint + own.joint_count;
-  };
-  const int part = character.joint(first).part;
-  forward_kinematics(character, row, first, end_of(part), world);
-  if (part == leg.foot_part) return;
-  const int foot = character.parts()[static_cast<std::size_t>(leg.foot_part)].first_joint;
-  forward_kinematics(character, row, foot, end_of(leg.foot_part), world);
-}
-
-Quat world_from_ankle(const Joint& ankle, std::span<const Rigid> world) {
-  return world[static_cast<std::size_t>(ankle.parent)].q * ankle.parent_from_joint.q;
-}
-
-// The smaller angle about a unit axis that brings v to a right angle with d, or as near to one as it can.
-double turn_across(const Vec3& axis, const Vec3& v, const Vec3& d) {
-  const double along = glm::dot(axis, v) * glm::dot(axis, d);
-  const std::array<double, 2> angles = solve_turn(glm::dot(v, d) - along, glm::dot(glm::cross(axis, v), d), -along);
-  return std::fabs(angles[0]) < std::fabs(angles[1]) ? angles[0] : angles[1];
-}
-
 }  // namespace
 
 int find_sole(const Character& character, int leg_part) {
@@ -141,50 +114,6 @@ std::vector<Leg> find_legs(const Character& character) {
   }
   number_rows(legs);
   return legs;
-}
-
-void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
-                std::span<double> row) {
-  const auto ankles = std::span(leg.ankles).first(static_cast<std::size_t>(leg.ankle_count));
-  if (ankles.empty()) return;
-  if (!leg.has_ankle_pair) return turn_axis_to(character, ankles, leg.sole, Vec3(0, 1, 0), world, up_world, row);
-  const Joint& first = character.joint(ankles[0]);
-  const Joint& second = character.joint(ankles[1]);
-  const Vec3 up = character.sockets()[static_cast<std::size_t>(leg.sole)].joint_from_socket.q * Vec3(0, 1, 0);
-  const auto angles = hinge_pair_angles({first.axis, second.axis, second.parent_from_joint.q}, up,
-                                        glm::conjugate(world_from_ankle(first, world)) * up_world);
-  row[static_cast<std::size_t>(first.coord)] = angles[0];
-  row[static_cast<std::size_t>(second.coord)] = angles[1];
-}
-
-void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
-                std::span<double> row) {
-  constexpr int kPasses = 6;  // the leg turns the foot a little about the vertical; each pass takes that back
-  const ReachChain& chain = character.parts()[static_cast<std::size_t>(leg.part)].reach.front();
-  const Vec3 ankle = world_from_sole * leg.sole_from_ankle;
-  const Vec3 up = world_from_sole.q * Vec3(0, 1, 0);
-  const Vec3 toes = world_from_sole.q * Vec3(0, 0, 1);
-  double swivel_rad = 0.0;
-  reach_for(character, chain, world, ankle, swivel_rad, row);
-  place_below(character, leg, chain.upper, row, world);
-  const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
-  if (leg.has_ankle_pair) {
-    const Joint& flex = character.joint(leg.ankles[0]);
-    swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
-  }
-  // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands
-  // upright below its hip, and without bounds where it lies level.
-  const double steepness = glm::dot(unit_or(ankle - hip, -up), up);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    reach_for(character, chain, world, ankle, swivel_rad, row);
-    place_below(character, leg, chain.upper, row, world);
-    level_foot(character, leg, world, up, row);
-    if (leg.ankle_count > 0) place_below(character, leg, leg.ankles[0], row, world);
-    const Vec3 now = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
-    const double off_rad = det::atan2(glm::dot(up, glm::cross(now, toes)), glm::dot(now, toes));
-    if (std::fabs(off_rad) < 1e-10) return;
-    swivel_rad += std::fabs(off_rad) > 0.5 * kPi ? kPi : steepness * off_rad;  // the other way round, or nearly there
-  }
 }
 
 }  // namespace contort

@@ -1,9 +1,9 @@
 // Storage levels: the whole, a sequence, a clip, a part.
-#include "generator/level.h"
+#include "corpus/replay_scope.h"
 
 #include <gtest/gtest.h>
 
-#include "generator/generate.h"
+#include "generator/built_in.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {
@@ -25,22 +25,27 @@ Spec two_sequences() {
   return spec;
 }
 
-Motion play(const std::string& level) {
-  const Result<Level> parsed = parse_level(level);
-  EXPECT_TRUE(parsed.ok()) << level;
-  const Result<Stage> stage = build_stage_at(two_sequences(), stock_library(), *parsed);
-  EXPECT_TRUE(stage.ok()) << (stage.ok() ? "" : to_line(stage.issue()));
-  return generate(*stage);
+Result<Execution> run(const std::string& text) {
+  const Result<ReplayScope> scope = parse_scope(text);
+  if (!scope) return scope.issue();
+  const Result<Spec> spec = scoped(two_sequences(), *scope);
+  if (!spec) return spec.issue();
+  BuiltInGenerator generator;
+  return execute(generator, *spec);
 }
 
-std::string refusal(const std::string& level) {
-  const Result<Level> parsed = parse_level(level);
-  if (!parsed) return parsed.issue().code;
-  const Result<Stage> stage = build_stage_at(two_sequences(), stock_library(), *parsed);
-  return stage ? "" : stage.issue().code;
+Motion play(const std::string& scope) {
+  const Result<Execution> execution = run(scope);
+  EXPECT_TRUE(execution.ok()) << scope << (execution.ok() ? "" : to_line(execution.issue()));
+  return execution->motion;
 }
 
-TEST(Levels, ASequenceAndAClipBeginAtFrameZero) {
+std::string refusal(const std::string& scope) {
+  const Result<Execution> execution = run(scope);
+  return execution ? "" : execution.issue().code;
+}
+
+TEST(ReplayScopes, ASequenceAndAClipBeginAtFrameZero) {
   const Motion second = play("sequence:2");
   EXPECT_EQ(second.frame_count, 36);
   EXPECT_EQ(coord(second, 10, human(), "arm_left/elbow"), 60 * kRadPerDeg);
@@ -50,7 +55,7 @@ TEST(Levels, ASequenceAndAClipBeginAtFrameZero) {
   EXPECT_EQ(coord(clip, 15, human(), "arm_right/elbow"), 70 * kRadPerDeg);
 }
 
-TEST(Levels, APartMovesAsInTheWholeAndAllElseStays) {
+TEST(ReplayScopes, APartMovesAsInTheWholeAndAllElseStays) {
   const Motion whole = generate(*build_stage(two_sequences(), stock_library()));
   const Motion right = play("part:arm_right");
   ASSERT_EQ(right.frame_count, whole.frame_count);
@@ -60,13 +65,13 @@ TEST(Levels, APartMovesAsInTheWholeAndAllElseStays) {
   }
 }
 
-TEST(Levels, WhatIsNotThereIsRefused) {
+TEST(ReplayScopes, WhatIsNotThereIsRefused) {
   for (const char* bad :
        {"", "sequence", "sequence:", "sequence:0", "sequence:1/1", "clip:1", "clip:1/x", "part:", "whole:1"})
     EXPECT_EQ(refusal(bad), "level.bad_name") << bad;
   EXPECT_EQ(refusal("sequence:3"), "level.no_sequence");
   EXPECT_EQ(refusal("clip:1/2"), "level.no_clip");
-  EXPECT_EQ(refusal("part:tail"), "level.no_part");
+  EXPECT_EQ(refusal("part:tail"), "spec.unknown_slot");
 }
 
 }  // namespace

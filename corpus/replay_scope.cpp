@@ -1,6 +1,7 @@
-#include "generator/level.h"
+#include "corpus/replay_scope.h"
 
 #include <charconv>
+#include <optional>
 
 namespace contort {
 
@@ -23,17 +24,17 @@ Result<SequenceDesc> sequence_of(const Spec& spec, int number) {
                           : spec.interrupts[static_cast<std::size_t>(number - 1 - queued)].sequence;
 }
 
-Result<Spec> reduced(Spec spec, const Level& level) {
-  Result<SequenceDesc> sequence = sequence_of(spec, level.sequence);
+Result<Spec> reduced(Spec spec, const ReplayScope& scope) {
+  Result<SequenceDesc> sequence = sequence_of(spec, scope.sequence);
   if (!sequence) return sequence.issue();
   spec.sequences = {*sequence};
   spec.interrupts.clear();
-  if (level.kind == Level::Kind::sequence) return spec;
+  if (scope.kind == ReplayScope::Kind::sequence) return spec;
   std::vector<ClipDesc>& clips = spec.sequences.front().clips;
-  if (level.clip > static_cast<int>(clips.size()))
-    return Issue{"level.no_clip", "", "found clip " + std::to_string(level.clip) + ", sequence " +
-                                          std::to_string(level.sequence) + " has " + std::to_string(clips.size())};
-  clips = {clips[static_cast<std::size_t>(level.clip - 1)]};
+  if (scope.clip > static_cast<int>(clips.size()))
+    return Issue{"level.no_clip", "", "found clip " + std::to_string(scope.clip) + ", sequence " +
+                                          std::to_string(scope.sequence) + " has " + std::to_string(clips.size())};
+  clips = {clips[static_cast<std::size_t>(scope.clip - 1)]};
   clips.front().start_frame = 0;
   spec.sequences.front().duration_frames = 0;
   return spec;
@@ -41,46 +42,37 @@ Result<Spec> reduced(Spec spec, const Level& level) {
 
 }  // namespace
 
-Result<Level> parse_level(const std::string& text) {
+Result<ReplayScope> parse_scope(const std::string& text) {
   const Issue bad{"level.bad_name", "",
                   "found \"" + text + "\", allowed are sequence:2, clip:2/1 and part:arm_right"};
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return bad;
   const std::string kind = text.substr(0, colon), rest = text.substr(colon + 1);
-  Level level;
+  ReplayScope scope;
   if (kind == "part" && !rest.empty()) {
-    level.kind = Level::Kind::part, level.slot = rest;
-    return level;
+    scope.kind = ReplayScope::Kind::part, scope.slot = rest;
+    return scope;
   }
   const std::size_t slash = rest.find('/');
   const std::optional<int> sequence = number_of(std::string_view(rest).substr(0, slash));
   if (!sequence) return bad;
-  level.sequence = *sequence;
+  scope.sequence = *sequence;
   if (kind == "sequence" && slash == std::string::npos) {
-    level.kind = Level::Kind::sequence;
-    return level;
+    scope.kind = ReplayScope::Kind::sequence;
+    return scope;
   }
   const std::optional<int> clip =
       slash == std::string::npos ? std::nullopt : number_of(std::string_view(rest).substr(slash + 1));
   if (kind != "clip" || !clip) return bad;
-  level.kind = Level::Kind::clip, level.clip = *clip;
-  return level;
+  scope.kind = ReplayScope::Kind::clip, scope.clip = *clip;
+  return scope;
 }
 
-Result<Stage> build_stage_at(const Spec& spec, const Library& library, const Level& level) {
-  if (level.kind == Level::Kind::whole) return build_stage(spec, library);
-  if (level.kind != Level::Kind::part) {
-    const Result<Spec> smaller = reduced(spec, level);
-    return smaller ? build_stage(*smaller, library) : Result<Stage>(smaller.issue());
-  }
-  Result<Stage> stage = build_stage(spec, library);
-  if (!stage) return stage;
-  const int part = stage->character->find_part(level.slot);
-  if (part < 0) return Issue{"level.no_part", "", "found \"" + level.slot + "\", which is no slot of the character"};
-  const std::size_t parts = stage->character->parts().size();
-  Stage alone = std::move(stage).value();
-  for (std::size_t i = 0; i < alone.timeline.of_part.size(); ++i)
-    if (i % parts != static_cast<std::size_t>(part)) alone.timeline.of_part[i].clear();
+Result<Spec> scoped(const Spec& spec, const ReplayScope& scope) {
+  if (scope.kind == ReplayScope::Kind::whole) return spec;
+  if (scope.kind != ReplayScope::Kind::part) return reduced(spec, scope);
+  Spec alone = spec;
+  alone.only_slot = scope.slot;
   return alone;
 }
 

@@ -1,0 +1,28 @@
+// How much of a stored spec is played again (seed P11): the whole, one of its sequences, one of its clips, or one part's
+// animation alone.
+#pragma once
+
+#include <string>
+
+#include "model/core/result.h"
+#include "model/spec/spec.h"
+
+namespace contort {
+
+struct ReplayScope {
+  enum class Kind { whole, sequence, clip, part };
+  Kind kind = Kind::whole;
+  int sequence = 0;  // counted from 1, as people do; those of interrupts come after the queue's
+  int clip = 0;      // the same
+  std::string slot;
+  bool operator==(const ReplayScope&) const = default;
+};
+
+// "sequence:2", "clip:2/1", "part:arm_right". Code level.bad_name.
+Result<ReplayScope> parse_scope(const std::string& text);
+
+// The spec of that scope alone. A sequence or a clip begins at frame 0 from the spec's start; a part is moved in the
+// frames in which the whole spec moves it, and everything else stays. Codes level.no_sequence, .no_clip.
+Result<Spec> scoped(const Spec& spec, const ReplayScope& scope);
+
+}  // namespace contort

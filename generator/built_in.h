@@ -1,0 +1,35 @@
+// The built-in generator behind the interface that everything else knows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "generator/generate.h"
+#include "generator/stage.h"
+#include "model/generator.h"
+
+namespace contort {
+
+class BuiltInGenerator final : public Generator {
+ public:
+  // The library must outlive it.
+  explicit BuiltInGenerator(const Library& library = stock_library());
+
+  const Manifest& manifest() const override { return manifest_; }
+  const Offers& offers(const Character& character) override;
+  Result<Admission> admit(const Spec& spec) override;  // codes of build_stage
+  Result<Done> run(const Spec& spec, Execution& execution) override;
+  std::unique_ptr<Generator> another() const override;
+  Result<std::unique_ptr<Generator>> with(const Library& library) const override;  // codes of check_actions
+
+ private:
+  Result<Done> build(const Spec& spec);
+
+  Manifest manifest_;
+  std::map<std::uint64_t, Offers> offers_;  // by the character's hash
+  Spec spec_;                               // that stage_ was built from
+  Result<Stage> stage_ = Issue{};
+  GenerateScratch scratch_;
+};
+
+}  // namespace contort

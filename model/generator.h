@@ -1,0 +1,105 @@
+// Generator: what is under test. It says what it offers (Manifest, Offers), and turns a Spec into an Execution. The
+// built-in one is generator/built_in.h. Search, checks, corpus, renders and server know this interface alone.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/character/character.h"
+#include "model/character/library.h"
+#include "model/core/result.h"
+#include "model/motion/execution.h"
+#include "model/spec/action_param.h"
+#include "model/spec/spec.h"
+
+namespace contort {
+
+inline constexpr int kMaxFrames = 36000;  // of one motion: ten minutes at 60 Hz
+
+// A goal is reached at the end of the action's period; a course is a posture as a function of time (docs/timeline.md).
+enum class Timing { goal, course };
+
+// The goal that an action sets to the limb that it moves; the intent says it to checks (model/motion/intent.h).
+enum class Promise {
+  none,
+  arrives,  // at its end the part's tip is at its first parameter, a point in the character's frame
+  holds,    // while it is in force the part's grip is at its first parameter, a point of an object
+  aims,     // while it is in force the part faces a target, or points one of its points at it
+};
+
+// An event that a part brings about while an action moves it: interrupts can wait for it.
+struct EventSource {
+  Event event = Event::contact;
+  int part = 0;
+  bool operator==(const EventSource&) const = default;
+};
+
+// An action as one part of an assembled character can do it.
+struct OfferedAction {
+  std::string name;
+  std::string help;
+  Layer layer = Layer::overwrite;
+  Timing timing = Timing::goal;
+  Promise promise = Promise::none;
+  std::vector<ParamDef> params;    // their limits may depend on the part's joints
+  std::vector<int> moves;          // parts, this one first
+  std::vector<EventSource> tells;  // in the order of parts
+  int file = -1;                   // index into the actions of the manifest's library; -1: the generator's own
+  bool operator==(const OfferedAction&) const = default;
+};
+
+// By part of the character; each list in the manifest's order.
+using Offers = std::vector<std::vector<OfferedAction>>;
+
+// What specs may ask for. The fuzzer draws nothing else.
+struct Capabilities {
+  bool interrupts = true;
+  bool grounds = true;  // other than level
+  bool obstacles = true;
+  bool dynamics = true;
+  bool operator==(const Capabilities&) const = default;
+};
+
+struct Manifest {
+  std::string name;                  // "contort"
+  const Library* library = nullptr;  // characters and their parts; never null, and outlives the generator
+  std::vector<std::string> actions;  // names of all
+  Capabilities can{};
+};
+
+struct Admission {
+  int most_frames = 1;  // >= 1; the motion may be shorter, as where an interrupt never fires
+};
+
+// Not safe to be used by two threads at once: `another` makes one for each.
+class Generator {
+ public:
+  virtual ~Generator() = default;
+
+  virtual const Manifest& manifest() const = 0;
+
+  // What the parts of a character, which was built from the manifest's library, can do. Valid until the next call.
+  virtual const Offers& offers(const Character& character) = 0;
+
+  // Refuses a spec with a code and a pointer into it, or says how long its motion can be.
+  virtual Result<Admission> admit(const Spec& spec) = 0;
+
+  // Overwrites `execution`, and reuses its memory. Refuses what `admit` refuses, and nothing else: trouble in a motion
+  // is for checks to find, NaN and infinite values too.
+  virtual Result<Done> run(const Spec& spec, Execution& execution) = 0;
+
+  // An equal one, for another thread.
+  virtual std::unique_ptr<Generator> another() const = 0;
+
+  // An equal one with other descriptions, which must outlive it. Codes action.* where it cannot use them.
+  virtual Result<std::unique_ptr<Generator>> with(const Library& library) const = 0;
+};
+
+// The offered action of that name; nullptr where the part has none.
+const OfferedAction* find_offer(const Offers& offers, int part, std::string_view name);
+
+// Runs into new memory.
+Result<Execution> execute(Generator& generator, const Spec& spec);
+
+}  // namespace contort

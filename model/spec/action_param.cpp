@@ -1,0 +1,10 @@
+#include "model/spec/action_param.h"
+
+namespace contort {
+
+double steps_per_unit(std::string_view param_name) {
+  if (param_name.ends_with("_m_s")) return 10.0;
+  return param_name.ends_with("_m") || param_name == "share" ? 100.0 : 1.0;
+}
+
+}  // namespace contort
