@@ -6,6 +6,19 @@
 
 namespace contort {
 
+namespace {
+
+bool is_near(const PlannedInterrupt& interrupt, const Surface& obstacle) {
+  return obstacle.obstacle >= 0 && obstacle.distance_m <= interrupt.when.distance_m &&
+         (interrupt.obstacle < 0 || interrupt.obstacle == obstacle.obstacle);
+}
+
+bool is_steep(const PlannedInterrupt& interrupt, const Vec3& normal) {
+  return normal.y < det::cos(interrupt.when.slope_deg * kRadPerDeg);
+}
+
+}  // namespace
+
 bool happened(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
               const Rigid& root) {
   const auto told = [&](bool Feedback::*what) { return feedback[static_cast<std::size_t>(interrupt.part)].*what; };
@@ -13,15 +26,9 @@ bool happened(const PlannedInterrupt& interrupt, const Stage& stage, std::span<c
     case Event::contact: return told(&Feedback::contact);
     case Event::aim_reached: return told(&Feedback::aim_reached);
     case Event::impact: return std::ranges::any_of(feedback, &Feedback::impact);
-    case Event::near_obstacle: {
-      const Surface surface = stage.environment.nearest_obstacle(root.p_m);
-      return surface.obstacle >= 0 && surface.distance_m <= interrupt.when.distance_m &&
-             (interrupt.obstacle < 0 || interrupt.obstacle == surface.obstacle);
-    }
-    case Event::ground_steeper: {
-      const Vec3 normal = stage.environment.normal_at(root.p_m.x, root.p_m.z);
-      return normal.y < det::cos(interrupt.when.slope_deg * kRadPerDeg);
-    }
+    case Event::near_obstacle: return is_near(interrupt, stage.environment.nearest_obstacle(root.p_m));
+    case Event::ground_steeper:
+      return is_steep(interrupt, stage.environment.normal_at(root.p_m.x, root.p_m.z));
     default: return false;
   }
 }

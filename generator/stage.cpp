@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "generator/motion/recording.h"
 #include "model/core/number_text.h"
+#include "model/motion/recording.h"
 
 namespace contort {
 
@@ -27,6 +27,18 @@ void place_hips(const Spec& spec, Stage& stage) {
   }
 }
 
+// The clip of this name or label, the first one where no name is given; null where there is none.
+const AssetClip* find_clip(const Asset& asset, const std::string& name) {
+  for (const AssetClip& clip : asset.clips)
+    if (name.empty() || clip.label == name || clip.name == name) return &clip;
+  return nullptr;
+}
+
+Issue unknown_clip(const RecordingDesc& desc) {
+  return {"recording.unknown_clip", "/recording/clip",
+          desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
+}
+
 Result<Motion> play_recording(const Spec& spec, const Character& character, const Library& library,
                               const Rigid& start) {
   const RecordingDesc& desc = spec.recording;
@@ -37,13 +49,8 @@ Result<Motion> play_recording(const Spec& spec, const Character& character, cons
     return Issue{"recording.unknown_name", "/recording/name",
                  "found \"" + desc.name + "\", which is no animation of the library folders"};
   const Asset& asset = *found->second;
-  const auto clip = std::ranges::find_if(asset.clips, [&](const AssetClip& c) {
-    return desc.clip.empty() || c.label == desc.clip || c.name == desc.clip;
-  });
-  if (clip == asset.clips.end())
-    return Issue{
-        "recording.unknown_clip", "/recording/clip",
-        desc.clip.empty() ? desc.name + " holds no clip" : "found \"" + desc.clip + "\", which no clip is called"};
+  const AssetClip* clip = find_clip(asset, desc.clip);
+  if (clip == nullptr) return unknown_clip(desc);
   const RecordingUse use{asset, *clip, desc.joints, desc.from_s, spec.rate_hz, spec.hold_frames, start};
   if (desc.from_s > clip->last_s - clip->first_s)
     return Issue{"recording.too_late", "/recording/from_s",

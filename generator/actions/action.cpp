@@ -138,6 +138,12 @@ Result<Done> append_choice(const ParamDef& def, const ParamValue& value, std::ve
   return Done{};
 }
 
+Issue out_of_range(const ParamDef& def, double value) {
+  return param_issue(
+      "out_of_range", def.name,
+      "found " + number_text(value) + ", allowed is [" + number_text(def.low) + ", " + number_text(def.high) + "]");
+}
+
 Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<double>& bound) {
   if (def.type == ParamType::choice) return append_choice(def, value, bound);
   const bool right =
@@ -148,10 +154,7 @@ Result<Done> append(const ParamDef& def, const ParamValue& value, std::vector<do
   const Vec3 numbers = def.type == ParamType::number ? Vec3(std::get<double>(value)) : std::get<Vec3>(value);
   const int count = def.type == ParamType::number ? 1 : 3;
   for (int i = 0; i < count; ++i) {
-    if (!(numbers[i] >= def.low && numbers[i] <= def.high))
-      return param_issue("out_of_range", def.name,
-                         "found " + number_text(numbers[i]) + ", allowed is [" + number_text(def.low) + ", " +
-                             number_text(def.high) + "]");
+    if (!(numbers[i] >= def.low && numbers[i] <= def.high)) return out_of_range(def, numbers[i]);
     bound.push_back(numbers[i]);
   }
   return Done{};
@@ -164,25 +167,40 @@ Result<Done> check_value(const ParamDef& def, const ParamValue& value) {
   return append(def, value, unused);
 }
 
+namespace {
+
+Issue unknown_param(const Action& action, const Part& part, const std::string& name, const std::string& allowed) {
+  return param_issue("unknown_param", name,
+                     "part " + part.name + " with action " + std::string(action.name) + " takes " + allowed +
+                         did_you_mean(name, allowed));
+}
+
+void append_nothing(const ParamDef& def, std::vector<double>& bound) {
+  bound.insert(bound.end(), def.type == ParamType::number ? 1 : 3, std::numeric_limits<double>::quiet_NaN());
+}
+
+bool is_point(const ParamDef& def) {
+  return def.type == ParamType::object_point || def.type == ParamType::own_point;
+}
+
+}  // namespace
+
 Result<std::vector<double>> bind_params(const Action& action, const Character& character, const Part& part,
                                         const std::map<std::string, ParamValue>& values) {
   const std::vector<ParamDef> defs = params_of(action, character, part);
   for (const auto& value : values)
     if (std::none_of(defs.begin(), defs.end(), [&](const ParamDef& def) { return def.name == value.first; }))
-      return param_issue("unknown_param", value.first,
-                         "part " + part.name + " with action " + std::string(action.name) + " takes " + names_of(defs) +
-                             did_you_mean(value.first, names_of(defs)));
+      return unknown_param(action, part, value.first, names_of(defs));
   std::vector<double> bound;
   for (const ParamDef& def : defs) {
     const auto given = values.find(def.name);
     if (given == values.end() && def.optional) {
-      bound.insert(bound.end(), def.type == ParamType::number ? 1 : 3, std::numeric_limits<double>::quiet_NaN());
+      append_nothing(def, bound);
       continue;
     }
     const ParamValue& value = given == values.end() ? def.preset : given->second;
-    const Result<Done> done = def.type == ParamType::object_point || def.type == ParamType::own_point
-                                  ? append_point(character, part, def, value, bound)
-                                  : append(def, value, bound);
+    const Result<Done> done =
+        is_point(def) ? append_point(character, part, def, value, bound) : append(def, value, bound);
     if (!done) return done.issue();
   }
   return bound;

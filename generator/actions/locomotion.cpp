@@ -63,16 +63,18 @@ Rigid blended_sole(const RuleInput& in, std::size_t leg) {
   return {q, wanted * on + left * (seen * on - first * on) - q * on};
 }
 
+void begin_course(const RuleInput& in) {
+  in.body.gait.begin(in.character, in.legs, in.environment, in.stands_at,
+                     std::span(in.body.seen_soles).first(in.legs.size()));
+  in.body.first_soles = in.body.gait.first_soles();
+  in.body.begun = in.took_over;
+}
+
 // The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
 template <class Make>
 const GaitFrame& frame_of(const RuleInput& in, Make make) {
   WholeBody& body = in.body;
-  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) {
-    body.gait.begin(in.character, in.legs, in.environment, in.stands_at,
-                    std::span(body.seen_soles).first(in.legs.size()));
-    body.first_soles = body.gait.first_soles();
-    body.begun = in.took_over;
-  }
+  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_course(in);
   if (body.made_in == in.frame) return body.frame;
   const GaitFrame before = body.frame;
   body.frame = make(body.gait);

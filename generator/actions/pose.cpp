@@ -7,26 +7,25 @@ namespace contort {
 
 namespace {
 
-ParamDef param_of(const Joint& joint) {
+// Ranges reach beyond the joint's own on purpose: an author can ask for too much, and the check shall say so.
+ParamDef optional_param(const std::string& name, double most, const char* help) {
   ParamDef def;
+  def.name = name;
+  def.low = -most, def.high = most;
   def.optional = true;
   def.domain = Domain::joint_range;
-  if (joint.kind == JointKind::prismatic) {
-    def.name = joint.local_name + "_m";
-    def.low = -10.0, def.high = 10.0;
-    def.help = "Travel, m.";
-  } else {
-    // Beyond the joint's own range on purpose: an author can ask for too much, and the check shall say so.
-    def.name = joint.local_name + "_deg";
-    def.low = -360.0, def.high = 360.0;
-    def.help =
-        joint.kind == JointKind::ball ? "Rotation vector against rest, degrees." : "Angle against rest, degrees.";
-  }
-  if (joint.kind == JointKind::ball) {
-    def.type = ParamType::vector;
-    def.preset = Vec3(0.0);
-    def.mirrored = Mirrored::rotation;
-  }
+  def.help = help;
+  return def;
+}
+
+ParamDef param_of(const Joint& joint) {
+  if (joint.kind == JointKind::prismatic) return optional_param(joint.local_name + "_m", 10.0, "Travel, m.");
+  const std::string name = joint.local_name + "_deg";
+  if (joint.kind != JointKind::ball) return optional_param(name, 360.0, "Angle against rest, degrees.");
+  ParamDef def = optional_param(name, 360.0, "Rotation vector against rest, degrees.");
+  def.type = ParamType::vector;
+  def.preset = Vec3(0.0);
+  def.mirrored = Mirrored::rotation;
   return def;
 }
 

@@ -54,6 +54,15 @@ void without_loads(const ControlTick& tick, std::span<double> forces) {
   }
 }
 
+// Makes values smaller until none is larger than `greatest`: together, not one by one, so that what is symmetric stays
+// so.
+void bound(double greatest, std::span<double> values) {
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::fabs(v));
+  if (largest > greatest)
+    for (double& v : values) v *= greatest / largest;
+}
+
 }  // namespace
 
 void DynamicControl::begin(const DynamicFigure& figure, double tick_s) {
@@ -179,20 +188,20 @@ void DynamicControl::step(const ControlTick& tick, const ControlGroup& group, Sq
       squares.matrix[h * n + h] += price * std::max(kLeastPrice, effort);
     }
     solve_symmetric(std::span(squares.matrix).first(n * n), static_cast<int>(n), best);
-    // Together, not one by one: what is symmetric stays so.
-    double largest = 0.0;
-    for (const double v : best) largest = std::max(largest, std::fabs(v));
-    if (largest > group.greatest)
-      for (double& v : best) v *= group.greatest / largest;
+    bound(group.greatest, best);
   }
   for (std::size_t h = 0; h < n; ++h) {
     given[h] += lag * (best[h] - given[h]);
     if (squares.rows == 0 && std::fabs(given[h]) < 1e-6) given[h] = 0.0;
     if (given[h] == 0.0) continue;
-    add_scaled(given[h], columns_[h].acceleration, added_);
-    add_scaled(given[h], columns_[h].acceleration, tick.acceleration);
-    add_scaled(given[h], columns_[h].forces, tick.forces);
+    add(tick, columns_[h], given[h]);
   }
+}
+
+void DynamicControl::add(const ControlTick& tick, const Column& column, double given) {
+  add_scaled(given, column.acceleration, added_);
+  add_scaled(given, column.acceleration, tick.acceleration);
+  add_scaled(given, column.forces, tick.forces);
 }
 
 void DynamicControl::correct(const ControlTick& tick) {

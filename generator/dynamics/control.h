@@ -61,6 +61,7 @@ class DynamicControl {
   Squares balance_rows(const ControlTick& tick, const ControlGroup& group) const;
   void step(const ControlTick& tick, const ControlGroup& group, Squares squares, double price, double lag,
             std::span<double> given);
+  void add(const ControlTick& tick, const Column& column, double given);
   double strength(const DynamicFigure& figure, int dof) const;
 
   double relief_lag_ = 1.0;

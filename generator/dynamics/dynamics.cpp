@@ -130,7 +130,7 @@ Vec3 point_acceleration(const DynamicsScratch& scratch, int link, const Vec3& po
   const SpatialMotion& v = scratch.velocity[at(link)];
   const SpatialMotion& a = scratch.acceleration[at(link)];
   const Vec3 from_root_m = point_world_m - scratch.world[0].origin_m;
-  const Vec3 speed = v.linear + glm::cross(v.angular, from_root_m);
+  const Vec3 speed = point_velocity(v, from_root_m);
   return a.linear + glm::cross(a.angular, from_root_m) + glm::cross(v.angular, speed);
 }
 

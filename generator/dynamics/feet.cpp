@@ -19,6 +19,13 @@ constexpr double kSoft_s = 0.15;           // a sole becomes firm within this
 constexpr double kLeastFirm = 0.1;
 constexpr double kPlannedLevel = 0.97;  // cosine of 14 degrees
 
+// Whether a sole of a target that moves so can stand, m/s.
+bool is_slow(const Vec3& speed, const Vec3& normal) {
+  const double rise = glm::dot(speed, normal);
+  const double slide2 = glm::dot(speed, speed) - rise * rise;
+  return std::fabs(rise) < kPlannedRise_m_s && slide2 < kPlannedSlide_m_s * kPlannedSlide_m_s;
+}
+
 }  // namespace
 
 void Feet::begin(const DynamicFigure& figure) {
@@ -78,7 +85,7 @@ bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environ
   const SpatialMotion& v = dynamics.velocity[at(sole.link)];
   for (const Vec3& corner : sole.corners_m) {
     const Vec3 point = link.origin_m + link.rotation * corner;
-    const Vec3 speed = v.linear + glm::cross(v.angular, point - dynamics.world[0].origin_m);
+    const Vec3 speed = point_velocity(v, point - dynamics.world[0].origin_m);
     if (std::fabs(environment.nearest_ground(point).distance_m) > kFlat_m) return false;
     if (glm::dot(speed, speed) > kSettled_m_s * kSettled_m_s) return false;
   }
@@ -96,11 +103,8 @@ std::vector<std::uint8_t> planned_stances(const Character& character, const Dyna
       const Rigid sole = world[at(figure.soles[i].link)] * figure.soles[i].link_from_sole;
       const Surface ground = environment.nearest_ground(sole.p_m);
       const Vec3 speed = f > 0 ? motion.rate_hz * (sole.p_m - before[i]) : Vec3(0.0);
-      const double rise = glm::dot(speed, ground.normal);
-      const double slide2 = glm::dot(speed, speed) - rise * rise;
-      const bool slow = std::fabs(rise) < kPlannedRise_m_s && slide2 < kPlannedSlide_m_s * kPlannedSlide_m_s;
       const bool level = glm::dot(sole.q * Vec3(0, 1, 0), ground.normal) > kPlannedLevel;
-      if (slow && level && std::fabs(ground.distance_m) < kPlannedNear_m)
+      if (is_slow(speed, ground.normal) && level && std::fabs(ground.distance_m) < kPlannedNear_m)
         stances[at(f)] |= static_cast<std::uint8_t>(1U << i);
       before[i] = sole.p_m;
     }

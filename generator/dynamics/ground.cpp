@@ -99,6 +99,17 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
   return share;
 }
 
+namespace {
+
+// In the link's frame, m.
+Vec3 middle_of(const Sole& sole) {
+  Vec3 middle(0.0);
+  for (const Vec3& corner : sole.corners_m) middle += 0.25 * corner;
+  return middle;
+}
+
+}  // namespace
+
 // Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm mu / price meet sum f = F, sum n +
 // d x f = N.
 void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> standing, std::span<const double> firmness,
@@ -111,9 +122,7 @@ void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> stan
   for (const int s : standing) {
     const Sole& sole = figure.soles[at(s)];
     const Placement& link = dynamics.world[at(sole.link)];
-    Vec3 center(0.0);
-    for (const Vec3& corner : sole.corners_m) center += 0.25 * corner;
-    const Vec3 d = link.origin_m + link.rotation * center - dynamics.world[0].origin_m;
+    const Vec3 d = link.origin_m + link.rotation * middle_of(sole) - dynamics.world[0].origin_m;
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
     const double firm = firmness[at(s)];
     const Vec3 e = firm * d;

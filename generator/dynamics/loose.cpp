@@ -51,8 +51,12 @@ void find_velocities(const Multibody& body, const DynamicsScratch& d, std::span<
   }
 }
 
-// The inertia that everything together has about the root's origin, factorised: (moment, force) from (angular, linear).
-void factorise_inertia(const SpatialInertia& inertia, std::array<double, 36>& factors) {
+// Of a symmetric matrix of six rows, as factorise_symmetric.
+using RootFactors = std::array<double, 36>;
+
+// The inertia that everything together has about the root's origin: (moment, force) from (angular, linear).
+RootFactors factorised(const SpatialInertia& inertia) {
+  RootFactors factors;
   for (std::size_t k = 0; k < 6; ++k) {
     SpatialMotion unit;
     (k < 3 ? unit.angular : unit.linear)[static_cast<int>(k % 3)] = 1.0;
@@ -61,9 +65,10 @@ void factorise_inertia(const SpatialInertia& inertia, std::array<double, 36>& fa
       factors[i * 6 + k] = i < 3 ? column.moment[static_cast<int>(i)] : column.force[static_cast<int>(i - 3)];
   }
   factorise_symmetric(factors, 6);
+  return factors;
 }
 
-SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce& impulse) {
+SpatialMotion moved_by(const RootFactors& factors, const SpatialForce& impulse) {
   double x[6];
   for (int k = 0; k < 3; ++k) x[k] = impulse.moment[k], x[3 + k] = impulse.force[k];
   solve_factorised(factors, 6, x);
@@ -73,6 +78,52 @@ SpatialMotion moved_by(const std::array<double, 36>& factors, const SpatialForce
 void move_root(const DynamicsScratch& dynamics, const SpatialMotion& change, std::span<double> velocity) {
   const Vec3 turn = glm::transpose(Mat3(dynamics.world[0].rotation)) * change.angular;
   for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
+}
+
+// A contact with three directions in which it can push, at a point from the root's origin.
+LooseScratch::Contact contact_at(const TouchPoint& touch, const Vec3& from_root_m, const Vec3& normal) {
+  LooseScratch::Contact contact;
+  Vec3 axes[3] = {normal};
+  tangents(normal, axes[1], axes[2]);
+  for (int k = 0; k < 3; ++k) contact.push[k] = {glm::cross(from_root_m, axes[k]), axes[k]};
+  contact.link = touch.link, contact.is_sole = touch.is_sole;
+  return contact;
+}
+
+// The speed along the normal, m/s, with which a point does not sink in within a tick, or comes out if it is inside.
+double least_speed(double gap_m, double tick_s) {
+  return gap_m > 0.0 ? -gap_m / tick_s : std::min(-kRecovery_per_s * gap_m, kFastestRecovery_m_s);
+}
+
+// The points that could touch the ground within a tick.
+void find_contacts(std::span<const TouchPoint> points, const Environment& environment, double tick_s,
+                   const DynamicsScratch& dynamics, LooseScratch& scratch) {
+  scratch.contacts.clear();
+  for (const TouchPoint& touch : points) {
+    const Placement& link = dynamics.world[at(touch.link)];
+    const Vec3 center = link.origin_m + link.rotation * touch.point_m;
+    const Surface ground = environment.nearest_ground(center);
+    const double gap_m = ground.distance_m - touch.radius_m;
+    const Vec3 from_root = center - touch.radius_m * ground.normal - dynamics.world[0].origin_m;
+    const SpatialMotion& v = scratch.velocity[at(touch.link)];
+    const double sinking = glm::dot(ground.normal, point_velocity(v, from_root));
+    if (!(gap_m < kNear_m - tick_s * sinking)) continue;
+    scratch.contacts.push_back(contact_at(touch, from_root, ground.normal));
+    scratch.contacts.back().least_speed = least_speed(gap_m, tick_s);
+  }
+}
+
+// Solves one direction of a contact: the normal at 0, then two of friction.
+void push(const SpatialMotion& link_velocity, int k, LooseScratch::Contact& contact, SpatialMotion& change) {
+  SpatialMotion v = link_velocity;
+  v += change;
+  const double softness = dot(contact.answer[k], contact.push[k]);
+  const double wanted = k == 0 ? contact.least_speed : 0.0;
+  const double before = contact.impulse[k];
+  const double next = before + (wanted - dot(v, contact.push[k])) / softness;
+  const double most = kFriction * contact.impulse[0];
+  contact.impulse[k] = k == 0 ? std::max(0.0, next) : std::clamp(next, -most, most);
+  change += (contact.impulse[k] - before) * contact.answer[k];
 }
 
 }  // namespace
@@ -89,15 +140,16 @@ std::vector<TouchPoint> touch_points(const Character& character, const DynamicFi
   return points;
 }
 
-void fall_freely(const Multibody& body, std::span<const double> mass, LooseScratch& scratch,
-                 std::span<double> acceleration, std::span<double> forces) {
+void fall_freely(const Multibody& body, std::span<const double> mass, std::span<double> acceleration,
+                 std::span<double> forces) {
   const auto n = static_cast<std::size_t>(body.dof_count());
+  RootFactors factors{};
   double change[kRootDofs];
   for (std::size_t i = 0; i < kRootDofs; ++i) {
     change[i] = -forces[i];
-    for (std::size_t j = 0; j <= i; ++j) scratch.factors[i * kRootDofs + j] = mass[i * n + j];
+    for (std::size_t j = 0; j <= i; ++j) factors[i * kRootDofs + j] = mass[i * n + j];
   }
-  solve_symmetric(scratch.factors, kRootDofs, change);
+  solve_symmetric(factors, kRootDofs, change);
   for (std::size_t k = 0; k < kRootDofs; ++k) acceleration[k] += change[k];
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < kRootDofs; ++k) forces[i] += mass[i * n + k] * change[k];
@@ -113,10 +165,10 @@ SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics,
 }
 
 void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
-                  const SpatialForce& momentum, LooseScratch& scratch, std::span<double> velocity) {
+                  const SpatialForce& momentum, std::span<double> velocity) {
   const SpatialForce now = momentum_of(body, dynamics, mass, velocity);
-  factorise_inertia(dynamics.composite[0], scratch.factors);
-  move_root(dynamics, moved_by(scratch.factors, {momentum.moment - now.moment, momentum.force - now.force}), velocity);
+  const SpatialForce missing{momentum.moment - now.moment, momentum.force - now.force};
+  move_root(dynamics, moved_by(factorised(dynamics.composite[0]), missing), velocity);
 }
 
 SpatialForce weight_of(const DynamicsScratch& dynamics) {
@@ -126,45 +178,16 @@ SpatialForce weight_of(const DynamicsScratch& dynamics) {
 
 void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
               double tick_s, const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity) {
-  const Vec3 root_m = dynamics.world[0].origin_m;
   find_velocities(figure.body, dynamics, velocity, scratch.velocity);
-  scratch.contacts.clear();
-  for (const TouchPoint& touch : points) {
-    const Placement& link = dynamics.world[at(touch.link)];
-    const Vec3 center = link.origin_m + link.rotation * touch.point_m;
-    const Surface ground = environment.nearest_ground(center);
-    const double gap_m = ground.distance_m - touch.radius_m;
-    const Vec3 from_root = center - touch.radius_m * ground.normal - root_m;
-    const SpatialMotion& v = scratch.velocity[at(touch.link)];
-    const double sinking = glm::dot(ground.normal, v.linear + glm::cross(v.angular, from_root));
-    if (!(gap_m < kNear_m - tick_s * sinking)) continue;
-    LooseScratch::Contact contact;
-    Vec3 axes[3] = {ground.normal};
-    tangents(ground.normal, axes[1], axes[2]);
-    for (int k = 0; k < 3; ++k) contact.push[k] = {glm::cross(from_root, axes[k]), axes[k]};
-    contact.link = touch.link, contact.is_sole = touch.is_sole;
-    contact.least_speed = gap_m > 0.0 ? -gap_m / tick_s : std::min(-kRecovery_per_s * gap_m, kFastestRecovery_m_s);
-    scratch.contacts.push_back(contact);
-  }
+  find_contacts(points, environment, tick_s, dynamics, scratch);
   if (scratch.contacts.empty()) return;
-  factorise_inertia(dynamics.composite[0], scratch.factors);
+  const RootFactors factors = factorised(dynamics.composite[0]);
   for (LooseScratch::Contact& contact : scratch.contacts)
-    for (int k = 0; k < 3; ++k) contact.answer[k] = moved_by(scratch.factors, contact.push[k]);
+    for (int k = 0; k < 3; ++k) contact.answer[k] = moved_by(factors, contact.push[k]);
   SpatialMotion change;  // of the root's velocity, and with it of every link's
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (LooseScratch::Contact& contact : scratch.contacts)
-      for (int k = 0; k < 3; ++k) {
-        SpatialMotion v = scratch.velocity[at(contact.link)];
-        v += change;
-        const double softness = dot(contact.answer[k], contact.push[k]);
-        const double wanted = k == 0 ? contact.least_speed : 0.0;
-        const double before = contact.impulse[k];
-        double now = before + (wanted - dot(v, contact.push[k])) / softness;
-        const double most = kFriction * contact.impulse[0];
-        now = k == 0 ? std::max(0.0, now) : std::clamp(now, -most, most);
-        contact.impulse[k] = now;
-        change += (now - before) * contact.answer[k];
-      }
+      for (int k = 0; k < 3; ++k) push(scratch.velocity[at(contact.link)], k, contact, change);
   move_root(dynamics, change, velocity);
 }
 

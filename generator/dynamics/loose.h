@@ -36,13 +36,12 @@ struct LooseScratch {
   };
   std::vector<Contact> contacts;
   std::vector<SpatialMotion> velocity;  // by link
-  std::array<double, 36> factors{};     // of the whole figure's inertia about the root's origin
 };
 
 // Root accelerations under no force but gravity, given those of the joints: overwrites the first six. `forces` are
 // those of inverse dynamics with the accelerations as they are, and are brought to 0 there; `mass` as in mass_matrix.
-void fall_freely(const Multibody& body, std::span<const double> mass, LooseScratch& scratch,
-                 std::span<double> acceleration, std::span<double> forces);
+void fall_freely(const Multibody& body, std::span<const double> mass, std::span<double> acceleration,
+                 std::span<double> forces);
 
 // The whole figure's momentum about the root's origin, world axes; `mass` as in mass_matrix.
 SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
@@ -52,7 +51,7 @@ SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics,
 // else is integrated: an explicit step through a fast tumble would blow up, and momentum cannot. Needs the composites
 // of mass_matrix.
 void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
-                  const SpatialForce& momentum, LooseScratch& scratch, std::span<double> velocity);
+                  const SpatialForce& momentum, std::span<double> velocity);
 
 // What gravity adds to it in a second.
 SpatialForce weight_of(const DynamicsScratch& dynamics);

@@ -55,6 +55,12 @@ void Multibody::add_mass(int link, double mass_kg, const Vec3& center_of_mass_m,
   mass_kg_ += mass_kg;
 }
 
+namespace {
+
+int last_dof(const Link& link) { return link.dof + link.dof_count - 1; }
+
+}  // namespace
+
 Multibody Multibody::of(const Character& character) {
   Multibody body;
   body.coord_count_ = character.coord_count();
@@ -62,11 +68,7 @@ Multibody Multibody::of(const Character& character) {
     Link link = link_of(joint);
     link.dof = body.dof_count();
     // The root's six hang on one another, a joint's first one on the last of its parent's.
-    int before = -1;
-    if (link.parent >= 0) {
-      const Link& parent = body.links_[static_cast<std::size_t>(link.parent)];
-      before = parent.dof + parent.dof_count - 1;
-    }
+    int before = link.parent >= 0 ? last_dof(body.links_[static_cast<std::size_t>(link.parent)]) : -1;
     for (int i = 0; i < link.dof_count; ++i) {
       body.parent_dof_.push_back(before);
       before = link.dof + i;

@@ -18,8 +18,10 @@ void Recorder::begin(Motion& motion, int dof_count) {
   response.impacts.clear();
 }
 
-void Recorder::begin_frame(int frame, std::uint8_t planned) {
+void Recorder::begin_frame(int frame, const FigureState& state, std::uint8_t planned) {
   frame_ = frame;
+  motion_->root[static_cast<std::size_t>(frame)] = state.root;
+  std::ranges::copy(state.coords, motion_->row(frame).begin());
   stance().planned = planned;
   balanced_ = false;
 }

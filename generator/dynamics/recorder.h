@@ -4,6 +4,7 @@
 #include <span>
 
 #include "generator/dynamics/ground.h"
+#include "generator/dynamics/tracker.h"
 #include "model/motion/motion.h"
 
 namespace contort {
@@ -13,7 +14,8 @@ class Recorder {
   // Keeps a reference to the motion, whose poses are the target until frames are overwritten.
   void begin(Motion& motion, int dof_count);
 
-  void begin_frame(int frame, std::uint8_t planned);
+  // The frame's pose, and which soles stand in the target (Stance::planned).
+  void begin_frame(int frame, const FigureState& state, std::uint8_t planned);
   void end_frame(std::span<const int> standing);
 
   void efforts(std::span<const double> efforts);

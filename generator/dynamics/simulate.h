@@ -4,13 +4,11 @@
 
 #include <functional>
 
-#include "generator/dynamics/control.h"
-#include "generator/dynamics/feet.h"
-#include "generator/dynamics/impact.h"
-#include "generator/dynamics/loose.h"
+#include "generator/dynamics/foot_contacts.h"
+#include "generator/dynamics/impact_response.h"
+#include "generator/dynamics/loose_motion.h"
 #include "generator/dynamics/recorder.h"
-#include "generator/dynamics/target.h"
-#include "generator/dynamics/tracker.h"
+#include "generator/dynamics/standing.h"
 #include "model/spec/dynamics_desc.h"
 #include "model/world/environment.h"
 
@@ -31,20 +29,16 @@ Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& 
 
 // Memory, reused from call to call and setup to setup.
 struct SimulationScratch {
-  DynamicsScratch dynamics;
-  SupportRows support;
-  SupportArea area;
-  GroundShare ground;
-  DynamicControl control;
-  LooseScratch loose;
-  ResponseScratch response;
-  FigureState state;
-  Feet feet;
+  EquationOfMotion equation;
+  FootContacts contacts;
+  Standing standing;
+  LooseMotion loose;
+  ImpactResponse impact;
   Recorder record;
-  std::function<void()> after_tick;  // for those who measure; mostly empty
-  std::vector<double> firmness;      // by sole
-  std::vector<double> tracked, acceleration, forces, bias, efforts, ease, hold, hold_forces, hold_efforts, mass,
-      factors;
+  std::vector<double> tracked;          // accelerations that tracking wants, by freedom
+  Actuation actuation;                  // of this tick
+  std::vector<double> velocity_before;  // feet took hold
+  std::function<void()> after_tick;     // for those who measure; mostly empty
 };
 
 // Moves `motion`, which is the target, as a figure with mass would: its poses become the figure's, its response tells

@@ -30,7 +30,7 @@ void want_to_stay(const StandingFoot& foot, const Vec3& sole_m, double frequency
   const Quat now = glm::quat_cast(Mat3(link.rotation)) * foot.link_from_sole.q;
   const Vec3 off[2] = {sole_m - foot.world_from_sole.p_m,
                        to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
-  const Vec3 speed[2] = {v.linear + glm::cross(v.angular, sole_m - dynamics.world[0].origin_m), v.angular};
+  const Vec3 speed[2] = {point_velocity(v, sole_m - dynamics.world[0].origin_m), v.angular};
   // Gravity is in the accelerations as one of the world.
   const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole_m) - up_m_s2,
                         dynamics.acceleration[at(foot.link)].angular};

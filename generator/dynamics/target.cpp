@@ -30,24 +30,27 @@ TargetMotion::TargetMotion(const Multibody& body, const Motion& motion)
     coords_.insert(coords_.end(), motion.row(f).begin(), motion.row(f).end());
     coords_.insert(coords_.end(), {root.p_m.x, root.p_m.y, root.p_m.z, root.q.w, root.q.x, root.q.y, root.q.z});
   }
-  for (const Link& link : body.links()) {
-    std::vector<int> knots;
-    const int coord = link.kind == JointKind::root ? motion.coord_count + 3 : link.coord;
-    const bool turns = link.kind == JointKind::root || link.kind == JointKind::ball;
-    for (int k = 0; k < (turns ? 3 : 1); ++k) {
-      std::vector<double> curve;
-      for (int f = 0; f < frame_count_; ++f)
-        curve.push_back(turns ? to_rotation_vector(quat_at(row(f) + coord))[k] : row(f)[coord]);
-      knots = merged_knots(knots, find_knots(curve));
-    }
-    knots_.push_back(std::move(knots));
+  for (const Link& link : body.links()) knots_.push_back(knots_of(link));
+}
+
+std::vector<int> TargetMotion::knots_of(const Link& link) const {
+  std::vector<int> knots;
+  const int coord = link.kind == JointKind::root ? coord_count_ - 4 : link.coord;
+  const bool turns = link.kind == JointKind::root || link.kind == JointKind::ball;
+  for (int k = 0; k < (turns ? 3 : 1); ++k) {
+    std::vector<double> curve;
+    for (int f = 0; f < frame_count_; ++f)
+      curve.push_back(turns ? to_rotation_vector(quat_at(row(f) + coord))[k] : row(f)[coord]);
+    knots = merged_knots(knots, find_knots(curve));
   }
+  return knots;
 }
 
 TargetMotion::Between TargetMotion::between(double frame) const {
   const double clamped = std::clamp(frame, 0.0, static_cast<double>(frame_count_ - 1));
   const int before = std::min(static_cast<int>(std::floor(clamped)), std::max(frame_count_ - 2, 0));
-  return {before, clamped - before, frame < 0.0 || frame > frame_count_ - 1 || frame_count_ < 2};
+  const bool stands = frame < 0.0 || frame > frame_count_ - 1 || frame_count_ < 2;
+  return {before, std::min(before + 1, frame_count_ - 1), clamped - before, stands ? 0.0 : rate_hz_};
 }
 
 // Half of the way from the frame before to the one after: Catmull and Rom's slope. Ends have none.
@@ -63,22 +66,21 @@ Vec3 TargetMotion::turn_slope(int frame, int coord) const {
 
 void TargetMotion::joint_at(const Link& link, double frame, double* coords, double* rates) const {
   const Between at = between(frame);
-  const int next = std::min(at.frame + 1, frame_count_ - 1);
-  const double per_s = at.stands ? 0.0 : rate_hz_;
-  if (link.kind != JointKind::ball) {
-    const Cubic now = cubic(row(at.frame)[link.coord], row(next)[link.coord], slope(at.frame, link.coord),
-                            slope(next, link.coord), at.share);
-    coords[0] = now.value, rates[0] = per_s * now.slope;
-    return;
-  }
-  // The same in the rotation vector from the frame before.
-  const Quat from = quat_at(row(at.frame) + link.coord), to = quat_at(row(next) + link.coord);
+  if (link.kind == JointKind::ball) return ball_at(link.coord, at, coords, rates);
+  const Cubic now = cubic(row(at.frame)[link.coord], row(at.next)[link.coord], slope(at.frame, link.coord),
+                          slope(at.next, link.coord), at.share);
+  coords[0] = now.value, rates[0] = at.per_s * now.slope;
+}
+
+// The same in the rotation vector from the frame before.
+void TargetMotion::ball_at(int coord, const Between& at, double* coords, double* rates) const {
+  const Quat from = quat_at(row(at.frame) + coord), to = quat_at(row(at.next) + coord);
   const Vec3 way = to_rotation_vector(glm::conjugate(from) * to);
-  const Vec3 m0 = turn_slope(at.frame, link.coord), m1 = rotation_vector_rate(way, turn_slope(next, link.coord));
+  const Vec3 m0 = turn_slope(at.frame, coord), m1 = rotation_vector_rate(way, turn_slope(at.next, coord));
   Vec3 turn, rate;
   for (int k = 0; k < 3; ++k) {
     const Cubic now = cubic(0.0, way[k], m0[k], m1[k], at.share);
-    turn[k] = now.value, rate[k] = per_s * now.slope;
+    turn[k] = now.value, rate[k] = at.per_s * now.slope;
   }
   put(glm::normalize(from * from_rotation_vector(turn)), coords);
   const Vec3 angular = angular_velocity_of(turn, rate);

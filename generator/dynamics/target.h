@@ -33,14 +33,17 @@ class TargetMotion {
 
  private:
   struct Between {
-    int frame = 0;       // the one before
+    int frame = 0;  // the one before
+    int next = 0;
     double share = 0.0;  // of the way to the next one, [0, 1)
-    bool stands = false;
+    double per_s = 0.0;  // frames a second; 0 where it stands still
   };
   Between between(double frame) const;
   const double* row(int frame) const { return &coords_[static_cast<std::size_t>(frame * coord_count_)]; }
   double slope(int frame, int coord) const;
   Vec3 turn_slope(int frame, int coord) const;
+  std::vector<int> knots_of(const Link& link) const;
+  void ball_at(int coord, const Between& at, double* coords, double* rates) const;
 
   double rate_hz_ = 60.0;
   int frame_count_ = 0;

@@ -22,4 +22,18 @@ struct Foothold {
 };
 Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole);
 
+// Puts a foot that is turned so down on the ground near a place, as world_from_sole: of a few places along a direction
+// the most even one, the nearer the better.
+Rigid stand_at(const Environment& environment, const Leg& leg, const Quat& turn, const Vec3& at_m,
+               const Vec3& direction);
+
+// The place of a foot at rest under a character that stands here, on the plane y = 0.
+inline Vec3 home_of(const Leg& leg, const Rigid& world_from_start) {
+  return world_from_start * Vec3(leg.home_m.x, 0.0, leg.home_m.z);
+}
+
+// Where a foot stands at first under a character that starts here: where its sole is seen, put down on the ground; at
+// home, if that is too far away or the sole is not seen (null).
+Rigid first_sole(const Environment& environment, const Leg& leg, const Rigid& world_from_start, const Rigid* seen);
+
 }  // namespace contort

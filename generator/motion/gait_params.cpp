@@ -1,8 +1,9 @@
+#include "generator/motion/gait_params.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "generator/motion/foot_roll.h"
-#include "generator/motion/gait.h"
 #include "model/core/detmath.h"
 
 namespace contort {
@@ -94,6 +95,12 @@ double least_length_m(std::span<const Leg> legs) {
   double least = 1e9;
   for (const Leg& leg : legs) least = std::min(least, leg.length_m);
   return legs.empty() ? 1.0 : least;
+}
+
+int row_count(std::span<const Leg> legs) {
+  int rows = 1;
+  for (const Leg& leg : legs) rows = std::max(rows, leg.row + 1);
+  return rows;
 }
 
 double root_beat(const GaitParams& params, double cycles) {

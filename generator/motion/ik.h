@@ -41,8 +41,4 @@ struct HingePair {
 // hinge; of the two solutions the one with the smaller second angle. Where no angles do, the nearest.
 std::array<double, 2> hinge_pair_angles(const HingePair& pair, const Vec3& axis, const Vec3& direction);
 
-// The coordinates of three successive hinges with axes at right angles that give the rotation (Euler angles about the
-// hinges' own axes; the middle one in [-pi/2, pi/2]).
-Vec3 hinge_angles(const Vec3& first_axis, const Vec3& second_axis, const Vec3& third_axis, const Quat& rotation);
-
 }  // namespace contort

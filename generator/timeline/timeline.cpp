@@ -41,6 +41,11 @@ std::string slots_of(const Character& character) {
   return text;
 }
 
+Issue unknown_slot(const Character& character, const std::string& slot, const std::string& pointer) {
+  const std::string slots = slots_of(character);
+  return {"spec.unknown_slot", pointer, "found \"" + slot + "\", allowed are " + slots + did_you_mean(slot, slots)};
+}
+
 std::string names_of(const std::vector<Action>& actions) {
   std::string text;
   for (const Action& action : actions) text += (text.empty() ? "" : ", ") + std::string(action.name);
@@ -52,6 +57,65 @@ std::string all_action_names(const Character& character) {
   for (const ActionDef& action : all_actions()) text += (text.empty() ? "" : ", ") + std::string(action.name);
   for (const ActionDesc& desc : character.actions()) text += ", " + desc.name;
   return text;
+}
+
+void list_by_part(std::size_t parts, Timeline& out) {
+  out.of_part.resize(out.sequences.size() * parts);
+  for (std::size_t i = 0; i < out.actions.size(); ++i) {
+    const PlannedAction& action = out.actions[i];
+    out.of_part[static_cast<std::size_t>(action.sequence) * parts + static_cast<std::size_t>(action.part)].push_back(
+        static_cast<int>(i));
+  }
+}
+
+// The part whose motion an action looks at before it moves its own, or -1.
+int looks_at(const Character& character, const PlannedAction& action) {
+  std::size_t at = 0;
+  for (const ParamDef& def :
+       action.def->params(character, character.parts()[static_cast<std::size_t>(action.named)])) {
+    if (def.type == ParamType::object_point) {
+      const Socket& socket = character.sockets()[static_cast<std::size_t>(action.params[at])];
+      return character.joints()[static_cast<std::size_t>(socket.joint)].part;
+    }
+    at += def.type == ParamType::vector ? 3 : 1;
+  }
+  return -1;
+}
+
+// Carriers first, and what is looked at before who looks; among those that may come next, in the order of slots.
+Result<Done> order_parts(const Character& character, Timeline& out) {
+  const std::size_t parts = character.parts().size();
+  std::vector<std::vector<int>> before(parts);
+  for (std::size_t p = 1; p < parts; ++p) before[p].push_back(carrier_of(character, static_cast<int>(p)));
+  for (const PlannedAction& action : out.actions)
+    if (const int seen = looks_at(character, action); seen >= 0)
+      before[static_cast<std::size_t>(action.part)].push_back(seen);
+  std::vector<char> placed(parts, 0);
+  const auto ready = [&](std::size_t p) {
+    return placed[p] == 0 && std::all_of(before[p].begin(), before[p].end(),
+                                         [&](int b) { return placed[static_cast<std::size_t>(b)] != 0; });
+  };
+  while (out.part_order.size() < parts) {
+    std::size_t next = 0;
+    while (next < parts && !ready(next)) ++next;
+    if (next == parts)
+      return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
+    placed[next] = 1;
+    out.part_order.push_back(static_cast<int>(next));
+  }
+  return Done{};
+}
+
+Issue unknown_action(const Character& character, const std::string& action) {
+  const std::string names = all_action_names(character);
+  return {"spec.unknown_action", "/action",
+          "found \"" + action + "\", allowed are " + names + did_you_mean(action, names)};
+}
+
+Issue unsupported(const Character& character, const Part& part, const std::string& action) {
+  return {"spec.unsupported_action", "/action",
+          "part " + part.name + " cannot do \"" + action + "\", allowed are " +
+              names_of(actions_of(character, part))};
 }
 
 class Layout {
@@ -69,8 +133,8 @@ class Layout {
     for (std::size_t i = 0; i < input_.interrupts.size(); ++i)
       if (Result<Done> done = check_names(input_.interrupts[i], "/interrupts/" + std::to_string(i)); !done)
         return done.issue();
-    list_by_part();
-    if (Result<Done> done = order_parts(); !done) return done.issue();
+    list_by_part(character_.parts().size(), out_);
+    if (Result<Done> done = order_parts(character_, out_); !done) return done.issue();
     return std::move(out_);
   }
 
@@ -127,21 +191,12 @@ class Layout {
   }
 
   Result<Done> resolve(const ActionUse& use, PlannedAction& planned) const {
-    if (!is_action_name(character_, use.action))
-      return Issue{"spec.unknown_action", "/action",
-                   "found \"" + use.action + "\", allowed are " + all_action_names(character_) +
-                       did_you_mean(use.action, all_action_names(character_))};
+    if (!is_action_name(character_, use.action)) return unknown_action(character_, use.action);
     planned.named = character_.find_part(use.slot);
-    if (planned.named < 0)
-      return Issue{"spec.unknown_slot", "/slot",
-                   "found \"" + use.slot + "\", allowed are " + slots_of(character_) +
-                       did_you_mean(use.slot, slots_of(character_))};
+    if (planned.named < 0) return unknown_slot(character_, use.slot, "/slot");
     const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
     const std::optional<Action> action = find_action(character_, part, use.action);
-    if (!action)
-      return Issue{"spec.unsupported_action", "/action",
-                   "part " + part.name + " cannot do \"" + use.action + "\", allowed are " +
-                       names_of(actions_of(character_, part))};
+    if (!action) return unsupported(character_, part, use.action);
     planned.def = action->def, planned.name = use.action;
     Result<std::vector<double>> params = bind_params(*action, character_, part, use.params);
     if (!params) return params.issue();
@@ -199,10 +254,7 @@ class Layout {
     planned.sequence = static_cast<int>(out_.sequences.size());
     if (desc.when.event == Event::contact || desc.when.event == Event::aim_reached) {
       planned.part = character_.find_part(desc.when.slot);
-      if (planned.part < 0)
-        return Issue{"spec.unknown_slot", pointer + "/when/slot",
-                     "found \"" + desc.when.slot + "\", allowed are " + slots_of(character_) +
-                         did_you_mean(desc.when.slot, slots_of(character_))};
+      if (planned.part < 0) return unknown_slot(character_, desc.when.slot, pointer + "/when/slot");
     }
     out_.interrupts.push_back(std::move(planned));
     return add_sequence(desc.sequence, pointer + "/sequence");
@@ -223,53 +275,6 @@ class Layout {
     if (desc.when.event == Event::clip_ended && !clip) return unknown("/when/name", desc.when.name);
     if (desc.when.event == Event::sequence_ended && !sequence) return unknown("/when/name", desc.when.name);
     if (desc.enter == Enter::after_sequence && !after) return unknown("/after", desc.after);
-    return Done{};
-  }
-
-  void list_by_part() {
-    const std::size_t parts = character_.parts().size();
-    out_.of_part.resize(out_.sequences.size() * parts);
-    for (std::size_t i = 0; i < out_.actions.size(); ++i) {
-      const PlannedAction& action = out_.actions[i];
-      out_.of_part[static_cast<std::size_t>(action.sequence) * parts + static_cast<std::size_t>(action.part)].push_back(
-          static_cast<int>(i));
-    }
-  }
-
-  // The part whose motion an action looks at before it moves its own, or -1.
-  int looks_at(const PlannedAction& action) const {
-    std::size_t at = 0;
-    for (const ParamDef& def :
-         action.def->params(character_, character_.parts()[static_cast<std::size_t>(action.named)])) {
-      if (def.type == ParamType::object_point) {
-        const Socket& socket = character_.sockets()[static_cast<std::size_t>(action.params[at])];
-        return character_.joints()[static_cast<std::size_t>(socket.joint)].part;
-      }
-      at += def.type == ParamType::vector ? 3 : 1;
-    }
-    return -1;
-  }
-
-  // Carriers first, and what is looked at before who looks; among those that may come next, in the order of slots.
-  Result<Done> order_parts() {
-    const std::size_t parts = character_.parts().size();
-    std::vector<std::vector<int>> before(parts);
-    for (std::size_t p = 1; p < parts; ++p) before[p].push_back(carrier_of(character_, static_cast<int>(p)));
-    for (const PlannedAction& action : out_.actions)
-      if (const int seen = looks_at(action); seen >= 0) before[static_cast<std::size_t>(action.part)].push_back(seen);
-    std::vector<char> placed(parts, 0);
-    const auto ready = [&](std::size_t p) {
-      return placed[p] == 0 && std::all_of(before[p].begin(), before[p].end(),
-                                           [&](int b) { return placed[static_cast<std::size_t>(b)] != 0; });
-    };
-    while (out_.part_order.size() < parts) {
-      std::size_t next = 0;
-      while (next < parts && !ready(next)) ++next;
-      if (next == parts)
-        return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
-      placed[next] = 1;
-      out_.part_order.push_back(static_cast<int>(next));
-    }
     return Done{};
   }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "model/core/detmath.h"
+#include "model/motion/hinge_angles.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 #include "tests/core/random_space.h"

@@ -1,5 +1,5 @@
 // Animations made elsewhere as motions of a character.
-#include "generator/motion/recording.h"
+#include "model/motion/recording.h"
 
 #include "formats/gltf/write.h"
 #include "generator/generate.h"

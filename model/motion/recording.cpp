@@ -1,41 +1,49 @@
-#include "generator/motion/recording.h"
+#include "model/motion/recording.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "generator/motion/ik.h"
 #include "model/asset/sample.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
+#include "model/motion/hinge_angles.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
 
+// How much each node enlarges what hangs on it.
+std::vector<Vec3> scales_of(const Asset& asset, const std::vector<Trs>& local) {
+  std::vector<Vec3> scale(asset.nodes.size(), Vec3(1.0));
+  for (const int node : asset.order) {
+    scale[at(node)] = local[at(node)].scale;
+    if (const int parent = asset.nodes[at(node)].parent; parent >= 0) scale[at(node)] *= scale[at(parent)];
+  }
+  return scale;
+}
+
 // Where every node is. Turns and places only: a bone that is scaled does not turn.
 std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Rigid> world(asset.nodes.size());
-  std::vector<Vec3> scale(asset.nodes.size(), Vec3(1.0));
+  const std::vector<Vec3> scale = scales_of(asset, local);
   for (const int node : asset.order) {
     const Trs& own = local[at(node)];
     const int parent = asset.nodes[at(node)].parent;
     world[at(node)] = {own.rotation, own.translation};
-    scale[at(node)] = own.scale;
     if (parent < 0) continue;
     world[at(node)].p_m *= scale[at(parent)];
     world[at(node)] = world[at(parent)] * world[at(node)];
-    scale[at(node)] *= scale[at(parent)];
   }
   return world;
 }
 
-std::vector<Rigid> rest_of(const Asset& asset) {
+std::vector<Trs> rest_of(const Asset& asset) {
   std::vector<Trs> local;
   for (const AssetNode& node : asset.nodes) local.push_back(node.rest);
-  return world_of(asset, local);
+  return local;
 }
 
 int find_node(const Asset& asset, const std::string& name) {
@@ -44,9 +52,32 @@ int find_node(const Asset& asset, const std::string& name) {
   return found == asset.nodes.end() ? -1 : static_cast<int>(found - asset.nodes.begin());
 }
 
+// By joint the node that is given for it, or that has its name; or -1.
+Result<std::vector<int>> nodes_of_joints(const Character& character, const RecordingUse& use) {
+  std::vector<int> nodes;
+  for (const Joint& own : character.joints()) nodes.push_back(find_node(use.asset, own.name));
+  std::vector<char> given(nodes.size(), 0);
+  for (const auto& [node, joint] : use.joints) {
+    const int index = character.find_joint(joint), found = find_node(use.asset, node);
+    if (found < 0) return Issue{"recording.unknown_node", "/joints/" + node, "is no node of the animation"};
+    if (index < 0)
+      return Issue{"recording.unknown_joint", "/joints/" + node,
+                   "found \"" + joint + "\", which is no joint of " + character.name()};
+    if (given[at(index)] != 0)
+      return Issue{"recording.duplicate_joint", "/joints/" + node, "\"" + joint + "\" is given to two nodes"};
+    given[at(index)] = 1, nodes[at(index)] = found;
+  }
+  return nodes;
+}
+
 // The turn about a unit axis that comes nearest to a rotation.
 double twist_about(const Vec3& axis, const Quat& q) {
   return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
+}
+
+// The same turn of a hinge, counted on from the frame before: past half a turn it goes on, and does not jump to -pi.
+double counted_on(double angle, double before) {
+  return angle + 2.0 * kPi * std::floor((before - angle + kPi) / (2.0 * kPi));
 }
 
 // A joint of the character with the node that it follows.
@@ -64,15 +95,43 @@ struct Fit {
   double node_floor = 0.0;
 };
 
+// Models stand along the axes. Turned by a quarter about +Y, a place (x, z) comes to (z, -x); the turn counts that lays
+// the places best over the character's own, where they are spread out enough to tell.
+Quat facing_of(const std::vector<Vec3>& model, const std::vector<Vec3>& own) {
+  constexpr double kPlain = 0.3, kHalf = 0.70710678118654752;  // sin and cos of 45 degrees
+  double along = 0.0, across = 0.0, at_most = 0.0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const Vec3 &m = model[i], &c = own[i];
+    along += m.x * c.x + m.z * c.z, across += m.z * c.x - m.x * c.z;
+    at_most += std::sqrt((m.x * m.x + m.z * m.z) * (c.x * c.x + c.z * c.z));
+  }
+  if (std::max(-along, std::fabs(across)) <= std::max(along, kPlain * at_most)) return kNoRotation;
+  if (-along > std::fabs(across)) return {0.0, 0.0, 1.0, 0.0};
+  return {kHalf, 0.0, across > 0.0 ? kHalf : -kHalf, 0.0};
+}
+
+// Of the two solutions of Euler angles the one nearer to the frame before, so that none jumps to the other.
+Vec3 nearer_solution(const Vec3& one, const Vec3& before, int hinges) {
+  const Vec3 other(wrap_angle(one.x + kPi), wrap_angle(kPi - one.y), wrap_angle(one.z + kPi));
+  double apart[2] = {0.0, 0.0};
+  for (int k = 0; k < hinges; ++k)
+    apart[0] += std::fabs(wrap_angle(one[k] - before[k])), apart[1] += std::fabs(wrap_angle(other[k] - before[k]));
+  return apart[1] < apart[0] ? other : one;
+}
+
 class Follower {
  public:
   Follower(const Character& character, const RecordingUse& use)
-      : character_(character), use_(use), node_rest_(rest_of(use.asset)), rest_(character.joints().size()) {
+      : character_(character),
+        use_(use),
+        node_scale_(scales_of(use.asset, rest_of(use.asset))),
+        node_rest_(world_of(use.asset, rest_of(use.asset))),
+        rest_(character.joints().size()) {
     forward_kinematics(character, character.rest_root(), character.rest_coords(), rest_);
   }
 
   Result<Done> map() {
-    const Result<std::vector<int>> nodes = nodes_of_joints();
+    const Result<std::vector<int>> nodes = nodes_of_joints(character_, use_);
     if (!nodes) return nodes.issue();
     followed_of_.assign(nodes->size(), -1);
     for (std::size_t j = 0; j < nodes->size(); ++j) {
@@ -80,53 +139,45 @@ class Follower {
       followed_of_[j] = static_cast<int>(followed_.size());
       followed_.push_back({static_cast<int>(j), (*nodes)[j], 1, kNoRotation});
     }
-    if (followed_.empty() || followed_[0].joint != 0)
+    has_root_ = !followed_.empty() && followed_[0].joint == 0;
+    if (followed_.empty() || !(has_root_ || use_.may_lack_root))
       return Issue{"recording.no_root", "/joints", "no node is called \"root\" or given for it"};
+    if (use_.may_face_elsewhere) face_forward();
     for (Followed& f : followed_) f.hinges = hinges_from(f.joint);
     for (Followed& f : followed_) f.world_aside = aside(f);
     find_fit();
     return Done{};
   }
 
-  void play(Motion& motion) const {
+  // An entry for each joint that has a node, with nothing missed yet.
+  std::vector<FollowedNode> followed() const {
+    std::vector<FollowedNode> out;
+    for (const Followed& f : followed_) out.push_back({f.joint, f.node, f.hinges});
+    return out;
+  }
+
+  void play(Motion& motion, std::vector<FollowedNode>& followed) const {
     std::vector<Rigid> world(rest_.size());
     for (int frame = 0; frame < motion.frame_count; ++frame) {
       const double t_s = std::min(begin_s() + frame / use_.rate_hz, use_.clip.last_s);
       const std::vector<Trs> local = pose(use_.asset, use_.clip, t_s);
-      const std::vector<Rigid> nodes = world_of(use_.asset, local);
+      const std::vector<Rigid> nodes = nodes_at(local);
       const std::span<double> row = motion.row(frame);
       const std::span<const double> before = frame > 0 ? motion.row(frame - 1) : row;
       std::copy(character_.rest_coords().begin(), character_.rest_coords().end(), row.begin());
       place_root(nodes, motion.root[at(frame)]);
       forward_kinematics(character_, motion.root[at(frame)], row, world);
-      for (std::size_t i = 1; i < followed_.size(); ++i) {
+      for (std::size_t i = has_root_ ? 1 : 0; i < followed_.size(); ++i) {
         const int next = i + 1 < followed_.size() ? followed_[i + 1].joint : static_cast<int>(world.size());
         turn(followed_[i], nodes, local, before, world, row);
         forward_kinematics(character_, row, followed_[i].joint, next, world);
+        note(followed_[i], frame, nodes, local, world, followed[i]);
       }
     }
   }
 
  private:
   const Joint& joint(int index) const { return character_.joints()[at(index)]; }
-
-  // By joint the node that is given for it, or that has its name; or -1.
-  Result<std::vector<int>> nodes_of_joints() const {
-    std::vector<int> nodes;
-    for (const Joint& own : character_.joints()) nodes.push_back(find_node(use_.asset, own.name));
-    std::vector<char> given(nodes.size(), 0);
-    for (const auto& [node, joint] : use_.joints) {
-      const int index = character_.find_joint(joint), found = find_node(use_.asset, node);
-      if (found < 0) return Issue{"recording.unknown_node", "/joints/" + node, "is no node of the animation"};
-      if (index < 0)
-        return Issue{"recording.unknown_joint", "/joints/" + node,
-                     "found \"" + joint + "\", which is no joint of " + character_.name()};
-      if (given[at(index)] != 0)
-        return Issue{"recording.duplicate_joint", "/joints/" + node, "\"" + joint + "\" is given to two nodes"};
-      given[at(index)] = 1, nodes[at(index)] = found;
-    }
-    return nodes;
-  }
 
   // How many hinges in one point, without nodes of their own, go with this one.
   int hinges_from(int first) const {
@@ -164,6 +215,23 @@ class Follower {
     return shortest_arc(glm::normalize(inherited * bone), glm::normalize(model)) * inherited;
   }
 
+  std::vector<Rigid> nodes_at(const std::vector<Trs>& local) const {
+    std::vector<Rigid> nodes = world_of(use_.asset, local);
+    if (facing_ != kNoRotation)
+      for (Rigid& node : nodes) node = Rigid{facing_, Vec3(0.0)} * node;
+    return nodes;
+  }
+
+  void face_forward() {
+    std::vector<Vec3> model, own;
+    for (const Followed& f : followed_) {
+      model.push_back(node_rest_[at(f.node)].p_m - node_rest_[at(followed_[0].node)].p_m);
+      own.push_back(rest_[at(f.joint)].p_m - rest_[at(followed_[0].joint)].p_m);
+    }
+    facing_ = facing_of(model, own);
+    node_rest_ = nodes_at(rest_of(use_.asset));
+  }
+
   Quat turned(int node, const std::vector<Rigid>& nodes) const {
     return nodes[at(node)].q * glm::conjugate(node_rest_[at(node)].q);
   }
@@ -179,7 +247,7 @@ class Follower {
   double lowest_ever() const {
     double low = std::numeric_limits<double>::infinity();
     for (int frame = 0; frame == 0 || begin_s() + frame / use_.rate_hz <= use_.clip.last_s; ++frame)
-      low = std::min(low, lowest(world_of(use_.asset, pose(use_.asset, use_.clip, begin_s() + frame / use_.rate_hz))));
+      low = std::min(low, lowest(nodes_at(pose(use_.asset, use_.clip, begin_s() + frame / use_.rate_hz))));
     return low;
   }
 
@@ -195,10 +263,32 @@ class Follower {
   }
 
   void place_root(const std::vector<Rigid>& nodes, Rigid& root) const {
+    if (!has_root_) {
+      root = use_.start * character_.rest_root();
+      return;
+    }
     const Followed& own = followed_[0];
     const Quat q = turned(own.node, nodes) * own.world_aside * rest_[0].q;
     const Vec3 above_floor = nodes[at(own.node)].p_m - Vec3(0, fit_.node_floor, 0);
     root = use_.start * Rigid{glm::normalize(q), fit_.scale * above_floor + Vec3(0, fit_.floor_m, 0)};
+  }
+
+  // Where the joint should turn to, in the world.
+  Quat wanted_turn(const Followed& f, const std::vector<Rigid>& nodes) const {
+    return use_.start.q * turned(f.node, nodes) * f.world_aside * rest_[at(f.joint)].q;
+  }
+
+  // Keeps the most that the joint did not take over.
+  void note(const Followed& f, int frame, const std::vector<Rigid>& nodes, const std::vector<Trs>& local,
+            std::span<const Rigid> world, FollowedNode& out) const {
+    if (joint(f.joint).kind == JointKind::prismatic) return;
+    const Quat& taken = world[at(f.joint + f.hinges - 1)].q;
+    const double missed = rotation_angle(glm::conjugate(taken) * wanted_turn(f, nodes));
+    if (missed > out.missed_rad) out.missed_rad = missed, out.missed_frame = frame;
+    const AssetNode& node = use_.asset.nodes[at(f.node)];
+    const Vec3 off = local[at(f.node)].translation - node.rest.translation;
+    const double moved_m = fit_.scale * length(node.parent < 0 ? off : node_scale_[at(node.parent)] * off);
+    if (moved_m > out.moved_m) out.moved_m = moved_m, out.moved_frame = frame;
   }
 
   void turn(const Followed& f, const std::vector<Rigid>& nodes, const std::vector<Trs>& local,
@@ -210,7 +300,7 @@ class Follower {
       q[0] = glm::dot(glm::conjugate(rest.rotation) * (local[at(f.node)].translation - rest.translation), own.axis);
       return;
     }
-    const Quat wanted = use_.start.q * turned(f.node, nodes) * f.world_aside * rest_[at(f.joint)].q;
+    const Quat wanted = wanted_turn(f, nodes);
     const Quat in_joint = glm::conjugate(world[at(own.parent)].q * own.parent_from_joint.q) * wanted;
     if (own.kind == JointKind::ball) {
       q[0] = in_joint.w, q[1] = in_joint.x, q[2] = in_joint.y, q[3] = in_joint.z;
@@ -219,27 +309,25 @@ class Follower {
     }
   }
 
-  // Euler angles have two solutions: the one nearer to the frame before, so that none jumps to the other.
   void share(const Followed& f, const Quat& wanted, std::span<const double> before, std::span<double> row) const {
     const Joint& own = joint(f.joint);
     if (f.hinges == 1) {
-      row[at(own.coord)] = twist_about(own.axis, wanted);
+      row[at(own.coord)] = counted_on(twist_about(own.axis, wanted), before[at(own.coord)]);
       return;
     }
     const Vec3 second = joint(f.joint + 1).axis;
     const Vec3 third = f.hinges == 3 ? joint(f.joint + 2).axis : glm::cross(own.axis, second);
-    const Vec3 one = hinge_angles(own.axis, second, third, wanted);
-    const Vec3 other(wrap_angle(one.x + kPi), wrap_angle(kPi - one.y), wrap_angle(one.z + kPi));
-    double apart[2] = {0.0, 0.0};
-    for (int k = 0; k < f.hinges; ++k) {
-      const double last = before[at(joint(f.joint + k).coord)];
-      apart[0] += std::fabs(wrap_angle(one[k] - last)), apart[1] += std::fabs(wrap_angle(other[k] - last));
-    }
-    for (int k = 0; k < f.hinges; ++k) row[at(joint(f.joint + k).coord)] = apart[1] < apart[0] ? other[k] : one[k];
+    Vec3 last(0.0);
+    for (int k = 0; k < f.hinges; ++k) last[k] = before[at(joint(f.joint + k).coord)];
+    const Vec3 angles = nearer_solution(hinge_angles(own.axis, second, third, wanted), last, f.hinges);
+    for (int k = 0; k < f.hinges; ++k) row[at(joint(f.joint + k).coord)] = counted_on(angles[k], last[k]);
   }
 
   const Character& character_;
   const RecordingUse& use_;
+  bool has_root_ = false;
+  Quat facing_ = kNoRotation;
+  std::vector<Vec3> node_scale_;  // at rest
   std::vector<Rigid> node_rest_;
   std::vector<Rigid> rest_;
   std::vector<int> followed_of_;  // by joint: index into the next, or -1
@@ -255,7 +343,8 @@ double frames_of(const RecordingUse& use) {
   return std::floor(length_s * use.rate_hz + 1e-3) + 1.0 + use.hold_frames;
 }
 
-Result<Motion> follow_recording(const Character& character, const RecordingUse& use) {
+Result<Motion> follow_recording(const Character& character, const RecordingUse& use,
+                                std::vector<FollowedNode>* followed) {
   Follower follower(character, use);
   if (const Result<Done> mapped = follower.map(); !mapped) return mapped.issue();
   Motion motion;
@@ -264,7 +353,9 @@ Result<Motion> follow_recording(const Character& character, const RecordingUse& 
   motion.frame_count = static_cast<int>(frames_of(use));
   motion.coords.resize(at(motion.frame_count) * at(motion.coord_count));
   motion.root.resize(at(motion.frame_count));
-  follower.play(motion);
+  std::vector<FollowedNode> left_out = follower.followed();
+  follower.play(motion, left_out);
+  if (followed != nullptr) *followed = std::move(left_out);
   return motion;
 }
 

@@ -7,11 +7,12 @@
 // takes what it can of such a turn; hinges in one point that have no nodes of their own share it as Euler angles.
 // Joints without a node stay at rest. The root's path is scaled by how far both roots are at rest above the lowest
 // joint that is mapped. Both shall face +Z with +Y up (glTF). A model whose root rests at the origin, as in BVH, stands
-// where its lowest mapped node ever is.
+// where its lowest mapped node ever is. What joints cannot take over of their nodes is told in FollowedNode.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "model/asset/asset.h"
 #include "model/core/result.h"
@@ -27,11 +28,27 @@ struct RecordingUse {
   double rate_hz = 60.0;
   int hold_frames = 0;  // after the end
   Rigid start;          // of the model's origin in the world: a turn about +Y and a place
+  // A model whose joints lie over the character's after a quarter turn or two about +Y is turned so.
+  bool may_face_elsewhere = false;
+  bool may_lack_root = false;  // without a node for the root, it stays where it is at rest
+};
+
+// How a joint followed its node, and the most that it left out.
+struct FollowedNode {
+  int joint = 0;
+  int node = 0;
+  int hinges = 1;           // that share the node's turn: this joint and those after it
+  double missed_rad = 0.0;  // between the turn of the node and that of the joint, which may have too few axes for it
+  int missed_frame = 0;
+  double moved_m = 0.0;  // of a node below the root from its place at rest in its parent, in the character's size
+  int moved_frame = 0;
+  bool operator==(const FollowedNode&) const = default;
 };
 
 // Codes "recording.unknown_joint", "recording.unknown_node", "recording.duplicate_joint" (pointers "/joints/<node>"),
-// "recording.no_root".
-Result<Motion> follow_recording(const Character& character, const RecordingUse& use);
+// "recording.no_root". `followed`, where it is given, gets an entry for each joint with a node, by joint.
+Result<Motion> follow_recording(const Character& character, const RecordingUse& use,
+                                std::vector<FollowedNode>* followed = nullptr);
 
 // Its number of frames, held ones included; at least 1.
 double frames_of(const RecordingUse& use);

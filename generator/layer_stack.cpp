@@ -1,0 +1,102 @@
+#include "generator/layer_stack.h"
+
+namespace contort {
+
+namespace {
+
+// Of the actions that move a part now, the one that began last, if that was after what had the layer before. One that
+// begins in this very frame has to wait for the next one where another has moved already.
+LayerHold next_hold(const Playback& playback, const LayerHold& held, Layer layer, std::size_t part) {
+  LayerHold best;
+  double best_began = 0.0;
+  playback.for_each(part, layer, 0, [&](int run, int action) {
+    if (!playback.moves(playback.action(action), playback.run(run))) return;
+    const double began = Playback::began(playback.action(action), playback.run(run));
+    if (began < held.since || (began == held.since && action < held.since_action)) return;
+    const bool moved = began < playback.frame(), best_moved = best_began < playback.frame();
+    if (best.action >= 0 && (moved != best_moved ? !moved : began < best_began)) return;
+    best.action = action, best.run = run;
+    best_began = began;
+  });
+  best.since = best.action >= 0 ? best_began : held.since;
+  best.since_action = best.action >= 0 ? best.action : held.since_action;
+  return best;
+}
+
+bool is_same(const LayerHold& a, const LayerHold& b) { return a.action == b.action && a.run == b.run; }
+
+// How far an action's easing had come a frame ago.
+double eased_before(const Playback& playback, const LayerHold& hold) {
+  return blended_in(planned(playback, hold), hold.came, content(playback, hold) - 1);
+}
+
+// Whether the posture of an action that has lost its layer still was in force in the frame before.
+bool was_in_force(const Playback& playback, const LayerHold& hold, std::size_t part) {
+  return places_foot(playback, hold, part) ||
+         not_blended_out(planned(playback, hold), content(playback, hold) - 1) > 0.0;
+}
+
+}  // namespace
+
+const PlannedAction& planned(const Playback& playback, const LayerHold& hold) { return playback.action(hold.action); }
+
+int content(const Playback& playback, const LayerHold& hold) { return playback.content(playback.run(hold.run)); }
+
+double come_in(const Playback& playback, const LayerHold& hold) {
+  return come_in(planned(playback, hold), hold.came, content(playback, hold), playback.frame() - hold.frame,
+                 playback.rate_hz());
+}
+
+double left_of(const Playback& playback, const LayerHold& hold) {
+  return not_blended_out(planned(playback, hold), content(playback, hold));
+}
+
+double covered(const Playback& playback, const LayerHold& hold) {
+  const double left = 1.0 - hold.eased;
+  return left > 1e-9 ? (come_in(playback, hold) - hold.eased) / left : 1.0;
+}
+
+bool moves_legs(const Playback& playback, const LayerHold& hold) {
+  return planned(playback, hold).def->spread == Spread::legs;
+}
+
+bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t part) {
+  return moves_legs(playback, hold) && part != 0 && hold.eased >= 1.0;
+}
+
+LayerStack::Change LayerStack::advance(const Playback& playback, std::size_t part) {
+  const LayerHold ik = next_hold(playback, ik_, Layer::ik, part);
+  Change change;
+  // An action that begins in this frame has moved nothing yet: the one before it ends as if none followed.
+  change.ik_follows = ik_.action >= 0 && ik.action >= 0 && ik.since < playback.frame();
+  change.settles = ik_.action >= 0 && ik.action != ik_.action && !change.ik_follows &&
+                   was_in_force(playback, ik_, part);
+  if (change.settles && overwrite_.action >= 0) overwrite_.eased = eased_before(playback, overwrite_);
+  const LayerHold overwrite = next_hold(playback, overwrite_, Layer::overwrite, part);
+  change.overwrite_begins = take_over(playback, part, overwrite, overwrite_);
+  change.ik_begins = take_over(playback, part, ik, ik_);
+  return change;
+}
+
+// Gives a layer to the action that has it now; true if that begins.
+bool LayerStack::take_over(const Playback& playback, std::size_t part, const LayerHold& next, LayerHold& hold) const {
+  if (is_same(next, hold)) return false;
+  LayerHold taken = next;
+  if (next.action >= 0) {
+    const PlannedAction& action = planned(playback, next);
+    taken.frame = playback.frame();
+    taken.came = Playback::comes(action, playback.run(next.run));
+    taken.eased = action.def->timing == Timing::goal ? eased_before(playback, taken)
+                                                     : static_cast<double>(stands_for(playback, next, part));
+  }
+  hold = taken;
+  return next.action >= 0;
+}
+
+// Whether a leg or foot is where the last course of legs put it. No action that blends its joints has moved it since.
+bool LayerStack::stands_for(const Playback& playback, const LayerHold& next, std::size_t part) const {
+  return moves_legs(playback, next) && part != 0 && overwrite_.since_action < 0 &&
+         (ik_.since_action < 0 || playback.action(ik_.since_action).def->spread == Spread::legs);
+}
+
+}  // namespace contort

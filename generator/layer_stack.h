@@ -1,0 +1,62 @@
+// Which actions have the two exclusive layers of a part, overwrite and ik, and how far their motion has come in. The
+// postures are moved in generate.cpp; docs/timeline.md has the rules.
+#pragma once
+
+#include "generator/playback.h"
+
+namespace contort {
+
+// The action that has a layer. It takes over from the posture that it finds: `eased` is the progress that its easing
+// had in the frame before, so the rest of the way is covered in the rest of the time.
+struct LayerHold {
+  int action = -1;        // index into Timeline::actions; -1: none
+  int run = -1;           // index into the queue's history
+  int frame = -1;         // of the motion, in which it took over
+  double came = 0.0;      // the content frame at which it took over
+  double eased = 0.0;     // [0, 1]
+  double since = -1e30;   // when the last action that had the layer began, in frames of the motion
+  int since_action = -1;  // that action: none that began earlier gets the layer
+  bool operator==(const LayerHold&) const = default;
+};
+
+// The plan of a hold's action and its content frame; in [0, 1] how far it has come in, and how much of it is left while
+// it fades out. The hold must have an action.
+const PlannedAction& planned(const Playback& playback, const LayerHold& hold);
+int content(const Playback& playback, const LayerHold& hold);
+double come_in(const Playback& playback, const LayerHold& hold);
+double left_of(const Playback& playback, const LayerHold& hold);
+
+// The share of the way from the posture that a hold found to the one that it wants, in [0, 1] for eased < 1.
+double covered(const Playback& playback, const LayerHold& hold);
+
+bool moves_legs(const Playback& playback, const LayerHold& hold);
+
+// Whether legs have put the foot where it belongs: blended angles would have it slide.
+bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t part);
+
+class LayerStack {
+ public:
+  // What postures must do in this frame, in this order.
+  struct Change {
+    bool settles = false;           // what ik showed becomes the base, and an overwrite beneath goes on from there
+    bool overwrite_begins = false;  // from the base
+    bool ik_begins = false;         // from the base, or,
+    bool ik_follows = false;        // where ik had the layer already, from what was shown
+    bool operator==(const Change&) const = default;
+  };
+
+  // Brings both holds to the playback's frame; frames in rising order.
+  Change advance(const Playback& playback, std::size_t part);
+
+  const LayerHold& overwrite() const { return overwrite_; }
+  const LayerHold& ik() const { return ik_; }
+
+ private:
+  bool take_over(const Playback& playback, std::size_t part, const LayerHold& next, LayerHold& hold) const;
+  bool stands_for(const Playback& playback, const LayerHold& next, std::size_t part) const;
+
+  LayerHold overwrite_;
+  LayerHold ik_;
+};
+
+}  // namespace contort

@@ -1,0 +1,35 @@
+// The parameters of a gait.
+#pragma once
+
+#include <span>
+
+#include "model/motion/legs.h"
+
+namespace contort {
+
+struct GaitParams {
+  double speed_m_s = 1.0;    // >= 0, of the root; 0 stands
+  double heading_rad = 0.0;  // of travel, from where the character faces; it keeps facing the same way
+  double cycle_s = 1.0;      // > 0, between two steps of one foot
+  double duty = 0.6;         // (0, 1): the share of the cycle in which a foot stands
+  double under = 0.5;        // (0, 1): of the stance, when the hips have come over the foot
+  int lead = 0;              // the side that stands when it begins: 0 left, 1 right
+  bool trot = false;         // run: legs cross-wise together; else rows one after another
+  double lift_m = 0.08;      // of a swinging foot, at least
+  double lower_m = 0.0;      // the root below its height at rest
+  double bounce_m = 0.0;     // of the root, twice in a cycle: up between the feet (run), or down there where < 0 (walk)
+  double heel_up_rad = 0.0;  // >= 0, of a sole when it leaves the ground over its toes
+  double toes_up_rad = 0.0;  // >= 0, of a sole that comes down on its heel
+};
+
+// Sensible parameters for a speed on these legs: longer legs step more slowly, as pendulums do (Froude number).
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
+
+// The share of the bounce, [0, 1], at so many cycles after a stance began: 0 where the hips are over the foot.
+double root_beat(const GaitParams& params, double cycles);
+
+double least_length_m(std::span<const Leg> legs);  // 1 where there is none
+int row_count(std::span<const Leg> legs);            // at least 1
+
+}  // namespace contort

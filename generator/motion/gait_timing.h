@@ -1,0 +1,47 @@
+// When feet swing and how far the root has come: the timing of a gait's course. docs/gait.md has the equations.
+#pragma once
+
+#include <span>
+
+#include "generator/motion/gait_params.h"
+#include "model/motion/legs.h"
+
+namespace contort {
+
+// Where a foot is in its cycle: steps are numbered by their stances, from the beginning.
+struct FootCycle {
+  int step = 0;
+  double stance = 0.0;  // how much of it is over, [0, 1]
+  double swing = 0.0;   // 0: stands; else how much of the swing is over, (0, 1)
+};
+
+// Of one course with these parameters and legs, which must outlive it. Times are in seconds since its begin.
+class GaitTiming {
+ public:
+  GaitTiming(const GaitParams& params, std::span<const Leg> legs, double duration_s);
+
+  FootCycle cycle(const Leg& leg, double time_s) const;
+
+  // When a foot is lifted from a stance, and when the hips come over it; negative before the course began.
+  double lifted_s(const Leg& leg, int step) const;
+  double middle_s(const Leg& leg, int step) const;
+
+  // The root's way. It ends a cycle early, so that every foot has the time to come home.
+  double travelled_m(double time_s) const;
+
+  // The way of half a cycle about a time, as a share of that at full speed.
+  double step_share(double time_s) const;
+
+ private:
+  double phase(const Leg& leg) const;
+  double first_lift_s(const Leg& leg) const;
+
+  const GaitParams& params_;
+  int rows_ = 1;
+  double speed_m_s_ = 0.0;
+  double moving_s_ = 0.0;  // then the root stands again
+  double up_s_ = 0.0;      // for which its speed rises
+  double down_s_ = 0.0;    // and falls
+};
+
+}  // namespace contort

@@ -1,0 +1,59 @@
+// What the queue plays in one frame of the motion: runs of sequences, and the actions in them.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "generator/timeline/timeline.h"
+#include "model/core/index.h"
+
+namespace contort {
+
+// A view of a timeline and of its queue's history, as they are in one frame; both must outlive it. A run is an entry of
+// the history. Its content is the frame of its own sequence, which goes on from where an interrupt cut it.
+class Playback {
+ public:
+  Playback(const Timeline& timeline, std::span<const QueueSpan> history, double rate_hz, int frame)
+      : timeline_(timeline), history_(history), rate_hz_(rate_hz), frame_(frame) {}
+
+  int frame() const { return frame_; }
+  double rate_hz() const { return rate_hz_; }
+  const PlannedAction& action(int index) const { return timeline_.actions[at(index)]; }
+  const QueueSpan& run(int index) const { return history_[at(index)]; }
+
+  static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
+  int content(const QueueSpan& run) const { return content(run, frame_); }
+
+  // The content frame at which an action takes its part in a run: its start, or where the sequence went on.
+  static double comes(const PlannedAction& action, const QueueSpan& run) {
+    return std::max(action.start, static_cast<double>(run.first_content));
+  }
+  // The same on the motion's time line.
+  static double began(const PlannedAction& action, const QueueSpan& run) {
+    return comes(action, run) - run.first_content + run.first_frame;
+  }
+
+  // Whether an action moves its part in this frame of a run.
+  bool moves(const PlannedAction& action, const QueueSpan& run) const {
+    return content(run) >= action.first_frame && content(run) <= action.last_frame;
+  }
+
+  // Calls visit(run index, action index) for all actions of a layer on a part, in runs that had not ended `ago` frames
+  // before this one. Two runs overlap in the frame in which the second follows the first.
+  template <class Visit>
+  void for_each(std::size_t part, Layer layer, int ago, Visit visit) const {
+    std::size_t first = history_.size();
+    while (first > 0 && history_[first - 1].last_frame >= frame_ - ago) --first;
+    for (std::size_t r = first; r < history_.size(); ++r)
+      for (const int a : timeline_.of_part[at(history_[r].sequence) * timeline_.part_order.size() + part])
+        if (action(a).def->layer == layer) visit(static_cast<int>(r), a);
+  }
+
+ private:
+  const Timeline& timeline_;
+  std::span<const QueueSpan> history_;
+  double rate_hz_;
+  int frame_;
+};
+
+}  // namespace contort

@@ -1,0 +1,45 @@
+#include "generator/root_carry.h"
+
+#include "generator/motion/place_foot.h"
+
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+// Hips over the feet, and feet on the ground.
+void fit_to_ground(const Stage& stage, const GaitFrame& frame, std::span<Rigid> world, Posture& posture) {
+  const Character& character = *stage.character;
+  posture.root = frame.root;
+  forward_kinematics(character, posture.root, posture.coords, world);
+  for (std::size_t i = 0; i < stage.legs.size(); ++i)
+    place_foot(character, stage.legs[i], world, frame.feet[i].world_from_sole, posture.coords);
+}
+
+}  // namespace
+
+void RootCarry::begin(const Stage& stage, std::span<Rigid> world, Posture& posture) {
+  stage_ = &stage;
+  stands_at_ = base_stands_at_ = stage.start;
+  Gait gait;
+  gait.begin(*stage.character, stage.legs, stage.environment, stage.start, {});
+  soles_ = gait.first_soles();
+  const Vec3& at = stage.start.p_m;
+  if ((stage.environment.is_level() && !stage.bends) || stage.legs.empty())
+    posture.root.p_m.y += stage.environment.height_at(at.x, at.z);
+  else
+    fit_to_ground(stage, gait.stand(0.0), world, posture);
+}
+
+void RootCarry::remember(const GaitFrame& frame) {
+  stands_at_ = frame.stands_at;
+  for (std::size_t i = 0; i < stage_->legs.size(); ++i) soles_[i] = frame.feet[i].world_from_sole;
+}
+
+void RootCarry::bring_along(Rigid& base_root) {
+  base_root = brought_along(below(), base_root, base_stands_at_, stands_at_);
+  settle();
+}
+
+}  // namespace contort

@@ -1,0 +1,40 @@
+// Where legs have carried the character, and where they have put its feet.
+#pragma once
+
+#include <array>
+
+#include "generator/motion/root_blend.h"
+#include "generator/stage.h"
+
+namespace contort {
+
+// Places are in the world, in metres. After a walk the base posture is brought along, so that fading to it does not
+// pull the character back.
+class RootCarry {
+ public:
+  // Begins at the stage's start and stands `posture`, which is at rest, up there: on uneven ground hips and feet fit
+  // themselves to what is beneath. `world` is scratch, with an entry for each joint.
+  void begin(const Stage& stage, std::span<Rigid> world, Posture& posture);
+
+  // Legs have moved the character in this frame.
+  void remember(const GaitFrame& frame);
+
+  // The base's root is where the character stands now.
+  void settle() { base_stands_at_ = stands_at_; }
+
+  // Brings a root of the base from where it was made to where the character stands.
+  void bring_along(Rigid& base_root);
+
+  // A turn about +Y and a place on the plane y = 0.
+  const Rigid& stands_at() const { return stands_at_; }
+  const std::array<Rigid, kMaxLegs>& soles() const { return soles_; }
+  LegsBelow below() const { return {*stage_->character, stage_->legs, stage_->environment}; }
+
+ private:
+  const Stage* stage_ = nullptr;
+  Rigid stands_at_;
+  Rigid base_stands_at_;  // where it stood when the base's root was made
+  std::array<Rigid, kMaxLegs> soles_{};
+};
+
+}  // namespace contort

@@ -1,0 +1,53 @@
+#include "generator/rule_runner.h"
+
+#include <algorithm>
+
+#include "generator/motion/blend.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+// In seconds of the action's content, which a stretched clip plays more slowly.
+ActionTime time_of(const PlannedAction& action, double came, int content, double rate_hz) {
+  const double duration_s = (action.end - action.start) / action.scale / rate_hz;
+  const double u = progress(action, content);
+  const double missed_s = std::min(duration_s, action.speed * (came - action.start) / action.scale / rate_hz);
+  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s};
+}
+
+}  // namespace
+
+void RuleRunner::begin(const Stage& stage) {
+  const Character& character = *stage.character;
+  stage_ = &stage;
+  bodies_.assign(at(stage.timeline.use_count), {});
+  feedback_.assign(character.parts().size(), {});
+  world_.resize(character.joints().size());
+}
+
+void RuleRunner::begin_frame() { std::ranges::fill(feedback_, Feedback{}); }
+
+void RuleRunner::place(std::size_t part, const Posture& posture) {
+  const Part& own = stage_->character->parts()[part];
+  if (part == 0) world_[0] = posture.root;
+  forward_kinematics(*stage_->character, posture.coords, own.first_joint, own.first_joint + own.joint_count, world_);
+}
+
+const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
+                               const Posture& beneath, const Rigid& stands_at) {
+  const Character& character = *stage_->character;
+  const PlannedAction& action = playback.action(call.action);
+  copy_part(character, part, beneath, target_);
+  if (action.def->layer != Layer::overwrite) place(part, target_);  // a chain may hang on a joint of its own part
+  const ActionTime time = time_of(action, call.came, call.content, playback.rate_hz());
+  action.def->rule({character, character.parts()[part], action.params, world_, time, stage_->start,
+                    stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
+                    action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
+                    feedback_[part]},
+                   target_);
+  return target_;
+}
+
+}  // namespace contort

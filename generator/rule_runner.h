@@ -1,0 +1,47 @@
+// Runs the rules of actions on single parts, with the memory that rules have between frames.
+#pragma once
+
+#include <vector>
+
+#include "generator/playback.h"
+#include "generator/stage.h"
+
+namespace contort {
+
+// One call of an action's rule.
+struct RuleCall {
+  int action = 0;      // index into Timeline::actions
+  int content = 0;     // frame of its sequence
+  double came = 0.0;   // the content frame at which it took its part
+  int took_over = 0;   // the frame of the motion
+  double came_in = 1.0;  // how far it has come in, [0, 1]
+};
+
+// Parts are run carriers first: rules read the world transforms of what is placed already.
+class RuleRunner {
+ public:
+  void begin(const Stage& stage);
+  void start_from(const Posture& posture) { target_ = posture; }  // parts that no rule has moved yet
+  void begin_frame();  // forgets the feedback of the frame before
+
+  // The world transforms of a part's own joints in a posture; its carrier must be placed.
+  void place(std::size_t part, const Posture& posture);
+
+  // What a rule makes of the part's posture `beneath` it; `from` is the posture that the action found, and `stands_at`
+  // where legs have carried the character. Only the part's own entries of the answer mean anything, until the next run.
+  const Posture& run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
+                     const Posture& beneath, const Rigid& stands_at);
+
+  WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
+  std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
+  std::span<Rigid> world() { return world_; }                       // by joint
+
+ private:
+  const Stage* stage_ = nullptr;
+  std::vector<WholeBody> bodies_;  // by use of an action
+  std::vector<Feedback> feedback_;
+  std::vector<Rigid> world_;
+  Posture target_;
+};
+
+}  // namespace contort
