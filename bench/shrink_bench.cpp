@@ -52,7 +52,7 @@ std::vector<Case> failures_of(const Spec& spec, StageEvaluator& evaluator) {
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) return {};  // reverse legs do not take every parameter of human ones
   const Evaluation evaluation = evaluator.run(*stage);
-  std::map<std::string, const Finding*> deepest_of;
+  std::map<Family, const Finding*> deepest_of;
   for (const Finding& finding : evaluation.findings) {
     const Finding*& deepest = deepest_of[family_of(spec.character.name, finding)];
     if (deepest == nullptr || finding.depth > deepest->depth) deepest = &finding;
@@ -66,7 +66,7 @@ std::vector<Case> failures_of(const Spec& spec, StageEvaluator& evaluator) {
 // One failure of each drawn case that fails, another one in each.
 std::vector<Case> drawn_failures(const Figure& figure, int seed, std::size_t wanted) {
   std::vector<Case> chosen;
-  std::map<std::string, int> of_family;
+  std::map<Family, int> of_family;
   StageEvaluator evaluator;
   for (std::size_t index = 0; index < kCasesOfSeed && chosen.size() < wanted; ++index) {
     const std::vector<Case> failures = failures_of(drawn(figure, seed, static_cast<int>(index)), evaluator);
@@ -119,7 +119,7 @@ void print(const Measured& m) {
   std::printf("%-8s %4d evaluations %7.3f s  actions %2d -> %d  bytes %5zu -> %4zu  %-11s %s %s\n", m.figure.c_str(),
               m.evaluations, m.seconds, actions_of(m.original.spec), actions_of(m.minimal.spec),
               print_spec(m.original.spec).size(), print_spec(m.minimal.spec).size(), m.stopped.c_str(),
-              m.same_again ? "" : "CHANGES AGAIN", family_of(m.original).c_str());
+              m.same_again ? "" : "CHANGES AGAIN", print_family(family_of(m.original)).c_str());
   std::fflush(stdout);
 }
 

@@ -31,16 +31,11 @@ struct CorpusOptions {
   bool json = false;
 };
 
-std::string character_of(const Bucket& bucket) {
-  const std::size_t first = std::min(bucket.family.find('|'), bucket.family.size() - 1) + 1;
-  return bucket.family.substr(first, bucket.family.find('|', first) - first);
-}
-
 bool is_wanted(const Bucket& bucket, const CorpusOptions& options) {
   const std::string state(state_name(bucket.state));
   return (options.states.empty() || std::ranges::count(options.states, state) > 0) &&
          (options.check.empty() || bucket.check == options.check) &&
-         (options.character.empty() || character_of(bucket) == options.character);
+         (options.character.empty() || bucket.family.character == options.character);
 }
 
 Json bucket_json(const Corpus& corpus, const Bucket& bucket, const std::string& today) {
@@ -72,7 +67,7 @@ std::vector<Bucket> read_buckets(const Corpus& corpus, Context& context) {
 // One line for all that are alike but for the side: the ids of the others come last.
 void print_line(const Bucket& bucket, const std::string& others, const std::string& today) {
   std::printf("%-11s  %s  %s%s  %s%s\n", std::string(state_name(bucket.state)).c_str(), bucket.id.c_str(),
-              printable(bucket.family).c_str(), is_gating(bucket, today) ? "  GATES" : "",
+              printable(print_family(bucket.family)).c_str(), is_gating(bucket, today) ? "  GATES" : "",
               printable(known_text(bucket, today)).c_str(), others.c_str());
 }
 
@@ -134,12 +129,12 @@ void show(const CorpusOptions& options, Context& context) {
   line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", gates" : ""));
   line("known", known_text(bucket, context.day()));
   line("note", bucket.note);
-  line("family", bucket.family);
+  line("family", print_family(bucket.family));
   line("features", bucket.features);
   for (const std::string& build : bucket.passed_in) line("passed in", build);
   for (const std::string& run : bucket.runs) line("run", run);
   if (minimal)
-    for (const std::string& other : minimal->also) line("comes with", other);
+    for (const Family& other : minimal->also) line("comes with", print_family(other));
   for (const std::string& file : files_of(bucket))
     line(file.substr(0, file.find('-')).c_str(),
          replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));

@@ -183,7 +183,7 @@ void print_totals(const RunResult& result, const FuzzOptions& options, const Che
   const RunRecord& t = result.record;
   if (options.json) {
     json_fields::Json families = json_fields::Json::object(), arms = json_fields::Json::object();
-    for (const auto& [family, count] : t.families) families[family] = count.cases;
+    for (const auto& [family, count] : t.families) families[print_family(family)] = count.cases;
     for (const auto& [arm, count] : t.arms)
       arms[arm] = {{"cases", count.cases}, {"failing", count.failing}, {"families", 0}};
     for (const auto& [family, count] : t.families)
@@ -249,7 +249,7 @@ Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Fuzz
       if (is_gating(*bucket, today, *baseline)) return true;
     }
   std::vector<Issue> damaged;
-  const std::set<std::string> known = known_families(corpus.buckets(damaged), today, *baseline);
+  const std::set<Family> known = known_families(corpus.buckets(damaged), today, *baseline);
   return std::ranges::any_of(result.waiting, [&](const std::string& path) {
     const Result<Lead> lead = read_lead(path);
     return lead && !known.contains(family_of(lead->original));

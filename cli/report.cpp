@@ -78,7 +78,7 @@ struct RowContext {
 // What the case says by itself. `key` names the files of the row.
 ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
   ReportRow row;
-  row.family = family_of(stored), row.check = stored.expect.check, row.key = key;
+  row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
   row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
@@ -103,7 +103,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
 ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& with) {
   const std::string path = with.corpus.folder_of(bucket) + "/" + bucket.min, day = with.context.day();
   ReportRow row = row_of_case(stored, path, folder_name(bucket), with);
-  row.family = bucket.family, row.features = bucket.features;
+  row.family = print_family(bucket.family), row.features = bucket.features;
   row.bucket = bucket.id, row.state = state_name(bucket.state);
   row.gating = is_gating(bucket, day, with.known);
   row.note = with.known.contains(bucket) ? "in the baseline" : known_text(bucket, day);
@@ -111,13 +111,13 @@ ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& wit
 }
 
 // Of what is found and in no bucket. One that did not come again gates nothing: the run has said so.
-ReportRow row_of(const Lead& lead, const std::set<std::string>& known, const RowContext& with) {
+ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowContext& with) {
   const std::string path = lead_path(with.corpus, lead);
   const std::string name = std::filesystem::path(path).stem().string();
   ReportRow row = row_of_case(lead.original, path, "lead-" + name, with);
   row.bucket = name;
   row.state = waits(lead) ? "waiting" : "unconfirmed";
-  row.gating = waits(lead) && !known.contains(row.family);
+  row.gating = waits(lead) && !known.contains(family_of(lead.original));
   row.note = waits(lead) ? "found when time was up: the next contort fuzz on this corpus shrinks it"
                          : "seen once: a second run did not show it";
   return row;
@@ -147,7 +147,7 @@ void add_bucket_rows(std::vector<Bucket>& buckets, const RowContext& with, Repor
 
 void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
                    const std::string& out, std::vector<Issue>& damaged) {
-  const std::set<std::string> known = known_families(buckets, with.context.day(), with.known);
+  const std::set<Family> known = known_families(buckets, with.context.day(), with.known);
   for (const Lead& lead : leads_of(with.corpus, damaged)) {
     if (!waits(lead) && !is_unsteady(lead)) continue;
     const std::filesystem::path path = lead_path(with.corpus, lead);
@@ -192,7 +192,7 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
     model.cases += run.cases;
     model.frames += run.frames;
     for (const auto& [what, count] : run.tested) tested[what] += count;
-    for (const auto& [family, count] : run.families) seen[family] += count.cases;
+    for (const auto& [family, count] : run.families) seen[print_family(family)] += count.cases;
   }
   model.tested.assign(tested.begin(), tested.end());
   for (const Issue& issue : damaged) context.fail(issue);
@@ -271,7 +271,8 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
     if (entry.path().filename().string().rfind("min-", 0) != 0) continue;
     const Result<Case> stored = read_case_of(bucket_folder, entry.path().filename().string());
     if (!stored) return stored.issue();
-    return "NEW " + family_of(*stored) + "  " + short_number(stored->expect.worst_margin) + " " + stored->expect.unit +
+    return "NEW " + print_family(family_of(*stored)) + "  " + short_number(stored->expect.worst_margin) + " " +
+           stored->expect.unit +
            (stored->also.empty() ? "" : " and " + std::to_string(stored->also.size()) + " that come with it") + "  " +
            replay_command(entry.path().string(), library_folders);
   }

@@ -37,11 +37,11 @@ Result<Done> add_entry(const Json& entry, const std::string& pointer, Baseline& 
   const std::string id = text_in(entry, "id"), folder = text_in(entry, "bucket"), verdict = text_in(entry, "verdict");
   if (!folder.empty()) {
     const bool fails = verdict == verdict_name(Verdict::same) || verdict == verdict_name(Verdict::same_family);
-    if (fails) known.add(folder.substr(folder.rfind('-') + 1), text_in(entry, "family"));
+    if (fails) known.add(folder.substr(folder.rfind('-') + 1), parse_family(text_in(entry, "family")));
     return Done{};
   }
   if (id.empty()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
-  if (text_in(entry, "state") != state_name(BucketState::fixed)) known.add(id, text_in(entry, "family"));
+  if (text_in(entry, "state") != state_name(BucketState::fixed)) known.add(id, parse_family(text_in(entry, "family")));
   return Done{};
 }
 
@@ -57,9 +57,9 @@ Result<Baseline> from_list(const std::string& path, const Json& list) {
 
 }  // namespace
 
-void Baseline::add(const std::string& bucket, const std::string& family) {
+void Baseline::add(const std::string& bucket, const std::optional<Family>& family) {
   buckets.insert(bucket);
-  if (!family.empty()) families.insert(family);
+  if (family) families.insert(*family);
 }
 
 Result<Baseline> read_baseline(const std::string& path) {
@@ -75,9 +75,8 @@ bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& k
   return is_gating(bucket, today) && !known.contains(bucket);
 }
 
-std::set<std::string> known_families(const std::vector<Bucket>& buckets, const std::string& today,
-                                     const Baseline& known) {
-  std::set<std::string> families = known.families;
+std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known) {
+  std::set<Family> families = known.families;
   for (const Bucket& bucket : buckets)
     if (bucket.state != BucketState::fixed && !is_gating(bucket, today, known)) families.insert(bucket.family);
   return families;

@@ -1,6 +1,7 @@
 // What is known already on the branch that a change is compared with: such failures do not gate.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@ namespace contort {
 
 struct Baseline {
   std::set<std::string> buckets;   // ids
-  std::set<std::string> families;  // of these
-  void add(const std::string& bucket, const std::string& family);
+  std::set<Family> families;      // of these
+  void add(const std::string& bucket, const std::optional<Family>& family);
   bool contains(const Bucket& bucket) const { return buckets.contains(bucket.id); }
   bool operator==(const Baseline&) const = default;
 };
@@ -30,7 +31,6 @@ bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& k
 
 // Families of which something is known, in the baseline or as buckets that do not gate. Failures that wait to be shrunk
 // (leads.h) gate where theirs is none of these: which bucket they belong to, nobody knows yet.
-std::set<std::string> known_families(const std::vector<Bucket>& buckets, const std::string& today,
-                                     const Baseline& known);
+std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known);
 
 }  // namespace contort

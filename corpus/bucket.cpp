@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "corpus/family_fields.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
@@ -108,8 +109,8 @@ std::string features_of(const Spec& spec) {
   return text;
 }
 
-std::string bucket_id(const std::string& family, const std::string& features) {
-  return content_id(family + "\n" + features).substr(0, kIdDigits);
+std::string bucket_id(const Family& family, const std::string& features) {
+  return content_id(print_family(family) + "\n" + features).substr(0, kIdDigits);
 }
 
 bool cheaper(const Spec& a, const Spec& b) {

@@ -19,7 +19,7 @@ inline constexpr int kSignatureVersion = 2;
 std::string features_of(const Spec& spec);
 
 // 12 hex digits over the family and the features.
-std::string bucket_id(const std::string& family, const std::string& features);
+std::string bucket_id(const Family& family, const std::string& features);
 
 // Order of cost between specs that show the same: fewer actions, then shorter text, then the text.
 bool cheaper(const Spec& a, const Spec& b);
@@ -31,7 +31,7 @@ std::string_view state_name(BucketState state);
 struct Bucket {
   std::string id;
   std::string check;
-  std::string family;
+  Family family;
   std::string features;
   int signature = 1;  // kSignatureVersion of who named it; files of the first rules do not say it
   BucketState state = BucketState::fresh;

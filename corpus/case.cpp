@@ -1,88 +1,17 @@
 #include "corpus/case.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "checks/circumstances.h"
+#include "corpus/case_fields.h"
 #include "model/core/hash.h"
-#include "model/spec/spec_fields.h"
 
 namespace contort {
 
-namespace {
-
-using json_fields::Rule;
-using json_fields::Text;
-
-const Rule kText{.text = Text::label, .may_be_empty = true};
-const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
-const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
-const Rule kFrame{.low = 0, .high = 36000};
-const Rule kWholeNumber{.low = -1, .high = 0x1p53};
-
-}  // namespace
-
-template <class V>
-void fields(V& v, const Expectation*) {
-  v.field("check", &Expectation::check, {.required = true}, "The check that fails.");
-  v.field("subject", &Expectation::subject, kSubject, "What it judges.");
-  v.field("unit", &Expectation::unit, kText, "Of worst_margin.");
-  v.field("first_frame", &Expectation::first_frame, kFrame, "First violated frame.");
-  v.field("worst_frame", &Expectation::worst_frame, kFrame, "Frame of the worst margin.");
-  v.field("last_frame", &Expectation::last_frame, kFrame, "Last violated frame.");
-  v.field("worst_margin", &Expectation::worst_margin, {.low = -1e300, .high = 0, .may_be_nan = true},
-          "Signed distance to the limit.");
-  v.field("depth", &Expectation::depth, {.low = 0, .high = 1e300}, "-worst_margin in the check's scale.");
-  v.field("motion_hash", &Expectation::motion_hash, kHash, "Hash of all frames.");
-  v.field("character_hash", &Expectation::character_hash, kHash, "Hash of the assembled character.");
-  v.field("trace", &Expectation::trace, {.text = Text::hex}, "Running hash, four hex digits a frame.");
-  v.field("phase", &Expectation::phase, kText,
-          "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
-  v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400},
-          "Of a timeout: it did not end in so many seconds.");
-  v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
-}
-
-template <class V>
-void fields(V& v, const Provenance*) {
-  v.field("tool", &Provenance::tool, kText, "Version that found it.");
-  v.field("seed", &Provenance::seed, kWholeNumber, "Of the run; -1: written by a person.");
-  v.field("index", &Provenance::index, kWholeNumber, "Of the case in the run.");
-  v.field("shrunk_from", &Provenance::shrunk_from, kText, "Content id of the spec before shrinking.");
-  v.field("shrink_evaluations", &Provenance::shrink_evaluations, kFrame, "Motions generated while shrinking.");
-  v.field("shrink_stopped", &Provenance::shrink_stopped, kText, "fixpoint, evaluations, time, flaky or gone.");
-  v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
-  v.field("rank", &Provenance::rank, {.low = 0, .high = 1'000'000},
-          "Among the failures of its case by first frame; 0: the earliest.");
-  v.field("profile", &Provenance::profile, {.text = Text::prose, .may_be_empty = true},
-          "Profile of the run, by name; empty: it draws everything.");
-  v.field("met_shrinking", &Provenance::met_shrinking, {.text = Text::prose, .may_be_empty = true},
-          "Family of the failure whose shrinking met this one; empty: the case itself showed it.");
-}
-
-template <class V>
-void fields(V& v, const Case*) {
-  v.constant("format", "contort.case/1");
-  v.field("spec", &Case::spec, {.required = true}, "The action specification.");
-  v.field("expect", &Case::expect, {.required = true}, "What running it shows.");
-  v.field("provenance", &Case::provenance, {}, "Where it came from.");
-  v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = Text::label},
-          "Pointers into the spec: fields that could as well have other values.");
-  v.field("also", &Case::also, {.max_count = 100'000, .text = Text::prose},
-          "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
-}
-
-std::string family_of(const Case& stored) {
-  return stored.expect.check + "|" + stored.spec.character.name + "|" + stored.expect.subject;
-}
-
-FamilyParts family_parts(const std::string& family) {
-  const std::size_t first = std::min(family.find('|'), family.size());
-  const std::size_t second = std::min(family.find('|', first + 1), family.size());
-  const auto after = [&](std::size_t bar) { return std::min(bar + 1, family.size()); };
-  return {family.substr(0, first), family.substr(after(first), second - after(first)), family.substr(after(second))};
+Family family_of(const Case& stored) {
+  return {stored.expect.check, stored.spec.character.name, stored.expect.subject};
 }
 
 double depth_of(const Expectation& expect) {

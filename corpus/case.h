@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checks/family.h"
 #include "corpus/evaluator.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
@@ -42,7 +43,7 @@ struct Provenance {
   double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
   int rank = 0;                 // among the failures of its case by first frame; 0: the earliest
   std::string profile;          // of the run, by name; shrinking stays within it. "": it draws everything
-  std::string met_shrinking;  // family of the failure whose shrinking met this one; "" where the case itself showed it
+  Family met_shrinking;       // of the failure whose shrinking met this one; empty where the case itself showed it
   bool operator==(const Provenance&) const = default;
 };
 
@@ -51,18 +52,11 @@ struct Case {
   Expectation expect;
   Provenance provenance;
   std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
-  std::vector<std::string> also{};         // families that came with it before it was shrunk, and still do
+  std::vector<Family> also{};              // came with it before it was shrunk, and still do
   bool operator==(const Case&) const = default;
 };
 
-// "self_collision|mech|arm_left/forearm ~ torso/trunk": the identity of a failure, without numbers.
-std::string family_of(const Case& stored);
-
-// The other way round; of what is no family, what is there.
-struct FamilyParts {
-  std::string check, character, subject;
-};
-FamilyParts family_parts(const std::string& family);
+Family family_of(const Case& stored);
 
 // How deep it is in its check's scale. Nothing finite is as deep as NaN.
 double depth_of(const Expectation& expect);

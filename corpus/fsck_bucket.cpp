@@ -105,7 +105,7 @@ class BucketFolder {
     else if (!stored)
       faults_.add_unread(full, stored.issue(), aside(full));
     else if (family_of(*stored) != bucket_.family)
-      faults_.add(full, "wrong_name", "its family is " + family_of(*stored), aside(full));
+      faults_.add(full, "wrong_name", "its family is " + print_family(family_of(*stored)), aside(full));
     else if (const std::string name = case_file_name(role.name, stored->spec); name != file)
       return rename_case(full, name, file);
     else

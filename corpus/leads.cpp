@@ -39,16 +39,12 @@ Result<Done> write_case_of_lead(const Corpus& corpus, const std::string& path, c
 }
 
 // Without ".json". Indices in file names have equal length, so that names sort as indices do.
-std::string stem_of(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
-                    const std::string& met_shrinking) {
-  std::string digits = std::to_string(index);
-  digits.insert(0, 16 - std::min<std::size_t>(16, digits.size()), '0');
-  return folder_of(corpus, run) + "/" + bucket_id(family, met_shrinking) + "-" + digits;
-}
-
 std::string stem_of(const Corpus& corpus, const Lead& lead) {
   const Provenance& from = lead.original.provenance;
-  return stem_of(corpus, lead.run, family_of(lead.original), from.index, from.met_shrinking);
+  std::string digits = std::to_string(from.index);
+  digits.insert(0, 16 - std::min<std::size_t>(16, digits.size()), '0');
+  return folder_of(corpus, lead.run) + "/" + bucket_id(family_of(lead.original), print_family(from.met_shrinking)) +
+         "-" + digits;
 }
 
 std::vector<std::string> case_files(const Corpus& corpus) {
@@ -65,6 +61,13 @@ std::vector<std::string> case_files(const Corpus& corpus) {
 bool waits(const Lead& lead) { return !lead.minimal && lead.original.provenance.shrink_stopped == kWaits; }
 bool is_unsteady(const Lead& lead) { return !lead.minimal && lead.original.provenance.shrink_stopped == kUnsteady; }
 
+std::set<Family> families_told_by(const Lead& lead) {
+  if (!lead.minimal) return {};
+  std::set<Family> told(lead.minimal->also.begin(), lead.minimal->also.end());
+  told.insert(family_of(*lead.minimal));
+  return told;
+}
+
 Result<Lead> read_lead(const std::string& path) {
   Result<Case> original = read_case_of_lead(path);
   if (!original) return original.issue();
@@ -78,11 +81,6 @@ Result<Lead> read_lead(const std::string& path) {
     lead.*beside.stored = std::move(stored).value();
   }
   return lead;
-}
-
-std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
-                      const std::string& met_shrinking) {
-  return stem_of(corpus, run, family, index, met_shrinking) + ".json";
 }
 
 std::string lead_path(const Corpus& corpus, const Lead& lead) { return stem_of(corpus, lead) + ".json"; }

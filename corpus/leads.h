@@ -9,8 +9,8 @@
 // a lead of its own, which goes the way of that other; the hash in its name is over both families.
 #pragma once
 
-#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,15 +34,16 @@ inline constexpr char kWaits[] = "time", kUnsteady[] = "flaky";
 bool waits(const Lead& lead);
 bool is_unsteady(const Lead& lead);
 
+// What its minimal spec shows: of the same case, these need no bucket of their own. None before it was shrunk.
+std::set<Family> families_told_by(const Lead& lead);
+
 // Writes what it has; the path of the original.
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 
 // `path` is the original's.
 Result<Lead> read_lead(const std::string& path);
 
-// Where the original of a lead is. `met_shrinking` as in its provenance.
-std::string lead_path(const Corpus& corpus, const std::string& run, const std::string& family, std::int64_t index,
-                      const std::string& met_shrinking = {});
+// Where the original of a lead is.
 std::string lead_path(const Corpus& corpus, const Lead& lead);
 
 // By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.

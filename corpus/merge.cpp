@@ -57,7 +57,7 @@ std::string sentence_of(const std::vector<RunRecord>& shards, const std::vector<
 // One run would have taken others of its family, which came before it. What was met while another failure was shrunk
 // would not have been met without that one.
 bool came_too_late(const RunRecord& run, const Lead& lead) {
-  const std::string& shrunk = lead.original.provenance.met_shrinking;
+  const Family& shrunk = lead.original.provenance.met_shrinking;
   const auto family = run.families.find(shrunk.empty() ? family_of(lead.original) : shrunk);
   if (family == run.families.end()) return false;
   const std::vector<std::int64_t>& first = family->second.first_indices;
@@ -73,14 +73,13 @@ class ToldAlready {
     if (from.index != index_) index_ = from.index, shown_.clear(), told_.clear();
     if (!from.met_shrinking.empty()) return told_.contains(from.met_shrinking);
     if (shown_.contains(family_of(lead.original))) return told_.insert(family_of(lead.original)), true;
-    shown_.insert(family_of(*lead.minimal));
-    shown_.insert(lead.minimal->also.begin(), lead.minimal->also.end());
+    shown_.merge(families_told_by(lead));
     return false;
   }
 
  private:
   std::int64_t index_ = -1;
-  std::set<std::string> shown_, told_;  // families of this case
+  std::set<Family> shown_, told_;  // of this case
 };
 
 std::vector<Lead> shrunk_leads_of(const Corpus& corpus, const RunRecord& run, Merged& merged) {

@@ -1,6 +1,7 @@
 // Field lists (json_fields.h) of run records. Included from .cpp files only.
 #pragma once
 
+#include "corpus/family_fields.h"
 #include "corpus/runs.h"
 #include "model/core/json_fields.h"
 

@@ -40,7 +40,7 @@ struct RunRecord {
   std::int64_t failing = 0;                     // cases with at least one finding
   std::int64_t discarded = 0;                   // drawn specs that did not build: a fault of the draw
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
-  std::map<std::string, FamilyCount> families;  // family_of(Case)
+  std::map<Family, FamilyCount> families;
   std::map<std::string, ArmCount> arms;         // "uniform", "guided"
   bool operator==(const RunRecord&) const = default;
 };

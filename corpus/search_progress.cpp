@@ -33,7 +33,7 @@ std::vector<Shards> by_run(std::span<const RunRecord> runs) {
   return all;
 }
 
-struct Family {
+struct Sightings {
   std::int64_t cases = 0;
   std::int64_t first = 0;  // of all cases
   std::string first_arm;
@@ -44,23 +44,23 @@ struct Family {
 
 SearchProgress progress_of(std::span<const RunRecord> runs) {
   SearchProgress all;
-  std::map<std::string, Family> families;
+  std::map<Family, Sightings> families;
   std::map<std::string, ArmProgress> arms;
   for (const Shards& shards : by_run(runs)) {
     const RunRecord run = added_up(shards.records);
     for (const auto& [name, count] : run.families) {
       const std::int64_t index = count.first_index;
-      const Family met{0, all.cases + shards.place_of(index, run), count.first_arm, {run.name, index}};
+      const Sightings met{0, all.cases + shards.place_of(index, run), count.first_arm, {run.name, index}};
       families.try_emplace(name, met).first->second.cases += count.cases;
     }
     for (const auto& [name, count] : run.arms) arms[name].cases += count.cases, arms[name].failing += count.failing;
     all.cases += run.cases, all.failing += run.failing;
   }
   std::set<std::pair<std::string, std::int64_t>> lone;
-  for (const auto& [name, family] : families) {
-    all.discovered.push_back(family.first);
-    if (family.cases == 1) ++all.met_once, lone.insert(family.first_case);
-    if (const auto arm = arms.find(family.first_arm); arm != arms.end()) ++arm->second.families;
+  for (const auto& [family, seen] : families) {
+    all.discovered.push_back(seen.first);
+    if (seen.cases == 1) ++all.met_once, lone.insert(seen.first_case);
+    if (const auto arm = arms.find(seen.first_arm); arm != arms.end()) ++arm->second.families;
   }
   all.lone_cases = std::ssize(lone);
   std::ranges::sort(all.discovered);

@@ -31,20 +31,20 @@ std::string exchanged(std::string_view text) {
 
 }  // namespace
 
-std::string other_side(const std::string& family) {
-  const std::size_t subject_at = family.rfind('|') + 1;
-  const std::string head = family.substr(0, subject_at), subject = exchanged(family.substr(subject_at));
-  const std::size_t between = subject.find(kAnd);
-  if (between == std::string::npos) return head + subject;
-  const std::string a = subject.substr(0, between), b = subject.substr(between + kAnd.size());
-  return head + std::min(a, b) + std::string(kAnd) + std::max(a, b);
+Family other_side(const Family& family) {
+  std::string subject = exchanged(family.subject);
+  if (const std::size_t between = subject.find(kAnd); between != std::string::npos) {
+    const std::string a = subject.substr(0, between), b = subject.substr(between + kAnd.size());
+    subject = std::min(a, b) + std::string(kAnd) + std::max(a, b);
+  }
+  return {family.check, family.character, subject};
 }
 
 std::vector<std::vector<std::size_t>> without_sides(const std::vector<Bucket>& buckets) {
   std::vector<std::vector<std::size_t>> groups;
-  std::map<std::pair<std::string, std::string>, std::size_t> group_of;
+  std::map<std::pair<Family, std::string>, std::size_t> group_of;
   for (std::size_t i = 0; i < buckets.size(); ++i) {
-    const std::string& family = buckets[i].family;
+    const Family& family = buckets[i].family;
     const std::pair key{std::min(family, other_side(family)), buckets[i].features};
     const auto [at, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();

@@ -25,7 +25,7 @@ bool fails(const Replay& replay) { return replay.verdict == Verdict::same || rep
 // Adds the case; whether all of its runs were equal.
 bool replay_case(const Bucket& bucket, const Corpus::Stored& of_bucket, const RunCase& run,
                  std::vector<CaseReplay>& out) {
-  CaseReplay one{of_bucket.path, "", {}};
+  CaseReplay one{of_bucket.path, {}, {}};
   const Result<Case>& stored = of_bucket.stored;
   bool steady = true;
   if (!stored) {

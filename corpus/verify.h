@@ -13,7 +13,7 @@ namespace contort {
 
 struct CaseReplay {
   std::string path;
-  std::string family;  // "" where the case cannot be read
+  Family family;  // empty where the case cannot be read
   Replay result;
 };
 

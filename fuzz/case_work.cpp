@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <stdexcept>
 
 #include "corpus/ending_case.h"
 #include "process/clock.h"
 #include "corpus/replay.h"
-#include "fuzz/case_fields.h"
 #include "fuzz/departures.h"
 #include "fuzz/labels.h"
 #include "fuzz/precursor.h"
@@ -20,31 +18,31 @@ namespace {
 
 constexpr double kWithinReach = 20.0;  // of a limit, in the check's scale: 2 rad, 40 cm
 
-std::string target_of(const CheckDef& check, const Character& character, std::size_t subject) {
-  return std::string(check.name) + "|" + character.name() + "|" +
-         check.subject(character, static_cast<int>(subject)).name;
+Family target_of(const CheckDef& check, const Character& character, std::size_t subject) {
+  return {std::string(check.name), character.name(), check.subject(character, static_cast<int>(subject)).name};
 }
 
 // The earliest first, as what comes later may only follow from it; of those that begin together the deepest.
-std::vector<std::string> families_of(const std::string& character, std::vector<Finding> findings) {
+std::vector<Family> families_of(const std::string& character, std::vector<Finding> findings) {
   std::ranges::stable_sort(findings, [](const Finding& l, const Finding& r) {
     return std::pair(l.first_frame, -l.depth) < std::pair(r.first_frame, -r.depth);
   });
-  std::vector<std::string> families;
-  std::set<std::string> seen;
+  std::vector<Family> families;
+  std::set<Family> seen;
   for (const Finding& finding : findings)
-    if (const std::string family = family_of(character, finding); seen.insert(family).second)
+    if (const Family family = family_of(character, finding); seen.insert(family).second)
       families.push_back(family);
   return families;
 }
 
 // The deepest finding of the family, or none.
-const Finding* deepest_of(const std::string& character, const std::vector<Finding>& findings,
-                          const std::string& family) {
+const Finding* deepest_of(const std::string& character, const std::vector<Finding>& findings, const Family& family) {
   for (const Finding& finding : findings)
     if (family_of(character, finding) == family) return deepest(findings, finding.check, finding.subject);
   return nullptr;
 }
+
+Result<Done> done(const Result<std::string>& kept) { return kept ? Result<Done>(Done{}) : kept.issue(); }
 
 }  // namespace
 
@@ -60,15 +58,18 @@ CaseWork::CaseWork(const RunConfig& config, Generator& generator, const Corpus& 
     : config_(config), generator_(generator), corpus_(corpus), evaluator_(generator, config.checks) {}
 
 std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
-  const CaseTask task = parse_task(text);
-  const CaseReport report = !task.lead.empty()    ? shrink_waiting(task, slot)
-                            : task.family.empty() ? evaluate(task, slot)
-                                                  : settle(task, slot);
-  return json_fields::write_canonical(report);
+  struct Doing {
+    CaseWork& work;
+    WorkerSlot& slot;
+    std::string operator()(const EvaluateTask& task) const { return print_report(work.evaluate(task, slot)); }
+    std::string operator()(const SettleTask& task) const { return print_report(work.settle(task, slot)); }
+    std::string operator()(const ShrinkTask& task) const { return print_report(work.shrink_waiting(task, slot)); }
+  };
+  return std::visit(Doing{*this, slot}, parse_task(text));
 }
 
-CaseReport CaseWork::evaluate(const CaseTask& task, WorkerSlot& slot) {
-  CaseReport report;
+EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
+  EvaluateReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);
   slot.note(print_spec(spec));
   const Result<Evaluation> run = evaluator_.run(spec);
@@ -102,23 +103,21 @@ std::vector<NearMiss> CaseWork::near_misses(const Character& character, int grou
 
 namespace {
 
-// "crash|human|SIGSEGV" back to how the process ended; nothing for a family of a check.
-std::optional<Ending> ending_of(const std::string& family) {
-  const FamilyParts parts = family_parts(family);
-  if (parts.check == "crash") return Ending{Ending::Kind::crash, parts.subject, {}};
-  if (parts.check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
-  if (parts.check == "memory") return Ending{Ending::Kind::memory, {}, {}};
+// How the process ended, of whose family it is; nothing for a family of a check.
+std::optional<Ending> ending_of(const Family& family) {
+  if (family.check == "crash") return Ending{Ending::Kind::crash, family.subject, {}};
+  if (family.check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
+  if (family.check == "memory") return Ending{Ending::Kind::memory, {}, {}};
   return std::nullopt;
 }
 
 }  // namespace
 
-Case seen_once(const CaseTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits) {
+Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits) {
   if (const std::optional<Ending> ending = ending_of(task.family))
     return ending_case(spec, *ending, isolation_of(limits));
   Case seen{spec, {}, {}};
-  const FamilyParts parts = family_parts(task.family);
-  seen.expect.check = parts.check, seen.expect.subject = parts.subject;
+  seen.expect.check = task.family.check, seen.expect.subject = task.family.subject;
   seen.expect.worst_margin = std::numeric_limits<double>::quiet_NaN();
   seen.expect.motion_hash = task.motion_hash;
   const Result<Character> character = build_character(spec.character, *generator.manifest().library);
@@ -127,7 +126,7 @@ Case seen_once(const CaseTask& task, const Spec& spec, Generator& generator, con
 }
 
 // The failure as the second time shows it, or nothing.
-std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec) {
+std::optional<Case> CaseWork::shown_again(const SettleTask& task, const Spec& spec) {
   if (const std::optional<Ending> ending = ending_of(task.family)) {
     const Case ended = ending_case(spec, *ending, isolation_of(config_.limits));
     const Replay again = replay(ended, evaluator_, {}, isolation_of(config_.limits));
@@ -141,77 +140,78 @@ std::optional<Case> CaseWork::shown_again(const CaseTask& task, const Spec& spec
 }
 
 // Kept first, then shrunk, so that a kill at any point loses nothing.
-CaseReport CaseWork::settle(const CaseTask& task, WorkerSlot& slot) {
-  CaseReport report;
+SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
+  SettleReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);
   slot.note(print_spec(spec));
   const std::optional<Case> again = shown_again(task, spec);
-  Lead lead{run_name(config_), again ? *again : seen_once(task, spec, generator_, config_.limits), {}};
-  Provenance& from = lead.original.provenance;
+  SettledLead& settled = report.settled;
+  settled.lead = {run_name(config_), again ? *again : seen_once(task, spec, generator_, config_.limits), {}};
+  Provenance& from = settled.lead.original.provenance;
   from = provenance_in(config_, task.lineage.back());
   from.rank = task.rank;
-  report.confirmed = again && (is_ending(again->expect) || again->expect.motion_hash == task.motion_hash);
-  from.shrink_stopped = !report.confirmed ? kUnsteady : task.shrinks ? "" : kWaits;
-  Result<std::string> kept = keep_lead(corpus_, lead);
-  if (kept && report.confirmed && task.shrinks) kept = shrink_lead(task, lead, report, slot);
+  settled.confirmed = again && (is_ending(again->expect) || again->expect.motion_hash == task.motion_hash);
+  from.shrink_stopped = !settled.confirmed ? kUnsteady : task.shrinks ? "" : kWaits;
+  Result<Done> kept = done(keep_lead(corpus_, settled.lead));
+  if (kept && settled.confirmed && task.shrinks) kept = shrink_lead(settled, task.guarded, slot);
   if (!kept) report.issue = kept.issue().text;
   return report;
 }
 
 // Of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is nothing to do.
-CaseReport CaseWork::shrink_waiting(const CaseTask& task, WorkerSlot& slot) {
-  CaseReport report;
+ShrinkReport CaseWork::shrink_waiting(const ShrinkTask& task, WorkerSlot& slot) {
+  ShrinkReport report;
   Result<Lead> read = read_lead(task.lead);
   if (!read) return report;
-  Lead lead = std::move(read).value();
-  slot.note(print_spec(lead.original.spec));
-  lead.original.provenance.shrink_stopped.clear();
-  if (const Result<std::string> kept = shrink_lead(task, lead, report, slot); !kept) report.issue = kept.issue().text;
+  SettledLead& settled = report.shrunk.emplace(SettledLead{std::move(read).value(), false, {}, {}});
+  slot.note(print_spec(settled.lead.original.spec));
+  settled.lead.original.provenance.shrink_stopped.clear();
+  if (const Result<Done> kept = shrink_lead(settled, task.guarded, slot); !kept) report.issue = kept.issue().text;
   return report;
 }
 
 namespace {
 
-void take_shrunk(const Shrunk& shrunk, Lead& lead, CaseReport& report) {
+bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shrunk.stopped != "gone"; }
+
+void take_shrunk(const Shrunk& shrunk, Lead& lead) {
   lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
-  report.also = shrunk.minimal.also;
-  if (family_of(shrunk.minimal) == family_of(lead.original)) return;
-  lead.shrunk_from = shrunk.original;
-  report.also.push_back(family_of(shrunk.minimal));
+  if (family_of(shrunk.minimal) != family_of(lead.original)) lead.shrunk_from = shrunk.original;
 }
 
 }  // namespace
 
 // What shrank in this process at first is shrunk with a guard once a candidate has ended that.
-Result<std::string> CaseWork::shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report,
-                                          WorkerSlot& slot) const {
-  const bool guarded = !task.ending.empty();
+Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const {
+  Lead& lead = settled.lead;
   const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const Onward& onward) {
     return shrink_one(original, lead.run, guarded, slot, onward);
   });
-  report.confirmed = shrunk.stopped != "flaky" && shrunk.stopped != "gone";
-  if (report.confirmed)
-    take_shrunk(shrunk, lead, report);
+  settled.confirmed = shows_again(shrunk);
+  if (settled.confirmed)
+    take_shrunk(shrunk, lead);
   else
     lead.original.provenance.shrink_stopped = kUnsteady;
-  Result<std::string> kept = keep_lead(corpus_, lead);
+  Result<Done> kept = done(keep_lead(corpus_, lead));
   for (const Case& met : shrunk.met)
-    if (kept && is_ending(met.expect)) kept = keep_met(lead, met, report, slot);
+    if (kept && is_ending(met.expect)) kept = keep_incidental(met, settled, slot);
   return kept;
 }
 
 // A spec that ends its process is a failure of its own, whatever was being shrunk. What is met while this one is shrunk
 // is not followed any further.
-Result<std::string> CaseWork::keep_met(const Lead& shrunk, const Case& met, CaseReport& report,
-                                       WorkerSlot& slot) const {
-  Lead lead{shrunk.run, met, {}};
-  lead.original.provenance = shrunk.original.provenance;
-  lead.original.provenance.met_shrinking = family_of(shrunk.original);
+Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) const {
+  Lead lead{settled.lead.run, met, {}};
+  lead.original.provenance = settled.lead.original.provenance;
+  lead.original.provenance.met_shrinking = family_of(settled.lead.original);
   const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot, {});
-  const bool again = smaller.stopped != "flaky" && smaller.stopped != "gone";
-  if (again) lead.minimal = smaller.minimal;
-  (again ? report.met : report.met_once).push_back(family_of(met));
-  return keep_lead(corpus_, lead);
+  const bool again = shows_again(smaller);
+  if (again)
+    lead.minimal = smaller.minimal;
+  else
+    lead.original.provenance.shrink_stopped = kUnsteady;
+  (again ? settled.incidental : settled.incidental_unconfirmed).push_back(lead);
+  return done(keep_lead(corpus_, lead));
 }
 
 // A failure is shrunk within the profile that found it, as far as that is known.
@@ -243,22 +243,5 @@ Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool g
   };
   return shrink(original, generator_, config);
 }
-
-std::string print_task(const CaseTask& task) { return json_fields::write_canonical(task); }
-
-namespace {
-
-// Both ends of a message are this program.
-template <class T>
-T parsed(const std::string& text) {
-  Result<T> value = json_fields::read_document<T>(text, "message");
-  if (!value) throw std::logic_error(to_line(value.issue()));
-  return std::move(value).value();
-}
-
-}  // namespace
-
-CaseTask parse_task(const std::string& text) { return parsed<CaseTask>(text); }
-CaseReport parse_report(const std::string& text) { return parsed<CaseReport>(text); }
 
 }  // namespace contort

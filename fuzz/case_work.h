@@ -1,8 +1,8 @@
-// What a worker does with a case, and the messages that go there and back. Both are JSON, so that they can be read in a
-// debugger and are checked on arrival.
+// How a worker does the tasks of messages.h.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,47 +11,14 @@
 #include <vector>
 
 #include "checks/check.h"
-#include "corpus/leads.h"
-#include "process/worker_pool.h"
-#include "fuzz/islands.h"
+#include "fuzz/messages.h"
 #include "fuzz/run.h"
+#include "process/worker_pool.h"
 
 namespace contort {
 
-// Evaluate a case; or, with a family, settle that failure of it: run it again, keep it as a lead, shrink it. Or, with a
-// lead, shrink what waits there since the time of some run was up.
-struct CaseTask {
-  Lineage lineage;
-  std::string family;
-  int rank = 0;             // of the family among those of the case, by first frame
-  std::string motion_hash;  // of the first time
-  std::string ending;       // family of how it ended its process before, or a candidate of its shrinking did
-  bool shrinks = true;      // false: there is no time; the lead waits
-  std::string lead;         // path of its original
-  bool operator==(const CaseTask&) const = default;
-};
-
-struct CaseReport {
-  bool built = false;
-  int frames = 0;
-  std::string motion_hash;
-  std::vector<std::string> tested;  // labels of what the case was made of
-  std::vector<std::string> broken;  // families, by their first frame, then the deepest in its check's scale
-  std::vector<NearMiss> near;       // of the subjects of the island's group
-  std::vector<WaiverUse> waivers;
-  bool confirmed = false;             // of a settled failure: the second time was bit for bit the first
-  std::vector<std::string> also;      // families of the case that its minimal spec shows too, and who names it
-  std::vector<std::string> met;       // families of other leads that its shrinking left
-  std::vector<std::string> met_once;  // the same, which did not happen again
-  std::string issue;                  // it could not be written: code and text
-};
-
-std::string print_task(const CaseTask& task);
-CaseTask parse_task(const std::string& text);
-CaseReport parse_report(const std::string& text);
-
 // What is known of a failure that did not show again. How deep it was, nobody wrote down: no number.
-Case seen_once(const CaseTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
+Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
 
 // Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each
 // case was 1 % of a run.
@@ -70,16 +37,16 @@ class CaseWork {
   std::string operator()(const std::string& task, WorkerSlot& slot);
 
  private:
-  CaseReport evaluate(const CaseTask& task, WorkerSlot& slot);
+  EvaluateReport evaluate(const EvaluateTask& task, WorkerSlot& slot);
+  SettleReport settle(const SettleTask& task, WorkerSlot& slot);
+  ShrinkReport shrink_waiting(const ShrinkTask& task, WorkerSlot& slot);
   std::vector<NearMiss> near_misses(const Character& character, int group);
-  CaseReport settle(const CaseTask& task, WorkerSlot& slot);
-  CaseReport shrink_waiting(const CaseTask& task, WorkerSlot& slot);
-  std::optional<Case> shown_again(const CaseTask& task, const Spec& spec);
+  std::optional<Case> shown_again(const SettleTask& task, const Spec& spec);
   Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
                     const Onward& onward) const;
-  Result<std::string> shrink_lead(const CaseTask& task, Lead& lead, CaseReport& report, WorkerSlot& slot) const;
+  Result<Done> shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const;
   std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
-  Result<std::string> keep_met(const Lead& shrunk, const Case& met, CaseReport& report, WorkerSlot& slot) const;
+  Result<Done> keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) const;
 
   const RunConfig& config_;
   Generator& generator_;

@@ -15,10 +15,10 @@ constexpr std::size_t kLongestLine = 24;  // ancestors: making a case again take
 constexpr int kTournament = 4;            // subjects, of which the most promising one is chosen
 constexpr std::uint64_t kParentStream = 0x706172656e74ULL;
 
-bool insert_sorted(std::vector<std::string>& list, const std::string& text) {
-  const auto at = std::ranges::lower_bound(list, text);
-  if (at != list.end() && *at == text) return false;
-  list.insert(at, text);
+bool insert_sorted(std::vector<Family>& list, const Family& family) {
+  const auto at = std::ranges::lower_bound(list, family);
+  if (at != list.end() && *at == family) return false;
+  list.insert(at, family);
   return true;
 }
 
@@ -31,9 +31,9 @@ void keep_nearest(std::vector<PoolEntry>& nearest, const PoolEntry& entry) {
 
 }  // namespace
 
-int group_of_target(const std::string& family) {
+int group_of_target(const Family& family) {
   Hash64 hash;
-  hash.add(std::string_view(family));
+  hash.add(std::string_view(print_family(family)));
   return static_cast<int>((hash.value() >> 16) % kTargetGroups);
 }
 
@@ -66,8 +66,8 @@ Lineage Island::lineage_of(const Odds& odds, std::int64_t index) const {
   return lineage;
 }
 
-void Island::learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<std::string>& broken) {
-  for (const std::string& family : broken)
+void Island::learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<Family>& broken) {
+  for (const Family& family : broken)
     if (group_of_target(family) == group_of(lineage.back()) && insert_sorted(retired, family)) pools.erase(family);
   for (const NearMiss& miss : near) {
     if (std::ranges::binary_search(retired, miss.family)) continue;

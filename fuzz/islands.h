@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/family.h"
 #include "fuzz/dice.h"
 #include "fuzz/lineage.h"
 
@@ -26,12 +27,11 @@ inline constexpr int kTargetGroups = 8;
 inline int island_of(std::int64_t index) { return static_cast<int>(index / kGeneration % kIslands); }
 inline int group_of(std::int64_t index) { return island_of(index) % kTargetGroups; }
 
-// Subjects are families: "joint_range|human|arm_left/elbow max".
-int group_of_target(const std::string& family);
+int group_of_target(const Family& family);
 
 // How near a case came.
 struct NearMiss {
-  std::string family;
+  Family family;
   double margin = 0.0;  // in the check's scale; >= 0
   bool operator==(const NearMiss&) const = default;
 };
@@ -58,13 +58,13 @@ class Island {
   Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
   // What a case showed, in the order of cases.
-  void learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<std::string>& broken);
+  void learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<Family>& broken);
 
   bool operator==(const Island&) const = default;
 
   // Open for whoever stores them.
-  std::map<std::string, TargetPool> pools;  // by family
-  std::vector<std::string> retired;         // broken, sorted: nothing is left to be found near them
+  std::map<Family, TargetPool> pools;
+  std::vector<Family> retired;         // broken, sorted: nothing is left to be found near them
 
  private:
   const TargetPool* promising(Dice& dice) const;

@@ -36,7 +36,7 @@ Shrunk added_up(const Shrunk& before, Shrunk after) {
 
 }  // namespace
 
-const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<std::string>& left) {
+const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left) {
   const Case* first = &shown;
   for (const Case& other : others) {
     const bool leads = are_of_one_time(shown, other) && depth_of(other.expect) >= depth_of(shown.expect);

@@ -23,7 +23,7 @@ inline constexpr double kOneTime_s = 0.2;
 // Of the other families of one motion: the earliest that is of one time with `shown` and at least as deep (in each
 // check's scale), of equally early ones the deepest; none of those that were left. Null where `shown` itself is that
 // one.
-const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<std::string>& left = {});
+const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
 using ShrinkOnward = std::function<Shrunk(const Case& original, const Onward& onward)>;
 

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
-#include "process/clock.h"
 #include "corpus/half_written.h"
 #include "corpus/leads.h"
 #include "fuzz/case_work.h"
 #include "fuzz/compose.h"
+#include "fuzz/crew.h"
+#include "fuzz/round.h"
 #include "fuzz/run_state.h"
+#include "fuzz/run_statistics.h"
 #include "fuzz/settling.h"
+#include "fuzz/time_budget.h"
 #include "model/core/hash.h"
+#include "process/clock.h"
 
 namespace contort {
 
@@ -22,18 +26,28 @@ std::string plan_of(const RunConfig& config) {
          " shrink_time=" + std::to_string(config.shrink_time_s);
 }
 
+RunState fresh_state(const RunConfig& config) {
+  RunState state;
+  state.plan = plan_of(config);
+  state.record.name = run_name(config);
+  state.record.tool = config.tool;
+  state.record.shrinks_per_family = config.shrinks_per_family;
+  state.record.shard = config.shard.index, state.record.shards = config.shard.count;
+  return state;
+}
+
+// Whom a run asks and tells.
+struct Listeners {
+  const std::function<void(const RunProgress&)>& progress;
+  const std::function<bool()>& stop;
+  const std::function<void(const FailingCase&)>& failing;
+};
+
 class Run {
  public:
-  Run(const RunConfig& config, Generator& generator, const Corpus& corpus,
-      const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
-      const std::function<void(const FailingCase&)>& failing)
-      : config_(config), generator_(generator), corpus_(corpus), progress_(progress), stop_(stop), failing_(failing) {
-    if (config_.time_s > 0.0) config_.deadline_s = start_s_ + config_.time_s;
-    state_.plan = plan_of(config_);
-    state_.record.name = run_name(config_);
-    state_.record.tool = config_.tool;
-    state_.record.shrinks_per_family = config_.shrinks_per_family;
-    state_.record.shard = config_.shard.index, state_.record.shards = config_.shard.count;
+  Run(const RunConfig& config, Generator& generator, const Corpus& corpus, const Listeners& listeners)
+      : config_(config), generator_(generator), corpus_(corpus), listeners_(listeners), state_(fresh_state(config)) {
+    config_.deadline_s = time_.deadline_s();
   }
 
   RunResult run() {
@@ -48,12 +62,13 @@ class Run {
 
  private:
   bool ok() const { return result_.issue.code.empty() && settling_.issue().code.empty(); }
-  bool out_of_time() const { return config_.deadline_s > 0.0 && steady_s() >= config_.deadline_s; }
   bool is_last(std::int64_t index) const { return config_.cases >= 0 && index >= config_.cases; }
+  bool has_time_for_waiting() const { return time_.has_time_for_waiting(steady_s()); }
   bool halted() {
-    if (stop_()) result_.interrupted = true;
-    return result_.interrupted || out_of_time() || !ok();
+    if (listeners_.stop()) result_.interrupted = true;
+    return result_.interrupted || time_.is_over(steady_s()) || !ok();
   }
+  bool must_fold() { return halted() || (time_.must_fold(steady_s()) && round_.has_failure()); }
 
   void resume() {
     Result<std::optional<RunState>> kept = load_state(corpus_, state_.record, state_.plan);
@@ -63,176 +78,99 @@ class Run {
   }
 
   void search() {
-    WorkerPool pool(config_.jobs, config_.limits, CaseWork(config_, generator_, corpus_));
-    running_.resize(static_cast<std::size_t>(config_.jobs));
+    Crew crew(config_.jobs, config_.limits, CaseWork(config_, generator_, corpus_));
     while (!is_last(state_.next) && !halted() && !is_cut_) {
       begin_round();
-      while (open_ > 0 && !(must_fold() && !is_any_case_running())) step(pool, !must_fold());
+      while (!round_.is_whole() && !(must_fold() && !crew.is_any_case_running())) step(crew, !must_fold());
       fold_round();
-      round_.clear(), again_.clear(), open_ = 0, given_ = 0;
+      round_ = {};
       keep_state_sometimes();
     }
-    settle_the_rest(pool);
+    settle_the_rest(crew);
   }
 
   // Cases are over. Once time is up, what is left is only kept: another run on this corpus shrinks it.
-  void settle_the_rest(WorkerPool& pool) {
-    while (ok() && !result_.interrupted && (pool.busy() > 0 || !settling_.is_done(has_time_for_waiting()))) {
-      if (stop_()) result_.interrupted = true;
-      if (out_of_time()) settling_.only_keep();
-      step(pool, true);
+  void settle_the_rest(Crew& crew) {
+    while (ok() && !result_.interrupted && (crew.busy() > 0 || !settling_.is_done(has_time_for_waiting()))) {
+      if (listeners_.stop()) result_.interrupted = true;
+      if (time_.is_over(steady_s())) settling_.only_keep();
+      step(crew, true);
     }
   }
-
-  // ---- a round
-
-  struct Place {
-    CaseTask task;
-    std::optional<CaseReport> report;
-    std::optional<Case> ended{};  // it ended its process the first time
-  };
 
   void begin_round() {
     for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
       const Island& pools = state_.islands[static_cast<std::size_t>(island)];
-      const Lineage lineage = is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index);
-      round_.emplace_back();
-      round_.back().task.lineage = lineage;
+      round_.add(is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index));
     }
-    open_ = static_cast<int>(round_.size());
-    if (config_.deadline_s > 0.0) fold_at_s_ = 0.5 * (steady_s() + config_.deadline_s);
+    time_.begin_round(steady_s());
   }
 
-  // Half of the time that is left when the last round begins is for what it finds.
-  bool must_fold() {
-    const auto has_failed = [](const Place& place) { return place.report && !place.report->broken.empty(); };
-    return halted() ||
-           (config_.deadline_s > 0.0 && steady_s() >= fold_at_s_ && std::ranges::any_of(round_, has_failed));
-  }
-
-  bool is_any_case_running() const {
-    return std::ranges::any_of(running_, [](const Running& r) { return r.place >= 0; });
-  }
-
-  // What a worker has in hand: a case of the round, or a failure to settle.
-  struct Running {
-    int place = -1;
-    std::optional<CaseTask> settled;
-  };
-
-  void step(WorkerPool& pool, bool hand_out) {
-    while (hand_out) {
-      const std::optional<int> idle = pool.idle_worker();
-      if (!idle) break;
-      const std::optional<Running> next = take_next();
-      if (!next) break;
-      running_[static_cast<std::size_t>(*idle)] = *next;
-      if (next->settled)
-        pool.give(*idle, print_task(*next->settled), kSettlingPatience);
-      else
-        pool.give(*idle, print_task(round_[static_cast<std::size_t>(next->place)].task));
+  void step(Crew& crew, bool hand_out) {
+    while (hand_out && crew.has_idle()) {
+      const std::optional<Job> job = next_job();
+      if (!job) break;
+      crew.give(*job);
     }
-    if (const std::optional<WorkerEvent> event = pool.wait(100)) take(*event);
+    if (const std::optional<Crew::Finished> finished = crew.wait(100)) take(*finished);
     report();
   }
 
   // Failures go first: what was found shall be on its way to the user.
-  std::optional<Running> take_next() {
-    if (std::optional<CaseTask> task = settling_.next(has_time_for_waiting())) return Running{-1, std::move(task)};
-    if (!again_.empty()) {
-      const int place = again_.back();
-      again_.pop_back();
-      return Running{place, {}};
-    }
-    if (given_ < static_cast<int>(round_.size())) return Running{given_++, {}};
+  std::optional<Job> next_job() {
+    if (const std::optional<FailureJob> failure = settling_.next(has_time_for_waiting())) return *failure;
+    if (const std::optional<int> place = round_.next()) return PlacedCase{*place, {round_.lineage(*place)}};
     return std::nullopt;
   }
 
-  // Half of the run's time at most is for what earlier ones left.
-  bool has_time_for_waiting() const { return !(config_.time_s > 0.0 && steady_s() >= start_s_ + 0.5 * config_.time_s); }
-
-  void take(const WorkerEvent& event) {
-    const Running running = std::exchange(running_[static_cast<std::size_t>(event.worker)], {});
-    if (running.settled) return settling_.take(*running.settled, event);
-    Place& place = round_[static_cast<std::size_t>(running.place)];
-    if (event.end == WorkerEnd::replied)
-      place.report = parse_report(event.text);
-    else
-      take_ending(place, running.place,
-                  case_of_ending(event, spec_of(config_, generator_, place.task.lineage), config_.limits));
-    open_ -= place.report.has_value();
-  }
-
-  // What ended its process is tried again, as it may have been ended from outside: by people, or for want of memory.
-  // What was met in an earlier round needs no second witness.
-  void take_ending(Place& place, int number, const Case& ended) {
-    const std::string family = family_of(ended);
-    if (!place.ended && !state_.record.families.contains(family)) {
-      place.ended = ended;
-      return again_.push_back(number);
-    }
-    place.ended.reset();
-    place.report = CaseReport{};
-    place.report->built = true;
-    place.task.ending = family;
-    place.report->broken = {family};
+  void take(const Crew::Finished& finished) {
+    const auto& [job, event] = finished;
+    if (const auto* failure = std::get_if<FailureJob>(&job)) return settling_.take(*failure, event);
+    const auto& [place, task] = std::get<PlacedCase>(job);
+    if (event.end == WorkerEnd::replied) return round_.take_report(place, parse_report<EvaluateReport>(event.text));
+    const Case ended = case_of_ending(event, spec_of(config_, generator_, task.lineage), config_.limits);
+    round_.take_ending(place, ended, state_.record.families.contains(family_of(ended)));
   }
 
   // In the order of cases. A round that time cut short counts up to the first case that did not run, but whoever
   // resumes begins it again.
   void fold_round() {
-    const bool is_whole = open_ == 0;
-    if (!is_whole) {
+    if (!round_.is_whole()) {
       keep_state_now();
       is_cut_ = true;
       if (result_.interrupted) return;
     }
-    for (const Place& place : round_) {
-      if (!place.report) return;
-      fold(place.task, *place.report);
-      if (place.ended) settling_.keep_ending_of_once(*place.ended, place.task);
+    for (const RoundCase& one : round_.cases()) {
+      if (!one.report) return;
+      fold(one);
     }
     state_.next += kRound;
     if (config_.cases >= 0) state_.next = std::min(state_.next, config_.cases);
   }
 
-  void fold(const CaseTask& task, const CaseReport& report) {
-    RunRecord& record = state_.record;
-    const std::int64_t index = task.lineage.back();
-    const std::string arm_name(is_seed(config_, index) ? "seed" : contort::arm_name(arm_of(odds_, task.lineage)));
-    ArmCount& arm = record.arms[arm_name];
-    ++record.cases, ++arm.cases;
-    record.frames += report.frames;
-    record.discarded += !report.built;
-    record.failing += !report.broken.empty(), arm.failing += !report.broken.empty();
-    for (const std::string& label : report.tested) ++record.tested[label];
-    add_uses(report.waivers, state_.waivers);
-    if (failing_ && !report.broken.empty())
-      failing_({index, arm_name, report.broken, spec_of(config_, generator_, task.lineage)});
-    state_.islands[static_cast<std::size_t>(island_of(index))].learn(task.lineage, report.near, report.broken);
-    for (std::size_t rank = 0; rank < report.broken.size(); ++rank) {
-      const std::string& family = report.broken[rank];
-      FamilyCount& count = record.families.try_emplace(family, FamilyCount{0, index, {}, arm_name}).first->second;
-      ++count.cases;
-      if (std::cmp_greater_equal(rank, config_.shrinks_per_case)) continue;
-      if (std::ssize(count.first_indices) >= config_.shrinks_per_family) continue;
-      count.first_indices.push_back(index);
-      settling_.want({task.lineage, family, static_cast<int>(rank), report.motion_hash, task.ending, true, {}});
-    }
+  void fold(const RoundCase& one) {
+    tell(one);
+    for (const SettleTask& task : statistics_.add(one)) settling_.want(task);
+    if (one.ended_once) settling_.keep_ending_of_once(*one.ended_once, one.lineage);
   }
 
-  // ---- the end, and what is kept until then
+  void tell(const RoundCase& one) {
+    const std::vector<Family>& broken = one.report->broken;
+    if (!listeners_.failing || broken.empty()) return;
+    listeners_.failing({one.lineage.back(), statistics_.arm_of_case(one.lineage), broken,
+                        spec_of(config_, generator_, one.lineage)});
+  }
 
-  // As often as it costs at most 2 % of the time.
   void keep_state_sometimes() {
-    const double now = steady_s();
-    if (now < next_keep_s_) return;
+    const double now_s = steady_s();
+    if (!pace_.is_due(now_s)) return;
     keep_state_now();
-    next_keep_s_ = steady_s() + std::max(kKeepEvery_s, 50.0 * (steady_s() - now));
+    pace_.kept(now_s, steady_s());
   }
 
+  // What is kept is from before a round that was cut.
   void keep_state_now() {
     if (!ok() || is_cut_) return;
     if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());
@@ -252,8 +190,12 @@ class Run {
     else
       drop_state(corpus_, state_.record);
     report();
+    tell_result();
+  }
+
+  void tell_result() {
     result_.record = state_.record;
-    result_.elapsed_s = steady_s() - start_s_;
+    result_.elapsed_s = time_.elapsed_s(steady_s());
     result_.waiting = settling_.waiting();
     result_.unsettled = static_cast<int>(state_.wanted.size());
     result_.waivers = state_.waivers;
@@ -270,32 +212,24 @@ class Run {
 
   void report() {
     const RunRecord& record = state_.record;
-    const auto of_round = static_cast<std::int64_t>(round_.size()) - open_;
-    progress_({record.cases + of_round, record.frames, record.failing, static_cast<int>(record.families.size()),
-               static_cast<int>(state_.new_buckets.size()), settling_.waiting_count(), steady_s() - start_s_});
+    listeners_.progress({record.cases + round_.done_count(), record.frames, record.failing,
+                         static_cast<int>(record.families.size()), static_cast<int>(state_.new_buckets.size()),
+                         settling_.waiting_count(), time_.elapsed_s(steady_s())});
   }
-
-  static constexpr double kKeepEvery_s = 1.0;
-  static constexpr double kSettlingPatience = 4.0;  // what hangs is run to its limit in a process of its own
 
   RunConfig config_;
   Generator& generator_;
   const Corpus& corpus_;
-  const std::function<void(const RunProgress&)>& progress_;
-  const std::function<bool()>& stop_;
-  const std::function<void(const FailingCase&)>& failing_;
+  const Listeners listeners_;
   const Odds odds_ = odds_of(config_.seed, config_.draw.profile);
   const double start_s_ = steady_s();
-  double next_keep_s_ = steady_s() + kKeepEvery_s;
+  TimeBudget time_{config_.time_s, start_s_};
+  KeepingPace pace_{start_s_};
   RunState state_;
-  std::vector<Place> round_;
-  int open_ = 0;            // cases of the round without a report
-  int given_ = 0;           // that were handed out
-  bool is_cut_ = false;     // the last round was not done whole; what is kept is from before it
-  std::vector<int> again_;  // places whose process ended, to be tried once more
-  double fold_at_s_ = 0.0;
+  Round round_;
+  bool is_cut_ = false;  // the last round was not done whole
   Settling settling_{config_, generator_, corpus_, state_};
-  std::vector<Running> running_;  // by worker
+  RunStatistics statistics_{config_, state_};
   RunResult result_;
 };
 
@@ -324,7 +258,7 @@ std::string run_name(const RunConfig& config) {
 RunResult run_fuzz(const RunConfig& config, Generator& generator, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
                    const std::function<void(const FailingCase&)>& failing) {
-  return Run(config, generator, corpus, progress, stop, failing).run();
+  return Run(config, generator, corpus, {progress, stop, failing}).run();
 }
 
 }  // namespace contort

@@ -59,7 +59,7 @@ struct RunProgress {
 struct FailingCase {
   std::int64_t index = 0;
   std::string arm;                    // "guided"
-  std::vector<std::string> families;  // in the order of their first frames
+  std::vector<Family> families;       // in the order of their first frames
   Spec spec;
 };
 

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "fuzz/case_fields.h"
+#include "fuzz/state_fields.h"
 #include "model/core/inside_folder.h"
 
 namespace contort {
@@ -50,11 +50,6 @@ Result<Done> take_paths_here(const Corpus& corpus, std::vector<std::string>& lea
 Result<Done> check_names(const Corpus& corpus, const RunRecord& record, RunState& state) {
   if (record_name(state.record) != record_name(record))
     return Issue{"state.other_run", "/record/name", "found the run " + record_name(state.record)};
-  for (std::size_t i = 0; i < state.wanted.size(); ++i)
-    if (!state.wanted[i].lead.empty())
-      return Issue{"state.bad_lead", "/wanted/" + std::to_string(i) + "/lead",
-                   "found " + json_fields::quoted(state.wanted[i].lead) +
-                       ", expected nothing: leads that wait are looked for in the corpus"};
   return take_paths_here(corpus, state.unconfirmed);
 }
 
@@ -74,11 +69,12 @@ Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord
   const Result<std::string> text = read_beside(path, kMostStateBytes);
   if (!text) return text.issue();
   Result<RunState> read = json_fields::read_document<RunState>(*text, "state");
-  if (!read) return Issue{read.issue().code, read.issue().pointer, path + ": " + read.issue().text};
+  const auto refused = [&](const Issue& why) {
+    return Issue{why.code, why.pointer, path + ": " + why.text + "; remove the file to begin the run anew"};
+  };
+  if (!read) return refused(read.issue());
   RunState state = std::move(read).value();
-  if (const Result<Done> own = check_names(corpus, record, state); !own)
-    return Issue{own.issue().code, own.issue().pointer,
-                 path + ": " + own.issue().text + "; remove the file to begin the run anew"};
+  if (const Result<Done> own = check_names(corpus, record, state); !own) return refused(own.issue());
   if (state.plan != plan || state.islands.size() != static_cast<std::size_t>(kIslands))
     return Issue{"state.other_plan", "", path + " is of a run with other options; remove it to begin anew"};
   return std::optional<RunState>(std::move(state));

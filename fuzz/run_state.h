@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "corpus/runs.h"
-#include "fuzz/case_work.h"
 #include "fuzz/islands.h"
+#include "fuzz/messages.h"
 
 namespace contort {
 
@@ -17,7 +17,7 @@ struct RunState {
   std::int64_t next = 0;  // first case of the next round
   RunRecord record;
   std::vector<Island> islands = std::vector<Island>(kIslands);
-  std::vector<CaseTask> wanted;            // failures that are not settled yet
+  std::vector<SettleTask> wanted;          // failures that are not settled yet
   std::vector<std::string> new_buckets;    // names of folders
   std::vector<std::string> known_buckets;  // names of folders
   std::vector<std::string> unconfirmed;    // paths of leads, in the corpus
@@ -28,7 +28,7 @@ std::string state_path(const Corpus& corpus, const RunRecord& record);
 Result<Done> keep_state(const Corpus& corpus, const RunState& state);
 
 // Nothing where none was kept. Whoever made the corpus may have made the state: it names nothing outside. Codes
-// state.other_plan, state.other_run, state.bad_lead, file.*, json.*.
+// state.wrong_format (of another version), state.other_plan, state.other_run, file.*, json.*.
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
 void drop_state(const Corpus& corpus, const RunRecord& record);
 

@@ -5,6 +5,7 @@
 
 #include "corpus/ending_case.h"
 #include "corpus/leads.h"
+#include "fuzz/case_work.h"
 
 namespace contort {
 
@@ -14,8 +15,10 @@ void add_once(std::vector<std::string>& list, const std::string& name) {
   if (const auto at = std::ranges::lower_bound(list, name); at == list.end() || *at != name) list.insert(at, name);
 }
 
-CaseReport report_of(const WorkerEvent& event) {
-  return event.end == WorkerEnd::replied ? parse_report(event.text) : CaseReport{};
+bool is_among(const std::vector<Lead>& leads, const Lead& wanted) {
+  return std::ranges::any_of(leads, [family = family_of(wanted.original)](const Lead& lead) {
+    return family_of(lead.original) == family;
+  });
 }
 
 }  // namespace
@@ -25,127 +28,127 @@ Case case_of_ending(const WorkerEvent& event, const Spec& given, const WorkerLim
   return ending_case(noted ? *noted : given, ending_of(event), isolation_of(limits));
 }
 
-void Settling::go_on() { wanted_.assign(state_.wanted.begin(), state_.wanted.end()); }
+Task task_of(const FailureJob& job) {
+  return std::visit([](const auto& one) { return Task(one.task); }, job);
+}
+
+void Settling::go_on() {
+  wanted_.clear();
+  for (const SettleTask& task : state_.wanted) wanted_.push_back({task});
+}
 
 void Settling::find_waiting() {
   std::vector<Issue> damaged;
-  for (const Lead& lead : leads_of(corpus_, damaged)) {
-    if (!waits(lead)) continue;
-    CaseTask task;
-    task.lineage = {lead.original.provenance.index};
-    task.family = family_of(lead.original);
-    task.lead = lead_path(corpus_, lead);
-    waiting_.push_back(task);
-  }
+  for (const Lead& lead : leads_of(corpus_, damaged))
+    if (waits(lead))
+      waiting_.push_back({{lead_path(corpus_, lead), false}, lead.run, lead.original.provenance.index});
 }
 
-void Settling::want(const CaseTask& task) {
+void Settling::want(const SettleTask& task) {
   state_.wanted.push_back(task);
-  wanted_.push_back(task);
+  wanted_.push_back({task});
 }
 
 void Settling::only_keep() {
-  for (CaseTask& task : wanted_) task.shrinks = false;
+  for (WantedFailure& job : wanted_) job.task.shrinks = false;
+}
+
+Settling::CaseId Settling::case_of(const FailureJob& job) const {
+  if (const auto* waiting = std::get_if<WaitingLead>(&job)) return {waiting->run, waiting->index};
+  return {state_.record.name, std::get<WantedFailure>(job).task.lineage.back()};
 }
 
 // Of one case one failure at a time: what a minimal spec shows too is not settled any more.
-std::optional<CaseTask> Settling::next(bool with_waiting) {
-  const auto is_free = [&](const CaseTask& task) {
-    return std::ranges::none_of(in_hand_, [&](const CaseTask& other) { return other.lineage == task.lineage; });
+std::optional<FailureJob> Settling::next(bool with_waiting) {
+  const auto is_free = [&](const WantedFailure& job) {
+    return std::ranges::find(in_hand_, case_of(job)) == in_hand_.end();
   };
-  std::deque<CaseTask>* from = &wanted_;
-  auto at = std::ranges::find_if(wanted_, is_free);
-  if (at == wanted_.end()) {
-    if (!with_waiting || waiting_.empty()) return std::nullopt;
-    from = &waiting_;
-    at = waiting_.begin();
+  std::optional<FailureJob> job;
+  if (const auto at = std::ranges::find_if(wanted_, is_free); at != wanted_.end()) {
+    job = std::move(*at);
+    wanted_.erase(at);
+  } else if (with_waiting && !waiting_.empty()) {
+    job = std::move(waiting_.front());
+    waiting_.pop_front();
   }
-  in_hand_.push_back(*at);
-  from->erase(at);
-  return in_hand_.back();
+  if (job) in_hand_.push_back(case_of(*job));
+  return job;
 }
 
-void Settling::take(const CaseTask& task, const WorkerEvent& event) {
-  in_hand_.erase(std::ranges::find(in_hand_, task));
-  if (task.lead.empty()) return settled(task, event);
-  shrunk_waiting(task, event);
+void Settling::take(const FailureJob& job, const WorkerEvent& event) {
+  in_hand_.erase(std::ranges::find(in_hand_, case_of(job)));
+  if (const auto* waiting = std::get_if<WaitingLead>(&job)) return take_waiting(*waiting, event);
+  take_wanted(std::get<WantedFailure>(job), event);
 }
 
-void Settling::settled(const CaseTask& task, const WorkerEvent& event) {
-  if (event.end != WorkerEnd::replied && task.ending.empty()) return shrink_guarded(task, event);
-  if (event.end != WorkerEnd::replied)
-    keep_unsteady(seen_once(task, spec_of(config_, generator_, task.lineage), generator_, config_.limits), task);
-  const CaseReport report = report_of(event);
+void Settling::take_wanted(const WantedFailure& job, const WorkerEvent& event) {
+  const SettleTask& task = job.task;
+  if (event.end != WorkerEnd::replied && !task.guarded) return shrink_guarded(job, event);
   settle_no_more(task, {task.family});
-  if (report.confirmed && config_.shard.count == 1) settle_no_more(task, report.also);
-  if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
-  if (report.confirmed && !task.shrinks) return kept_.push_back(path_of_lead(task));
-  take_lead(path_of_lead(task), report.confirmed);
-  take_met(state_.record.name, task, report);
-  if (task.ending.empty() || task.ending == task.family) return;
-  if (std::ranges::find(report.met, task.ending) == report.met.end())
-    take_lead(path_of_met(state_.record.name, task, task.ending), false);
+  SettledLead settled;
+  if (event.end == WorkerEnd::replied) {
+    const SettleReport report = parse_report<SettleReport>(event.text);
+    if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
+    settled = report.settled;
+    if (settled.confirmed && !task.shrinks) return kept_.push_back(lead_path(corpus_, settled.lead));
+    take_settled(settled);
+    if (config_.shard.count == 1) settle_no_more(task, families_told_by(settled.lead));
+  } else {
+    keep_unsteady(lead_of(seen_once(task, spec_of(config_, generator_, task.lineage), generator_, config_.limits),
+                          task.lineage, task.rank));
+  }
+  if (job.ender && !is_among(settled.incidental, *job.ender)) keep_unsteady(*job.ender);
 }
 
 // It may have been another process that did it, or this one under another name before. What ended its worker waits for
 // a run with a guard: it is tried once more, like any other.
-void Settling::shrunk_waiting(CaseTask task, const WorkerEvent& event) {
-  const CaseReport report = report_of(event);
-  if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
-  if (std::error_code error; !std::filesystem::exists(task.lead, error)) return;
-  if (event.end != WorkerEnd::replied && task.ending.empty()) {
-    const Result<Lead> lead = read_lead(task.lead);
-    if (!lead) return;
-    task.ending = family_of(case_of_ending(event, lead->original.spec, config_.limits));
-    return waiting_.push_front(task);
+void Settling::take_waiting(WaitingLead job, const WorkerEvent& event) {
+  if (event.end == WorkerEnd::replied) {
+    const ShrinkReport report = parse_report<ShrinkReport>(event.text);
+    if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
+    if (!report.shrunk) return;
+    take_settled(*report.shrunk);
+    return tidy_leads(corpus_, job.run);
   }
-  const std::string run = std::filesystem::path(task.lead).parent_path().filename();
-  take_lead(task.lead, report.confirmed);
-  take_met(run, task, report);
-  tidy_leads(corpus_, run);
+  Result<Lead> lead = read_lead(job.task.lead);
+  if (!lead) return;
+  if (job.task.guarded) return keep_unsteady(std::move(lead).value());
+  job.task.guarded = true;
+  waiting_.push_front(std::move(job));
+}
+
+// Its worker has kept all of it as leads. Those of a shard `merge` files.
+void Settling::take_settled(const SettledLead& settled) {
+  const auto note = [&](const Lead& lead) { add_once(state_.unconfirmed, lead_path(corpus_, lead)); };
+  settled.confirmed ? file(settled.lead) : note(settled.lead);
+  for (const Lead& lead : settled.incidental) file(lead);
+  for (const Lead& lead : settled.incidental_unconfirmed) note(lead);
 }
 
 // Which families of the case need no bucket of their own, a shard leaves to `merge`: it shrinks more than a whole run.
-void Settling::settle_no_more(const CaseTask& of_case, const std::vector<std::string>& families) {
-  const auto is_settled = [&](const CaseTask& task) {
-    return task.lineage == of_case.lineage && std::ranges::find(families, task.family) != families.end();
+void Settling::settle_no_more(const SettleTask& of_case, const std::set<Family>& families) {
+  const auto is_settled = [&](const SettleTask& task) {
+    return task.lineage == of_case.lineage && families.contains(task.family);
   };
   std::erase_if(state_.wanted, is_settled);
-  std::erase_if(wanted_, is_settled);
+  std::erase_if(wanted_, [&](const WantedFailure& job) { return is_settled(job.task); });
 }
 
 // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
 // again, or else it is not confirmed. It still comes before the later failures of its case.
-void Settling::shrink_guarded(CaseTask task, const WorkerEvent& event) {
+void Settling::shrink_guarded(WantedFailure job, const WorkerEvent& event) {
+  const SettleTask& task = job.task;
   const Spec given = spec_of(config_, generator_, task.lineage);
-  Lead lead{state_.record.name, case_of_ending(event, given, config_.limits), {}};
-  lead.original.provenance = provenance_in(config_, task.lineage.back());
+  Lead lead = lead_of(case_of_ending(event, given, config_.limits), task.lineage, 0);
   lead.original.provenance.met_shrinking = task.family;
   keep(lead);
-  task.ending = family_of(lead.original);
-  wanted_.push_front(std::move(task));
+  job.task.guarded = true, job.ender = std::move(lead);
+  wanted_.push_front(std::move(job));
 }
 
-void Settling::take_met(const std::string& run, const CaseTask& task, const CaseReport& report) {
-  for (const std::string& family : report.met) take_lead(path_of_met(run, task, family), true);
-  for (const std::string& family : report.met_once) take_lead(path_of_met(run, task, family), false);
-}
-
-void Settling::take_lead(const std::string& path, bool confirmed) {
-  if (confirmed && config_.shard.count == 1) file(path);
-  if (confirmed) return;
-  add_once(state_.unconfirmed, path);
-  Result<Lead> read = read_lead(path);
-  if (!read || is_unsteady(*read)) return;
-  Lead lead = std::move(read).value();
-  lead.original.provenance.shrink_stopped = kUnsteady;
-  keep(lead);
-}
-
-void Settling::file(const std::string& path) {
-  const Result<Lead> lead = read_lead(path);
-  if (!lead) return fail(lead.issue());
-  const Result<Corpus::Added> added = file_lead(corpus_, *lead);
+void Settling::file(const Lead& lead) {
+  if (config_.shard.count > 1) return;
+  const Result<Corpus::Added> added = file_lead(corpus_, lead);
   if (!added) return fail(added.issue());
   const std::string name = std::filesystem::path(added->bucket).filename();
   if (std::ranges::find(state_.new_buckets, name) != state_.new_buckets.end()) return;
@@ -157,31 +160,28 @@ void Settling::keep(const Lead& lead) {
 }
 
 // A failure that was seen once and did not come again. Whoever looks for it begins with its spec.
-void Settling::keep_unsteady(const Case& seen, const CaseTask& task) {
-  Lead lead{state_.record.name, seen, {}};
-  lead.original.provenance = provenance_in(config_, task.lineage.back());
-  lead.original.provenance.rank = task.rank;
+void Settling::keep_unsteady(Lead lead) {
   lead.original.provenance.shrink_stopped = kUnsteady;
   keep(lead);
+  add_once(state_.unconfirmed, lead_path(corpus_, lead));
 }
 
-void Settling::keep_ending_of_once(const Case& ended, const CaseTask& task) {
-  keep_unsteady(ended, task);
-  add_once(state_.unconfirmed, lead_path(corpus_, state_.record.name, family_of(ended), task.lineage.back()));
+// A failure of a case of this run, as it was seen.
+Lead Settling::lead_of(const Case& seen, const Lineage& lineage, int rank) const {
+  Lead lead{state_.record.name, seen, {}};
+  lead.original.provenance = provenance_in(config_, lineage.back());
+  lead.original.provenance.rank = rank;
+  return lead;
+}
+
+void Settling::keep_ending_of_once(const Case& ended, const Lineage& lineage) {
+  keep_unsteady(lead_of(ended, lineage, 0));
 }
 
 std::vector<std::string> Settling::waiting() const {
   std::vector<std::string> paths = kept_;
-  for (const CaseTask& task : waiting_) paths.push_back(task.lead);
+  for (const WaitingLead& job : waiting_) paths.push_back(job.task.lead);
   return paths;
-}
-
-std::string Settling::path_of_lead(const CaseTask& task) const {
-  return lead_path(corpus_, state_.record.name, task.family, task.lineage.back());
-}
-
-std::string Settling::path_of_met(const std::string& run, const CaseTask& task, const std::string& family) const {
-  return lead_path(corpus_, run, family, task.lineage.back(), task.family);
 }
 
 void Settling::fail(const Issue& issue) {

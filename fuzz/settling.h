@@ -2,17 +2,38 @@
 // with the answer of the worker that did it.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "corpus/corpus.h"
-#include "fuzz/case_work.h"
+#include "fuzz/messages.h"
 #include "fuzz/run.h"
 #include "fuzz/run_state.h"
 
 namespace contort {
+
+// A failure of this run, on its way.
+struct WantedFailure {
+  SettleTask task;
+  std::optional<Lead> ender{};  // what ended the worker that shrank it first: kept, and not confirmed yet
+};
+
+// A lead of a run whose time was up.
+struct WaitingLead {
+  ShrinkTask task;
+  std::string run;
+  std::int64_t index = 0;  // of its case
+};
+
+using FailureJob = std::variant<WantedFailure, WaitingLead>;
+
+Task task_of(const FailureJob& job);
 
 class Settling {
  public:
@@ -26,20 +47,20 @@ class Settling {
   // With what runs before left in this corpus, since their time was up before it was shrunk.
   void find_waiting();
 
-  void want(const CaseTask& task);
+  void want(const SettleTask& task);
 
   // Time is up: what is left is only kept, and another run on this corpus shrinks it.
   void only_keep();
 
   // What a worker shall do next. `with_waiting`: there is time for what runs before left.
-  std::optional<CaseTask> next(bool with_waiting);
+  std::optional<FailureJob> next(bool with_waiting);
   bool is_done(bool with_waiting) const { return wanted_.empty() && (!with_waiting || waiting_.empty()); }
 
-  // What became of a task that next() gave.
-  void take(const CaseTask& task, const WorkerEvent& event);
+  // What became of a job that next() gave.
+  void take(const FailureJob& job, const WorkerEvent& event);
 
   // It ended its process and, tried again, did not.
-  void keep_ending_of_once(const Case& ended, const CaseTask& task);
+  void keep_ending_of_once(const Case& ended, const Lineage& lineage);
 
   // Paths of leads that time did not reach.
   std::vector<std::string> waiting() const;
@@ -49,26 +70,27 @@ class Settling {
   const Issue& issue() const { return issue_; }
 
  private:
-  void settled(const CaseTask& task, const WorkerEvent& event);
-  void shrunk_waiting(CaseTask task, const WorkerEvent& event);
-  void settle_no_more(const CaseTask& of_case, const std::vector<std::string>& families);
-  void shrink_guarded(CaseTask task, const WorkerEvent& event);
-  void take_met(const std::string& run, const CaseTask& task, const CaseReport& report);
-  void take_lead(const std::string& path, bool confirmed);
-  void file(const std::string& path);
+  using CaseId = std::pair<std::string, std::int64_t>;  // run and index
+  CaseId case_of(const FailureJob& job) const;
+
+  void take_wanted(const WantedFailure& job, const WorkerEvent& event);
+  void take_waiting(WaitingLead job, const WorkerEvent& event);
+  void take_settled(const SettledLead& settled);
+  void settle_no_more(const SettleTask& of_case, const std::set<Family>& families);
+  void shrink_guarded(WantedFailure job, const WorkerEvent& event);
+  void file(const Lead& lead);
   void keep(const Lead& lead);
-  void keep_unsteady(const Case& seen, const CaseTask& task);
-  std::string path_of_lead(const CaseTask& task) const;
-  std::string path_of_met(const std::string& run, const CaseTask& task, const std::string& family) const;
+  void keep_unsteady(Lead lead);
+  Lead lead_of(const Case& seen, const Lineage& lineage, int rank) const;
   void fail(const Issue& issue);
 
   const RunConfig& config_;
   Generator& generator_;
   const Corpus& corpus_;
   RunState& state_;
-  std::deque<CaseTask> wanted_;    // those of the state that no worker has in hand
-  std::deque<CaseTask> waiting_;   // leads of runs whose time was up
-  std::vector<CaseTask> in_hand_;  // of workers
+  std::deque<WantedFailure> wanted_;  // those of the state that no worker has in hand
+  std::deque<WaitingLead> waiting_;
+  std::vector<CaseId> in_hand_;    // of workers
   std::vector<std::string> kept_;  // leads of this run that wait for another
   Issue issue_;
 };

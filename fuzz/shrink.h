@@ -20,7 +20,7 @@ namespace contort {
 // A shrink on the way to the precursor (precursor.h). What has one is neither explained nor climbed.
 struct Onward {
   std::optional<Spec> begin_with;  // tried first: what another failure of the same case was shrunk to
-  std::set<std::string> left;      // families it came by; none of them is the precursor again
+  std::set<Family> left;           // it came by these; none of them is the precursor again
 };
 
 struct ShrinkConfig {

@@ -101,7 +101,7 @@ Case ShrinkState::before(const Case& other) const {
 }
 
 void ShrinkState::meet(const Case& other) {
-  const std::string family = family_of(other);
+  const Family family = family_of(other);
   if (beside_.contains(family)) return;
   const auto [known, is_new] = met_.try_emplace(family, other);
   if (!is_new && cheaper(other.spec, known->second.spec)) known->second = other;
@@ -113,8 +113,8 @@ std::vector<Case> ShrinkState::met() const {
   return cases;
 }
 
-std::vector<std::string> ShrinkState::still_shown(const std::vector<Case>& others) const {
-  std::vector<std::string> families;
+std::vector<Family> ShrinkState::still_shown(const std::vector<Case>& others) const {
+  std::vector<Family> families;
   for (const Case& other : others) {
     const auto before = beside_.find(family_of(other));
     if (before == beside_.end()) continue;

@@ -53,9 +53,8 @@ class ShrinkState {
   int evaluations() const { return evaluations_; }
   std::vector<Case> met() const;
 
-  // The original's other families, of those of the smallest spec, that are as deep as the family itself must stay: by
-  // name.
-  std::vector<std::string> still_shown(const std::vector<Case>& others) const;
+  // The original's other families, of those of the smallest spec, that are as deep as the family itself must stay.
+  std::vector<Family> still_shown(const std::vector<Case>& others) const;
 
   // One of these as the original shows it, or as it is where the original does not.
   Case before(const Case& other) const;
@@ -71,8 +70,8 @@ class ShrinkState {
   double least_depth_ = 0.0;
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
-  std::map<std::string, Case> beside_;   // the original's other families
-  std::map<std::string, Case> met_;      // by family, none of the original's
+  std::map<Family, Case> beside_;        // the original's other families
+  std::map<Family, Case> met_;           // none of the original's
   std::string stopped_ = "fixpoint";
   int evaluations_ = 0;
 };

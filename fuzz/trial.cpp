@@ -44,7 +44,7 @@ std::vector<Case> CheckTrial::others(const Spec& spec) {
 }
 
 std::vector<Case> CheckTrial::others_among(const Spec& spec, const Evaluation& evaluation) const {
-  std::map<std::string, const Finding*> deepest_of;
+  std::map<Family, const Finding*> deepest_of;
   for (const Finding& finding : evaluation.findings) {
     const Finding*& deepest = deepest_of[family_of(spec.character.name, finding)];
     if (deepest == nullptr || finding.depth > deepest->depth) deepest = &finding;

@@ -18,6 +18,12 @@ Json spec_of(const std::string& text) {
   return spec ? *spec : Json(text);  // What cannot be read is still shown.
 }
 
+Json texts_of(const std::vector<Family>& families) {
+  Json texts = Json::array();
+  for (const Family& family : families) texts.push_back(print_family(family));
+  return texts;
+}
+
 Json row_json(const ReportRow& row) {
   return {{"family", row.family},
           {"check", row.check},
@@ -38,7 +44,7 @@ Json row_json(const ReportRow& row) {
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
           {"features", row.features},
           {"needs", row.needs},
-          {"also", row.also},
+          {"also", texts_of(row.also)},
           {"phase", row.phase},
           {"note", row.note}};
 }

@@ -56,13 +56,8 @@ std::string phase_fact(const ReportRow& row) {
   return words == row.phase ? words : row.phase + ": " + words;
 }
 
-// "joint_torque|human|foot_right/ankle_inv" as "joint_torque foot_right/ankle_inv": the figure is the row's.
-std::string without_figure(const std::string& family) {
-  const std::size_t check_end = family.find('|');
-  if (check_end == std::string::npos) return family;
-  const std::size_t figure_end = family.find('|', check_end + 1);
-  return figure_end == std::string::npos ? family : family.substr(0, check_end) + " " + family.substr(figure_end + 1);
-}
+// The figure is the row's.
+std::string without_figure(const Family& family) { return family.check + " " + family.subject; }
 
 std::string also_fact(const ReportRow& row) {
   constexpr std::size_t kNamed = 5;

@@ -86,18 +86,18 @@ FailureTraits traits_of(const ReportRow& row) {
   return {row.check, row.subject, row.phase, row.character, row.actions, row.depth, row.key};
 }
 
-using Family = std::vector<ReportRow>;
+using Rows = std::vector<ReportRow>;  // of one family
 
 // What gates first, then by depth: the first row speaks for the family.
-std::vector<Family> families_of(std::vector<ReportRow>& rows) {
-  std::vector<Family> families;
+std::vector<Rows> families_of(std::vector<ReportRow>& rows) {
+  std::vector<Rows> families;
   std::map<std::string, std::size_t> index;
   for (ReportRow& row : rows) {
     const auto [at, is_new] = index.try_emplace(row.family, families.size());
     if (is_new) families.emplace_back();
     families[at->second].push_back(std::move(row));
   }
-  for (Family& family : families)
+  for (Rows& family : families)
     std::stable_sort(family.begin(), family.end(), [](const ReportRow& a, const ReportRow& b) {
       return group_of(a) != group_of(b) ? group_of(a) < group_of(b) : deeper(traits_of(a), traits_of(b));
     });
@@ -135,7 +135,7 @@ std::vector<std::size_t> furthest_first(std::span<const FailureTraits> all, std:
 }
 
 void order_rows(std::vector<ReportRow>& rows) {
-  std::vector<Family> families = families_of(rows);
+  std::vector<Rows> families = families_of(rows);
   rows.clear();
   for (int group = 0; group < 3; ++group) {
     std::vector<std::size_t> members;

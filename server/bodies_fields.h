@@ -9,20 +9,6 @@
 #include "model/spec/spec_fields.h"
 #include "model/world/environment_fields.h"
 
-namespace contort::json_fields {
-
-// A field that may be left out and has no default.
-template <class T>
-struct Codec<std::optional<T>> {
-  static void read(const Json& in, const Rule& r, std::optional<T>& out, ReadContext& c) {
-    Codec<T>::read(in, r, out.emplace(), c);
-  }
-  static Json write(const std::optional<T>& v, const Rule& r) { return v ? Codec<T>::write(*v, r) : Json(); }
-  static Json schema(const Rule& r) { return Codec<T>::schema(r); }
-};
-
-}  // namespace contort::json_fields
-
 namespace contort::server {
 
 using json_fields::Rule;

@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -135,6 +136,16 @@ struct Codec<E> {
   static Json schema(const Rule& r) { return names_schema(r.names); }
 };
 
+// A field that may be left out and has no default.
+template <class T>
+struct Codec<std::optional<T>> {
+  static void read(const Json& in, const Rule& r, std::optional<T>& out, ReadContext& c) {
+    Codec<T>::read(in, r, out.emplace(), c);
+  }
+  static Json write(const std::optional<T>& v, const Rule& r) { return v ? Codec<T>::write(*v, r) : Json(); }
+  static Json schema(const Rule& r) { return Codec<T>::schema(r); }
+};
+
 // ---- sequences
 
 template <class T>
@@ -185,9 +196,10 @@ struct Codec<std::vector<T>> {
   }
 };
 
-template <class T>
-struct Codec<std::map<std::string, T>> {
-  static void read(const Json& in, const Rule& r, std::map<std::string, T>& out, ReadContext& c) {
+// Keys are what is written as a text.
+template <class K, class T>
+struct Codec<std::map<K, T>> {
+  static void read(const Json& in, const Rule& r, std::map<K, T>& out, ReadContext& c) {
     if (!expect_object(in, c)) return;
     if (in.size() > r.max_count)
       return c.fail("too_many",
@@ -195,14 +207,18 @@ struct Codec<std::map<std::string, T>> {
     for (const auto& [key, value] : in.items()) {
       if (!c.ok()) return;
       c.push(key);
-      std::string checked;
-      if (read_text(Json(key), Rule{.text = r.key_text}, checked, c)) Codec<T>::read(value, r, out[key], c);
+      K checked;
+      Codec<K>::read(Json(key), Rule{.text = r.key_text}, checked, c);
+      if (c.ok()) Codec<T>::read(value, r, out[checked], c);
       c.pop();
     }
   }
-  static Json write(const std::map<std::string, T>& v, const Rule& r) {
+  static Json write(const std::map<K, T>& v, const Rule& r) {
     Json object = Json::object();
-    for (const auto& [key, value] : v) object[key] = Codec<T>::write(value, r);
+    for (const auto& [key, value] : v) {
+      const std::string text = Codec<K>::write(key, r);
+      object[text] = Codec<T>::write(value, r);
+    }
     return object;
   }
   static Json schema(const Rule& r) {

@@ -12,6 +12,7 @@
 #include "process/isolate.h"
 #include "fuzz/draw.h"
 #include "model/core/hash.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/stage_evaluator.h"
 
@@ -58,10 +59,11 @@ Case draw_case() {
                   std::ldexp(static_cast<double>(*rc::gen::inRange(0, 1000)), -4),
                   *rc::gen::inRange(0, 1001),
                   draw_text("tame_2-x.", 0, 20),
-                  draw_text("abc|/ ~", 0, 60)};
+                  *rc::gen::inRange(0, 2) == 0 ? Family{}
+                                               : Family{"check", draw_text("abc_", 1, 20), draw_text("abc|/ ~", 1, 40)}};
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {
     c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
-    c.also.push_back("check|" + draw_text("abc/_ ~", 1, 60) + "|a");
+    c.also.push_back({"check", draw_text("abc/_ ~", 1, 60), "a"});
   }
   return c;
 }
@@ -139,7 +141,7 @@ TEST(CaseFile, AnExpectationTracesEveryFrameWithFourDigits) {
   EXPECT_EQ(c.expect.motion_hash.size(), 16U);
   EXPECT_NEAR(c.expect.worst_margin, -40 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(c.expect.depth, 400 * kRadPerDeg, 1e-11);
-  EXPECT_EQ(family_of(c), "joint_range|human|arm_left/elbow max");
+  EXPECT_EQ(family_of(c), family("joint_range|human|arm_left/elbow max"));
 }
 
 // A crash has no motion; anything else that has no hash was cut off or made up.

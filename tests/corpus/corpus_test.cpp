@@ -343,9 +343,10 @@ TEST(CorpusCost, FeaturesNameWhatCutsInAndWhatActsFromOutside) {
 
 TEST(CorpusCost, FeaturesHoldNoNumbers) {
   EXPECT_EQ(features_of(bent_elbow(160)), features_of(bent_elbow(200, 99)));
-  EXPECT_NE(bucket_id("a", "b"), bucket_id("a", "c"));
-  EXPECT_NE(bucket_id("a", "b"), bucket_id("b", "b"));
-  EXPECT_EQ(bucket_id("a", "b").size(), 12U);
+  const Family a{"pop", "human", "a"}, b{"pop", "human", "b"};
+  EXPECT_NE(bucket_id(a, "b"), bucket_id(a, "c"));
+  EXPECT_NE(bucket_id(a, "b"), bucket_id(b, "b"));
+  EXPECT_EQ(bucket_id(a, "b").size(), 12U);
 }
 
 }  // namespace

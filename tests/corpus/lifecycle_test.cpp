@@ -7,6 +7,7 @@
 #include <set>
 
 #include "corpus/baseline.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/temp_folder.h"
 
 namespace contort {
@@ -128,7 +129,7 @@ RC_GTEST_PROP(Lifecycle, ACopyThatWasChangedWinsOverTheOneItCameFrom, ()) {
 RC_GTEST_PROP(Lifecycle, FilesKeepAllOfIt, ()) {
   const TempFolder folder;
   Bucket bucket = draw_bucket();
-  bucket.family = "joint_range|human|arm_left/elbow max";
+  bucket.family = family("joint_range|human|arm_left/elbow max");
   RC_ASSERT(bool(write_bucket(folder.path(), bucket)));
   const Result<Bucket> read = read_bucket(folder.path());
   RC_ASSERT(bool(read));
@@ -233,17 +234,19 @@ TEST(LifecycleTable, WhatTheBaselineHasDoesNotGate) {
   EXPECT_FALSE(is_gating(bucket, kToday, {{bucket.id}, {}}));
 }
 
+Family pop_of(std::string_view subject) { return {"pop", "human", std::string(subject)}; }
+
 // Of what waits to be shrunk only the family is known.
 TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
   std::vector<Bucket> buckets;
   for (const BucketState state : {BucketState::fresh, BucketState::open, BucketState::fixed, BucketState::regressed}) {
     buckets.push_back(in_state(state));
-    buckets.back().family = state_name(state);
+    buckets.back().family = pop_of(state_name(state));
     buckets.back().id = state_name(state);
   }
-  EXPECT_EQ(known_families(buckets, kToday, {}), std::set<std::string>{"open"});
-  const std::set<std::string> with_baseline = {"new", "open", "other"};
-  EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {"other"}}), with_baseline);
+  EXPECT_EQ(known_families(buckets, kToday, {}), std::set<Family>{pop_of("open")});
+  const std::set<Family> with_baseline = {pop_of("new"), pop_of("open"), pop_of("other")};
+  EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {pop_of("other")}}), with_baseline);
 }
 
 // What the other branch's contort printed of a replay: what fails there as well is known.
@@ -255,7 +258,7 @@ TEST(LifecycleTable, ABaselineMayBeAReplayByTheOtherBranch) {
     {"bucket": "pop-d", "family": "pop|x|w", "verdict": "different"}])");
   const Result<Baseline> known = read_baseline(folder / "replay.json");
   ASSERT_TRUE(known) << to_line(known.issue());
-  EXPECT_EQ(*known, (Baseline{{"a", "b"}, {"joint_range|x|y", "pop|x|y"}}));
+  EXPECT_EQ(*known, (Baseline{{"a", "b"}, {family("joint_range|x|y"), family("pop|x|y")}}));
 }
 
 TEST(LifecycleTable, ABaselineIsRefusedWhereItIsNone) {
@@ -275,7 +278,7 @@ TEST(LifecycleTable, ABaselineIsRefusedWhereItIsNone) {
   spill(folder / "list.json", R"([{"id": "a", "state": "open", "family": "pop|x|y"}, {"id": "b", "state": "fixed"}, {"id": "c"}])");
   const Result<Baseline> known = read_baseline(folder / "list.json");
   ASSERT_TRUE(known);
-  EXPECT_EQ(*known, (Baseline{{"a", "c"}, {"pop|x|y"}})) << "what is fixed there is no failure that it has";
+  EXPECT_EQ(*known, (Baseline{{"a", "c"}, {family("pop|x|y")}})) << "what is fixed there is no failure that it has";
 }
 
 }  // namespace

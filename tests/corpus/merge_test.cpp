@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <set>
 
 #include "corpus/leads.h"
 #include "corpus/runs.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
@@ -214,10 +216,10 @@ TEST(Merge, WhatWasMetWhileShrinkingSuchAFailureIsNotFiled) {
   const Corpus& into = corpora.make();
   merge_all({shard, corpora.all()[1]}, into);
   std::vector<Issue> damaged;
-  std::set<std::string> met;
+  std::set<Family> met;
   for (const Bucket& bucket : into.buckets(damaged))
     met.insert(read_case(into.folder_of(bucket) + "/" + bucket.min)->provenance.met_shrinking);
-  EXPECT_EQ(met, (std::set<std::string>{"", family_of(lead_of({0, 0}).original)}));
+  EXPECT_EQ(met, (std::set<Family>{{}, family_of(lead_of({0, 0}).original)}));
 }
 
 TEST(RunRecords, AddUpToTheFirstOfAllShards) {

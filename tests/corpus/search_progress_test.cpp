@@ -14,10 +14,12 @@ RunRecord run(const std::string& name, std::int64_t cases) {
   return record;
 }
 
+Family named(const std::string& subject) { return {"pop", "human", subject}; }
+
 TEST(SearchProgress, FamiliesAreDiscoveredOnceWhereTheyWereMetFirst) {
   RunRecord first = run("a", 100), second = run("b", 50);
-  first.families = {{"x", {1, 7, {7}, "uniform"}}, {"y", {5, 20, {20, 30}, "guided"}}};
-  second.families = {{"x", {1, 0, {0}, "guided"}}, {"z", {1, 9, {9}, "guided"}}};
+  first.families = {{named("x"), {1, 7, {7}, "uniform"}}, {named("y"), {5, 20, {20, 30}, "guided"}}};
+  second.families = {{named("x"), {1, 0, {0}, "guided"}}, {named("z"), {1, 9, {9}, "guided"}}};
   const SearchProgress all = progress_of(std::vector{first, second});
   EXPECT_EQ(all.cases, 150);
   EXPECT_EQ(all.failing, 6);
@@ -30,15 +32,16 @@ TEST(SearchProgress, FamiliesAreDiscoveredOnceWhereTheyWereMetFirst) {
 // Three families that one case alone showed are one surprise, not three.
 TEST(SearchProgress, ACaseThatShowsSeveralFamiliesCountsOnce) {
   RunRecord one = run("a", 100);
-  one.families = {{"x", {1, 7, {7}, "uniform"}}, {"y", {1, 7, {7}, "uniform"}}, {"z", {1, 7, {7}, "uniform"}},
-                  {"w", {1, 8, {8}, "of an older version"}}, {"v", {9, 7, {7, 8}, "uniform"}}};
+  one.families = {{named("x"), {1, 7, {7}, "uniform"}}, {named("y"), {1, 7, {7}, "uniform"}},
+                  {named("z"), {1, 7, {7}, "uniform"}},
+                  {named("w"), {1, 8, {8}, "of an older version"}}, {named("v"), {9, 7, {7, 8}, "uniform"}}};
   const SearchProgress all = progress_of(std::vector{one});
   EXPECT_EQ(all.met_once, 4);
   EXPECT_EQ(all.lone_cases, 2);
   EXPECT_DOUBLE_EQ(unseen_share(all), 0.02);
   EXPECT_EQ(all.arms.size(), 2u) << "no row for a way that drew nothing";
   RunRecord other = run("b", 100);
-  other.families = {{"u", {1, 7, {7}, "uniform"}}};
+  other.families = {{named("u"), {1, 7, {7}, "uniform"}}};
   EXPECT_EQ(progress_of(std::vector{one, other}).lone_cases, 3) << "another run's case 7 is another case";
 }
 
@@ -47,7 +50,7 @@ TEST(SearchProgress, ShardsOfOneRunCountAsOne) {
   for (int k = 0; k < 4; ++k) {
     RunRecord shard = run("a", 25);
     shard.shard = k, shard.shards = 4;
-    shard.families = {{"x", {1, 40 + k, {40 + k}, "uniform"}}};
+    shard.families = {{named("x"), {1, 40 + k, {40 + k}, "uniform"}}};
     shards.push_back(shard);
   }
   const SearchProgress whole = progress_of(shards);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fuzz/compose.h"
+#include "tests/checks/family_text.h"
 #include "tests/checks/small_character.h"
 #include "tests/stage_evaluator.h"
 
@@ -18,14 +19,16 @@ constexpr Odds kAlwaysGuided{1, 1.0, 0.0};
 constexpr std::int64_t kLate = 1'000'000;  // where guidance has its whole share
 
 // A subject of the group that island 0 is guided by.
-std::string own_subject(int which) {
+Family own_subject(int which) {
   for (int i = 0;; ++i) {
-    const std::string name = "joint_range|human|subject " + std::to_string(i);
+    const Family name{"joint_range", "human", "subject " + std::to_string(i)};
     if (group_of_target(name) == 0 && which-- == 0) return name;
   }
 }
 
-void show(Island& island, std::int64_t index, const std::string& family, double margin) {
+Family named(const std::string& subject) { return {"joint_range", "human", subject}; }
+
+void show(Island& island, std::int64_t index, const Family& family, double margin) {
   island.learn({index}, {{family, margin}}, {});
 }
 
@@ -38,8 +41,9 @@ TEST(Islands, EveryGroupGuidesAsManyIslands) {
 TEST(Islands, KeepTheCasesThatCameNearest) {
   Island island;
   const double margins[] = {5.0, 2.0, 4.0, 1.0, 3.0, 1.0};
-  for (std::size_t i = 0; i < std::size(margins); ++i) show(island, static_cast<std::int64_t>(i), "a", margins[i]);
-  const TargetPool& pool = island.pools.at("a");
+  for (std::size_t i = 0; i < std::size(margins); ++i)
+    show(island, static_cast<std::int64_t>(i), named("a"), margins[i]);
+  const TargetPool& pool = island.pools.at(named("a"));
   EXPECT_EQ(pool.nearest, (std::vector<PoolEntry>{{1.0, {3}}, {2.0, {1}}, {3.0, {4}}}));
   EXPECT_EQ(pool.farthest, 5.0);
   EXPECT_EQ(pool.remoteness(), 1.0 / 4.0);
@@ -47,7 +51,7 @@ TEST(Islands, KeepTheCasesThatCameNearest) {
 
 TEST(Islands, LetGoOfWhatIsBroken) {
   Island island;
-  const std::string own = own_subject(0);
+  const Family own = own_subject(0);
   show(island, 0, own, 1.0);
   island.learn({1}, {}, {own});
   EXPECT_TRUE(island.pools.empty());
@@ -57,10 +61,10 @@ TEST(Islands, LetGoOfWhatIsBroken) {
 
 TEST(Islands, DoNotFollowASubjectThatNothingMoves) {
   Island island;
-  for (std::int64_t i = 0; i < 9; ++i) show(island, i, "flat", 0.01);
+  for (std::int64_t i = 0; i < 9; ++i) show(island, i, named("flat"), 0.01);
   EXPECT_EQ(island.lineage_of(kAlwaysGuided, kLate), Lineage{kLate});
-  show(island, 20, "moves", 9.0);
-  show(island, 21, "moves", 3.0);
+  show(island, 20, named("moves"), 9.0);
+  show(island, 21, named("moves"), 3.0);
   for (std::int64_t index = kLate; index < kLate + 50; ++index) {
     const Lineage lineage = island.lineage_of(kAlwaysGuided, index);
     ASSERT_EQ(lineage.size(), 2U);

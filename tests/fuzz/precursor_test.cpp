@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
 #include "tests/stage_evaluator.h"
@@ -111,7 +112,7 @@ TEST(ShrinkToPrecursor, GoesOnFromWhatItHas) {
   ASSERT_EQ(asked.size(), 3U);
   EXPECT_FALSE(asked[0].begin_with);
   EXPECT_EQ(asked[2].begin_with->hold_frames, 20);
-  EXPECT_EQ(asked[2].left, (std::set<std::string>{"check|human|hip", "check|human|knee"}));
+  EXPECT_EQ(asked[2].left, (std::set<Family>{family("check|human|hip"), family("check|human|knee")}));
 }
 
 TEST(ShrinkToPrecursor, HandsBackTheCheapestOfWhatWasMetOnTheWay) {
@@ -205,7 +206,7 @@ std::vector<Case> others_of(const Case& stored) {
   const Result<Stage> stage = build_stage(stored.spec, small_runs::library());
   StageEvaluator evaluator;
   const Evaluation evaluation = evaluator.run(*stage);
-  std::map<std::string, Case> deepest;
+  std::map<Family, Case> deepest;
   for (const Finding& finding : evaluation.findings) {
     const Case other{stored.spec, expectation_of(evaluator.execution(), evaluation, finding), {}};
     const auto [known, is_new] = deepest.try_emplace(family_of(other), other);

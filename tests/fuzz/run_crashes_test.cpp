@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "corpus/runs.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/fuzz/small_runs.h"
 #include "tests/stage_evaluator.h"
@@ -43,7 +44,7 @@ RunConfig config_with_crash(std::int64_t cases, int jobs) {
   };
   return config;
 }
-constexpr const char* kCrash = "crash|small|SIGUSR1";
+const Family kCrash{"crash", "small", "SIGUSR1"};
 
 // At its peak, and of a process that begins as workers do: with what it has of this one.
 std::int64_t most_bytes_of(const std::function<void()>& work) {
@@ -73,7 +74,7 @@ TEST_F(RunCrashes, ACaseThatNeedsTooMuchMemoryIsAFindingWithItsLimit) {
   config.shrink.max_evaluations = 3;
   const RunResult result = run(config, corpus);
   EXPECT_EQ(result.issue.code, "");
-  EXPECT_TRUE(result.record.families.contains("memory|human|evaluation"));
+  EXPECT_TRUE(result.record.families.contains({"memory", "human", "evaluation"}));
   ASSERT_EQ(result.new_buckets.size(), 1U);
   const Bucket bucket = buckets_of(corpus).front();
   const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);

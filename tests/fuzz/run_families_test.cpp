@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "tests/checks/family_text.h"
 #include "tests/fuzz/small_runs.h"
 #include "tests/stage_evaluator.h"
 
@@ -21,9 +22,9 @@ class RunFamilies : public testing::Test {
 };
 
 // Which failures are shrunk, by the rule alone: families of a case, the earliest first.
-std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector<FailingCase>& failing,
-                                                                    const RunConfig& config) {
-  std::map<std::string, std::vector<std::int64_t>> shrunk;
+std::map<Family, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector<FailingCase>& failing,
+                                                               const RunConfig& config) {
+  std::map<Family, std::vector<std::int64_t>> shrunk;
   for (const FailingCase& one : failing)
     for (std::size_t rank = 0; rank < one.families.size(); ++rank) {
       std::vector<std::int64_t>& indices = shrunk[one.families[rank]];
@@ -34,10 +35,10 @@ std::map<std::string, std::vector<std::int64_t>> shrunk_by_the_rule(const std::v
 }
 
 // When each family begins, and how deep it is then, negated: in this order they come.
-std::map<std::string, std::pair<int, double>> begins_of(const Spec& spec) {
-  std::map<std::string, std::pair<int, double>> begins;
+std::map<Family, std::pair<int, double>> begins_of(const Spec& spec) {
+  std::map<Family, std::pair<int, double>> begins;
   for (const Finding& f : StageEvaluator().run(*build_stage(spec, library())).findings) {
-    const std::string family = f.check + "|" + spec.character.name + "|" + f.subject;
+    const Family family{f.check, spec.character.name, f.subject};
     const std::pair begin(f.first_frame, -f.depth);
     const auto [known, is_new] = begins.try_emplace(family, begin);
     if (!is_new) known->second = std::min(known->second, begin);
@@ -73,7 +74,7 @@ TEST_F(RunFamilies, TheEarliestOfACaseAreShrunkAndTheOthersCounted) {
     const RunResult result = run_fuzz(
         config, generator(), create(folder_ / std::to_string(most)), [](const RunProgress&) {}, [] { return false; },
         [&](const FailingCase& one) { failing.push_back(one); });
-    std::map<std::string, std::vector<std::int64_t>> shrunk;
+    std::map<Family, std::vector<std::int64_t>> shrunk;
     for (const auto& [family, count] : result.record.families) shrunk[family] = count.first_indices;
     EXPECT_EQ(shrunk, shrunk_by_the_rule(failing, config)) << most;
     EXPECT_EQ(most == 1000, std::ranges::none_of(shrunk, [](const auto& f) { return f.second.empty(); })) << most;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
@@ -30,6 +31,18 @@ class KeptState : public testing::Test {
     EXPECT_EQ(read.issue().pointer, pointer);
     EXPECT_NE(read.issue().text.find(state_path(corpus_, state_.record)), std::string::npos) << read.issue().text;
   }
+  void expect_changed_is_refused(const std::string& before, const std::string& after, const std::string& code,
+                                 const std::string& pointer) {
+    const std::string path = state_path(corpus_, state_.record);
+    std::string text = slurp(path);
+    ASSERT_NE(text.find(before), std::string::npos) << text;
+    spill(path, text.replace(text.find(before), before.size(), after));
+    const auto read = load_state(corpus_, state_.record, state_.plan);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.issue().code, code);
+    EXPECT_EQ(read.issue().pointer, pointer) << to_line(read.issue());
+    EXPECT_NE(read.issue().text.find("remove the file to begin the run anew"), std::string::npos);
+  }
   TempFolder folder_;
   Corpus corpus_;
   RunState state_;
@@ -54,11 +67,19 @@ TEST_F(KeptState, LeadsAreThoseOfTheCorpusThatIsOpen) {
   expect_refused("file.bad_name", "/unconfirmed/0");
 }
 
+// Leads that wait are looked for in the corpus.
 TEST_F(KeptState, ATaskNamesNoFile) {
-  CaseTask task;
-  task.lineage = {1}, task.family = "pop|human|x", task.lead = "../../plain.json";
+  SettleTask task;
+  task.lineage = {1}, task.family = family("pop|human|x");
   state_.wanted = {task};
-  expect_refused("state.bad_lead", "/wanted/0/lead");
+  ASSERT_TRUE(kept());
+  expect_changed_is_refused(R"({"family":)", R"({"lead": "../../plain.json", "family":)", "state.unknown_field",
+                            "/wanted/0/lead");
+}
+
+TEST_F(KeptState, OfAnOlderVersionIsRefused) {
+  ASSERT_TRUE(kept());
+  expect_changed_is_refused("contort.state/4", "contort.state/3", "state.wrong_format", "/format");
 }
 
 TEST_F(KeptState, ItIsOfItsOwnRun) {

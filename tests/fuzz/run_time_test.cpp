@@ -8,6 +8,7 @@
 
 #include "corpus/leads.h"
 #include "fuzz/run_state.h"
+#include "tests/checks/family_text.h"
 #include "tests/fuzz/small_runs.h"
 #include "tests/stage_evaluator.h"
 
@@ -23,15 +24,15 @@ class TimedRuns : public testing::Test {
 };
 
 // A family that came with another one has no bucket for it.
-bool is_told(const std::string& family, const Corpus& corpus) {
+bool is_told(const Family& family, const Corpus& corpus) {
   return std::ranges::any_of(buckets_of(corpus), [&](const Bucket& bucket) {
     const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
     return std::ranges::find(min.also, family) != min.also.end();
   });
 }
 
-std::set<std::string> families_in(const Corpus& corpus) {
-  std::set<std::string> families;
+std::set<Family> families_in(const Corpus& corpus) {
+  std::set<Family> families;
   for (const Bucket& bucket : buckets_of(corpus)) families.insert(bucket.family);
   return families;
 }
@@ -54,7 +55,7 @@ RunResult run_out_of_time(const Corpus& corpus) {
 TEST_F(TimedRuns, LeaveWhatTimeDidNotReachToTheNext) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult first = run_out_of_time(corpus);
-  std::set<std::string> waiting, told = families_in(corpus);
+  std::set<Family> waiting, told = families_in(corpus);
   for (const std::string& path : first.waiting) {
     const Result<Lead> lead = read_lead(path);
     ASSERT_TRUE(lead) << to_line(lead.issue());
@@ -74,7 +75,7 @@ TEST_F(TimedRuns, LeaveWhatTimeDidNotReachToTheNext) {
   EXPECT_TRUE(second.waiting.empty());
   EXPECT_TRUE(std::filesystem::is_empty(corpus.folder() + "/leads"));
   told = families_in(corpus);
-  for (const std::string& family : waiting) EXPECT_TRUE(told.contains(family)) << family;
+  for (const Family& family : waiting) EXPECT_TRUE(told.contains(family)) << family;
   expect_all_replay_as_the_same(corpus);
 }
 

@@ -9,6 +9,7 @@
 #include "corpus/ending_case.h"
 #include "fuzz/edits.h"
 #include "fuzz/shrink.h"
+#include "tests/checks/family_text.h"
 #include "tests/corpus/sample_cases.h"
 
 namespace contort {
@@ -290,15 +291,15 @@ TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
   CrowdedTrial trial;
   const Shrunk result = shrink_with(trial, holding(), stock_generator(), {});
   ASSERT_EQ(result.met.size(), 2U) << "what the original shows is no news";
-  EXPECT_EQ(family_of(result.met[0]), "at_once|human|it");
-  EXPECT_EQ(family_of(result.met[1]), "later|human|it");
+  EXPECT_EQ(family_of(result.met[0]), family("at_once|human|it"));
+  EXPECT_EQ(family_of(result.met[1]), family("later|human|it"));
   for (const Case& other : result.met) EXPECT_EQ(other.spec, result.minimal.spec);
 }
 
 TEST(ShrinkStages, TheMinimalCaseNamesWhatOfTheOriginalItStillShowsHalfAsDeep) {
   CrowdedTrial trial;
   const Shrunk result = shrink_with(trial, holding(), stock_generator(), {});
-  EXPECT_EQ(result.minimal.also, (std::vector<std::string>{"nan|human|it", "old|human|it"}));
+  EXPECT_EQ(result.minimal.also, (std::vector<Family>{family("nan|human|it"), family("old|human|it")}));
   EXPECT_TRUE(result.worst.also.empty());
   const Shrunk again = shrink_with(trial, result.minimal, stock_generator(), {});
   EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
@@ -327,7 +328,8 @@ TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
   const Shrunk result = shrink_with(trial, holding(), stock_generator(), config);
   EXPECT_EQ(result.stopped, "evaluations");
   EXPECT_EQ(result.minimal.also,
-            (std::vector<std::string>{"gone|human|it", "nan|human|it", "old|human|it", "shallow|human|it"}));
+            (std::vector<Family>{family("gone|human|it"), family("nan|human|it"), family("old|human|it"),
+                                 family("shallow|human|it")}));
 }
 
 Shrunk shrunk_ending(const Spec& spec, const Ending& ending, const std::function<void(const Spec&)>& work) {
@@ -346,7 +348,7 @@ TEST(ShrinkEndings, ACrashIsShrunkToWhatCrashes) {
   const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
   EXPECT_EQ(result.stopped, "fixpoint");
   EXPECT_EQ(print_spec(result.minimal.spec), print_spec(spec_of({pose_use("arm_left", {{"elbow_deg", 51.0}})})));
-  EXPECT_EQ(family_of(result.minimal), "crash|human|SIGSEGV");
+  EXPECT_EQ(family_of(result.minimal), family("crash|human|SIGSEGV"));
 }
 
 TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
@@ -355,7 +357,7 @@ TEST(ShrinkEndings, AnotherSignalIsAnotherFamily) {
   const Shrunk result = shrunk_ending(spec, {Ending::Kind::crash, "SIGSEGV", ""}, work);
   EXPECT_EQ(staged_actions(result.minimal.spec), 2);
   ASSERT_EQ(result.met.size(), 1U);
-  EXPECT_EQ(family_of(result.met[0]), "crash|human|SIGFPE");
+  EXPECT_EQ(family_of(result.met[0]), family("crash|human|SIGFPE"));
 }
 
 TEST(ShrinkEndings, ARealSpecThatFinishesIsGone) {

@@ -9,6 +9,7 @@
 
 #include "corpus/replay.h"
 #include "fuzz/draw.h"
+#include "tests/checks/family_text.h"
 #include "tests/checks/small_character.h"
 #include "tests/corpus/sample_cases.h"
 #include "tests/stage_evaluator.h"
@@ -92,7 +93,8 @@ TEST(ShrinkGuarded, GoesRoundWhatCrashesAndHandsItBack) {
   EXPECT_EQ(result.stopped, "fixpoint");
   EXPECT_EQ(family_of(result.minimal), family_of(original));
   EXPECT_EQ(count_of_actions(result.minimal.spec), 2);
-  const auto met = std::ranges::find(result.met, "crash|human|SIGUSR1", [](const Case& c) { return family_of(c); });
+  const auto met = std::ranges::find(result.met, family("crash|human|SIGUSR1"),
+                                     [](const Case& c) { return family_of(c); });
   ASSERT_NE(met, result.met.end());
   EXPECT_EQ(count_of_actions(met->spec), 1);
 }

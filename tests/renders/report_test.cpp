@@ -26,8 +26,7 @@ ReportRow row_of(const std::string& check, const std::string& subject, const std
   row.cases_seen = 1280;
   row.bucket = check + "-5f0c9a17";
   row.key = row.bucket, row.character = "human";
-  row.state = state;
-  row.gating = gating;
+  row.state = state, row.gating = gating;
   row.spec_json = "{\n  \"character\": \"human\"\n}";
   row.replay_command = "contort replay corpus/" + row.bucket + "/min.json";
   row.strip = "strips/" + row.bucket + ".png";
@@ -148,12 +147,13 @@ TEST(Report, ShowsEverythingOfARow) {
 TEST(Report, NamesWhatComesWithAFailure) {
   ReportRow row = row_of("pop", "human: head/neck", "new", true);
   EXPECT_FALSE(contains(report_html(page({row})), "<dt>comes with</dt><dd>pop"));
-  row.also = {"pop|human|torso/lumbar_flex", "self_collision|human|a/b ~ c/d"};
+  row.also = {{"pop", "human", "torso/lumbar_flex"}, {"self_collision", "human", "a/b ~ c/d"}};
   EXPECT_TRUE(contains(report_html(page({row})),
                        "<dt>comes with</dt><dd>pop torso/lumbar_flex, self_collision a/b ~ c/d</dd>"));
-  row.also = {"a|h|1", "a|h|2", "a|h|3", "a|h|4", "a|h|5", "a|h|6", "a|h|7"};
+  row.also.clear();
+  for (int i = 1; i <= 7; ++i) row.also.push_back({"a", "h", std::to_string(i)});
   EXPECT_TRUE(contains(report_html(page({row})), "<dd>a 1, a 2, a 3, a 4, a 5, and 2 more</dd>"));
-  row.also = {kMarkup, "one|two"};
+  row.also = {{kMarkup, "human", "one"}, {"one", "human", kMarkup}};
   EXPECT_FALSE(contains(body_of(report_html(page({row}))), kMarkup));
 }
 

@@ -1,0 +1,27 @@
+// The identity of a failure, without numbers: which check a subject of a character does not pass.
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace contort {
+
+struct Family {
+  std::string check;      // "joint_range", or how a process ended: "crash"
+  std::string character;  // "human"
+  std::string subject;    // "arm_left/elbow max"; of a crash the signal
+
+  bool operator==(const Family&) const = default;
+  std::strong_ordering operator<=>(const Family& other) const;  // as the texts of both compare
+  bool empty() const { return *this == Family{}; }              // no family
+};
+
+// "joint_range|human|arm_left/elbow max" for files and people; "" of the empty one.
+std::string print_family(const Family& family);
+
+// Nothing where one of the three is missing. Only the subject may hold the separator itself.
+std::optional<Family> parse_family(std::string_view text);
+
+}  // namespace contort

@@ -1,0 +1,72 @@
+// Field lists (json_fields.h) of cases. Included from .cpp files only.
+#pragma once
+
+#include "corpus/case.h"
+#include "corpus/family_fields.h"
+#include "model/spec/spec_fields.h"
+
+namespace contort {
+
+namespace stored_rules {
+using json_fields::Rule;
+using json_fields::Text;
+inline const Rule kText{.text = Text::label, .may_be_empty = true};
+inline const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
+inline const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
+inline const Rule kFrame{.low = 0, .high = 36000};
+inline const Rule kWholeNumber{.low = -1, .high = 0x1p53};
+}  // namespace stored_rules
+
+template <class V>
+void fields(V& v, const Expectation*) {
+  v.field("check", &Expectation::check, {.required = true}, "The check that fails.");
+  v.field("subject", &Expectation::subject, stored_rules::kSubject, "What it judges.");
+  v.field("unit", &Expectation::unit, stored_rules::kText, "Of worst_margin.");
+  v.field("first_frame", &Expectation::first_frame, stored_rules::kFrame, "First violated frame.");
+  v.field("worst_frame", &Expectation::worst_frame, stored_rules::kFrame, "Frame of the worst margin.");
+  v.field("last_frame", &Expectation::last_frame, stored_rules::kFrame, "Last violated frame.");
+  v.field("worst_margin", &Expectation::worst_margin, {.low = -1e300, .high = 0, .may_be_nan = true},
+          "Signed distance to the limit.");
+  v.field("depth", &Expectation::depth, {.low = 0, .high = 1e300}, "-worst_margin in the check's scale.");
+  v.field("motion_hash", &Expectation::motion_hash, stored_rules::kHash, "Hash of all frames.");
+  v.field("character_hash", &Expectation::character_hash, stored_rules::kHash, "Hash of the assembled character.");
+  v.field("trace", &Expectation::trace, {.text = json_fields::Text::hex}, "Running hash, four hex digits a frame.");
+  v.field("phase", &Expectation::phase, stored_rules::kText,
+          "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
+  v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400},
+          "Of a timeout: it did not end in so many seconds.");
+  v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
+}
+
+template <class V>
+void fields(V& v, const Provenance*) {
+  v.field("tool", &Provenance::tool, stored_rules::kText, "Version that found it.");
+  v.field("seed", &Provenance::seed, stored_rules::kWholeNumber, "Of the run; -1: written by a person.");
+  v.field("index", &Provenance::index, stored_rules::kWholeNumber, "Of the case in the run.");
+  v.field("shrunk_from", &Provenance::shrunk_from, stored_rules::kText, "Content id of the spec before shrinking.");
+  v.field("shrink_evaluations", &Provenance::shrink_evaluations, stored_rules::kFrame,
+          "Motions generated while shrinking.");
+  v.field("shrink_stopped", &Provenance::shrink_stopped, stored_rules::kText,
+          "fixpoint, evaluations, time, flaky or gone.");
+  v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
+  v.field("rank", &Provenance::rank, {.low = 0, .high = 1'000'000},
+          "Among the failures of its case by first frame; 0: the earliest.");
+  v.field("profile", &Provenance::profile, {.text = json_fields::Text::prose, .may_be_empty = true},
+          "Profile of the run, by name; empty: it draws everything.");
+  v.field("met_shrinking", &Provenance::met_shrinking, {.text = json_fields::Text::prose, .may_be_empty = true},
+          "Family of the failure whose shrinking met this one; empty: the case itself showed it.");
+}
+
+template <class V>
+void fields(V& v, const Case*) {
+  v.constant("format", "contort.case/1");
+  v.field("spec", &Case::spec, {.required = true}, "The action specification.");
+  v.field("expect", &Case::expect, {.required = true}, "What running it shows.");
+  v.field("provenance", &Case::provenance, {}, "Where it came from.");
+  v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = json_fields::Text::label},
+          "Pointers into the spec: fields that could as well have other values.");
+  v.field("also", &Case::also, {.max_count = 100'000, .text = json_fields::Text::prose},
+          "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
+}
+
+}  // namespace contort

@@ -1,0 +1,43 @@
+// Workers, and what each of them has in hand: a case of the round, by its place there, or a failure to settle.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "fuzz/settling.h"
+#include "process/worker_pool.h"
+
+namespace contort {
+
+struct PlacedCase {
+  int place = 0;
+  EvaluateTask task;
+};
+
+using Job = std::variant<PlacedCase, FailureJob>;
+
+class Crew {
+ public:
+  Crew(int workers, const WorkerLimits& limits, WorkerPool::Work work);
+
+  bool has_idle() const { return pool_.idle_worker().has_value(); }
+  int busy() const { return pool_.busy(); }
+  bool is_any_case_running() const;
+
+  // To one that is idle; there must be one.
+  void give(const Job& job);
+
+  // A job that a worker is done with, or that ended it; nothing where none is within the time.
+  struct Finished {
+    Job job;
+    WorkerEvent event;
+  };
+  std::optional<Finished> wait(int milliseconds);
+
+ private:
+  WorkerPool pool_;
+  std::vector<std::optional<Job>> in_hand_;  // by worker
+};
+
+}  // namespace contort

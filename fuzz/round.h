@@ -1,0 +1,49 @@
+// The cases between two looks at what the search knows: which of them to hand out next, and what came back. They come
+// back in any order, and are folded in their own.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corpus/case.h"
+#include "fuzz/messages.h"
+
+namespace contort {
+
+struct RoundCase {
+  Lineage lineage;
+  std::optional<EvaluateReport> report{};
+  std::optional<Case> ended_once{};  // how it ended its process the first time, and not the second
+  bool ends_process = false;         // both times
+};
+
+class Round {
+ public:
+  void add(const Lineage& lineage);
+
+  // The next case for a worker, by its place; what is to be tried again goes first.
+  std::optional<int> next();
+  const Lineage& lineage(int place) const { return cases_[static_cast<std::size_t>(place)].lineage; }
+
+  void take_report(int place, EvaluateReport report);
+
+  // What ended its process is tried again, as it may have been ended from outside: by people, or for want of memory.
+  // `is_known`: this failure was met before, and needs no second witness.
+  void take_ending(int place, const Case& ended, bool is_known);
+
+  int size() const { return static_cast<int>(cases_.size()); }
+  int done_count() const { return size() - open_; }
+  bool is_whole() const { return open_ == 0; }
+  bool has_failure() const;
+  const std::vector<RoundCase>& cases() const { return cases_; }
+
+ private:
+  void close(int place, EvaluateReport report);
+
+  std::vector<RoundCase> cases_;
+  int open_ = 0;            // cases without a report
+  int given_ = 0;           // cases that were handed out
+  std::vector<int> again_;  // places whose process ended, to be tried once more
+};
+
+}  // namespace contort

@@ -1,0 +1,34 @@
+// What a run counts of its cases and learns from them, and which of their failures it wants to be settled.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fuzz/messages.h"
+#include "fuzz/round.h"
+#include "fuzz/run.h"
+#include "fuzz/run_state.h"
+
+namespace contort {
+
+class RunStatistics {
+ public:
+  // Both must live as long as this.
+  RunStatistics(const RunConfig& config, RunState& state) : config_(config), state_(state) {}
+
+  // A case that has its report, in the order of cases. Gives the failures to be settled: of the first cases of each
+  // family those that are among the earliest of their case.
+  std::vector<SettleTask> add(const RoundCase& one);
+
+  // "guided", "seed"
+  std::string arm_of_case(const Lineage& lineage) const;
+
+ private:
+  void count(const EvaluateReport& report, const std::string& arm_name);
+  bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& arm_name);
+
+  const RunConfig& config_;
+  RunState& state_;
+};
+
+}  // namespace contort

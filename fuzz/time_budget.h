@@ -1,0 +1,43 @@
+// How a run divides its time. All times are on the steady clock and come from the caller.
+#pragma once
+
+#include <algorithm>
+
+namespace contort {
+
+class TimeBudget {
+ public:
+  // `limit_s` 0: there is no limit.
+  TimeBudget(double limit_s, double start_s) : limit_s_(limit_s), start_s_(start_s) {}
+
+  double deadline_s() const { return is_limited() ? start_s_ + limit_s_ : 0.0; }
+  double elapsed_s(double now_s) const { return now_s - start_s_; }
+  bool is_over(double now_s) const { return is_limited() && now_s >= deadline_s(); }
+
+  // Half of the run's time at most is for what earlier ones left.
+  bool has_time_for_waiting(double now_s) const { return !is_limited() || now_s < start_s_ + 0.5 * limit_s_; }
+
+  // Half of the time that is left when the last round begins is for what it finds.
+  void begin_round(double now_s) { fold_at_s_ = 0.5 * (now_s + deadline_s()); }
+  bool must_fold(double now_s) const { return is_limited() && now_s >= fold_at_s_; }
+
+ private:
+  bool is_limited() const { return limit_s_ > 0.0; }
+
+  double limit_s_, start_s_;
+  double fold_at_s_ = 0.0;
+};
+
+// When to keep the state of a run: as often as it costs at most 2 % of the time.
+class KeepingPace {
+ public:
+  explicit KeepingPace(double start_s) : next_s_(start_s + kEvery_s) {}
+  bool is_due(double now_s) const { return now_s >= next_s_; }
+  void kept(double began_s, double ended_s) { next_s_ = ended_s + std::max(kEvery_s, 50.0 * (ended_s - began_s)); }
+
+ private:
+  static constexpr double kEvery_s = 1.0;
+  double next_s_;
+};
+
+}  // namespace contort

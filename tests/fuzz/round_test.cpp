@@ -1,0 +1,79 @@
+// Which case of a round is next, and when it is whole.
+#include "fuzz/round.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/corpus/sample_corpus.h"
+
+namespace contort {
+namespace {
+
+Round round_of(int cases) {
+  Round round;
+  for (int index = 0; index < cases; ++index) round.add({index});
+  return round;
+}
+
+Case crash() {
+  Case ended = made_up(170, 60, 1);
+  ended.expect.check = "crash", ended.expect.subject = "SIGSEGV";
+  return ended;
+}
+
+TEST(Rounds, HandOutEachCaseOnce) {
+  Round round = round_of(3);
+  EXPECT_EQ(round.next(), 0);
+  EXPECT_EQ(round.next(), 1);
+  round.take_report(1, {});
+  EXPECT_EQ(round.next(), 2);
+  EXPECT_EQ(round.next(), std::nullopt);
+  EXPECT_EQ(round.done_count(), 1);
+  EXPECT_FALSE(round.is_whole());
+  round.take_report(2, {}), round.take_report(0, {});
+  EXPECT_TRUE(round.is_whole());
+  EXPECT_FALSE(round.has_failure());
+}
+
+TEST(Rounds, KnowWhetherAnythingFailed) {
+  Round round = round_of(1);
+  EvaluateReport report;
+  report.broken = {family_of(made_up(170, 60, 1))};
+  round.take_report(0, report);
+  EXPECT_TRUE(round.has_failure());
+}
+
+TEST(Rounds, TryAgainBeforeAllElseWhatEndedItsProcess) {
+  Round round = round_of(3);
+  round.next();
+  round.take_ending(0, crash(), false);
+  EXPECT_EQ(round.done_count(), 0);
+  EXPECT_EQ(round.next(), 0);
+  round.take_ending(0, crash(), false);
+  const RoundCase& twice = round.cases()[0];
+  EXPECT_TRUE(twice.ends_process && twice.report->built);
+  EXPECT_FALSE(twice.ended_once);
+  EXPECT_EQ(twice.report->broken, std::vector<Family>{family_of(crash())});
+  EXPECT_EQ(round.next(), 1);
+  EXPECT_EQ(round.done_count(), 1);
+}
+
+TEST(Rounds, RememberWhatEndedAProcessOnce) {
+  Round round = round_of(1);
+  round.next();
+  round.take_ending(0, crash(), false);
+  EXPECT_EQ(round.next(), 0);
+  round.take_report(0, {});
+  EXPECT_EQ(round.cases()[0].ended_once, crash());
+  EXPECT_FALSE(round.cases()[0].ends_process);
+}
+
+TEST(Rounds, NeedNoSecondWitnessOfAKnownEnding) {
+  Round round = round_of(1);
+  round.next();
+  round.take_ending(0, crash(), true);
+  EXPECT_TRUE(round.is_whole());
+  EXPECT_TRUE(round.cases()[0].ends_process);
+}
+
+}  // namespace
+}  // namespace contort

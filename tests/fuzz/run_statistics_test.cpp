@@ -1,0 +1,72 @@
+// What a run counts, and which failures it wants.
+#include "fuzz/run_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/checks/family_text.h"
+
+namespace contort {
+namespace {
+
+class CountedCases : public testing::Test {
+ protected:
+  std::vector<SettleTask> add(std::int64_t index, std::vector<Family> broken) {
+    RoundCase one{{index}};
+    one.report = EvaluateReport{true, 60, "0123456789abcdef", {"ground steps"}, std::move(broken), {}, {}};
+    one.ends_process = ends_process_;
+    return statistics_.add(one);
+  }
+  RunConfig config_;
+  RunState state_;
+  RunStatistics statistics_{config_, state_};
+  bool ends_process_ = false;
+  const Family knee_ = family("pop|human|leg_left/knee"), hip_ = family("pop|human|leg_left/hip");
+};
+
+TEST_F(CountedCases, AddUp) {
+  config_.seeds.resize(1);
+  add(0, {knee_}), add(1, {});
+  const RunRecord& record = state_.record;
+  EXPECT_EQ(record.cases, 2);
+  EXPECT_EQ(record.failing, 1);
+  EXPECT_EQ(record.frames, 120);
+  EXPECT_EQ(record.discarded, 0);
+  EXPECT_EQ(record.tested.at("ground steps"), 2);
+  EXPECT_EQ(record.arms.at("seed"), (ArmCount{1, 1}));
+  EXPECT_EQ(record.arms.at(statistics_.arm_of_case({1})), (ArmCount{1, 0}));
+  EXPECT_EQ(record.families.at(knee_), (FamilyCount{1, 0, {0}, "seed"}));
+}
+
+TEST_F(CountedCases, WantTheFirstOfEachFamily) {
+  config_.shrinks_per_family = 2;
+  const std::vector<SettleTask> wanted = {{{4}, knee_, 0, "0123456789abcdef", false, true}};
+  EXPECT_EQ(add(4, {knee_}), wanted);
+  EXPECT_EQ(add(5, {knee_}).size(), 1U);
+  EXPECT_TRUE(add(6, {knee_}).empty());
+  EXPECT_EQ(state_.record.families.at(knee_).cases, 3);
+  EXPECT_EQ(state_.record.families.at(knee_).first_indices, (std::vector<std::int64_t>{4, 5}));
+}
+
+TEST_F(CountedCases, WantTheEarliestOfEachCase) {
+  config_.shrinks_per_case = 1;
+  const std::vector<SettleTask> wanted = add(4, {knee_, hip_});
+  ASSERT_EQ(wanted.size(), 1U);
+  EXPECT_EQ(wanted[0].family, knee_);
+  EXPECT_TRUE(state_.record.families.at(hip_).first_indices.empty());
+}
+
+TEST_F(CountedCases, ThatEndTheirProcessAreShrunkWithAGuard) {
+  ends_process_ = true;
+  EXPECT_TRUE(add(4, {family("crash|human|SIGSEGV")}).at(0).guarded);
+}
+
+TEST_F(CountedCases, TeachTheirIsland) {
+  RoundCase one{{8}};
+  one.report = EvaluateReport{};
+  one.report->near = {{knee_, 0.5}};
+  statistics_.add(one);
+  EXPECT_TRUE(state_.islands[static_cast<std::size_t>(island_of(8))].pools.contains(knee_));
+}
+
+}  // namespace
+}  // namespace contort
