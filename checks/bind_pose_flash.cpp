@@ -52,6 +52,7 @@ Subject bind_pose_flash_subject(const Character&, int) { return {"figure", "rad"
 
 void bind_pose_flash_measure(const CheckInput& in, MarginFold& fold) {
   const Flash flash{in};
+  if (in.motion.frame_count >= 3) fold.judged_all();
   for (int first = 1; first + 1 < in.motion.frame_count; ++first) {
     if (!flash.is_at_rest(first)) continue;
     int last = first;

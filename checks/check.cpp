@@ -2,25 +2,62 @@
 
 #include <algorithm>
 
+#include "checks/clip_check.h"
 #include "model/core/assert.h"
 
 namespace contort {
 
-#define X(name, scale, resolution, needs_world, help) \
-  int name##_subject_count(const Character&);         \
-  Subject name##_subject(const Character&, int);      \
+#define X(name, scale, resolution, needs_world, needs, nothing, help) \
+  int name##_subject_count(const Character&);                         \
+  Subject name##_subject(const Character&, int);                      \
   void name##_measure(const CheckInput&, MarginFold&);
+#define CLIP(name, scale, help) ClipCheckResult name##_in_clip(const ClipInput&);
 #include "checks/check_list.inc"
 #undef X
+#undef CLIP
+
+namespace {
+
+constexpr std::string_view kNoIntent = "nothing says what the motion was meant to do (no intent)";
+constexpr std::string_view kNoRoot = "nothing says where the root goes";
+
+int no_subjects(const Character&) { return 0; }
+Subject no_subject(const Character&, int) { return {}; }
+void measure_nothing(const CheckInput&, MarginFold&) {}
+
+}  // namespace
 
 std::span<const CheckDef> all_checks() {
   static const CheckDef checks[] = {
-#define X(name, scale, resolution, needs_world, help) \
-  {#name, scale, resolution, needs_world, help, name##_subject_count, name##_subject, name##_measure},
+#define X(name, scale, resolution, needs_world, needs, nothing, help)                                        \
+  {#name,   scale, resolution,           needs_world,    Needs::needs,   \
+   nothing, help,  name##_subject_count, name##_subject, name##_measure},
+#define CLIP(name, scale, help)                                                         \
+  {#name, scale, 0.0,         false,      Needs::clip,     "",                           \
+   help,  no_subjects, no_subject, measure_nothing, name##_in_clip},
 #include "checks/check_list.inc"
 #undef X
+#undef CLIP
   };
   return checks;
+}
+
+std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& input) {
+  const bool has_response = input.motion.response.dof_count > 0;
+  switch (check.needs) {
+    case Needs::motion: return {};
+    case Needs::height: return input.path != RootPath::unknown ? std::string_view() : kNoRoot;
+    case Needs::path:
+      if (input.path == RootPath::unknown) return kNoRoot;
+      return input.path == RootPath::told ? "" : "the figure walks on the spot: an engine would move it";
+    case Needs::intent: return input.intent != nullptr ? std::string_view() : kNoIntent;
+    case Needs::kinematic_intent:
+      if (input.intent == nullptr) return kNoIntent;
+      return has_response ? "dynamics moves the figure, so that tracking_error judges" : "";
+    case Needs::response: return has_response ? "" : "the motion has no dynamics";
+    case Needs::clip: return "the motion is no clip of an animation file";
+  }
+  return {};
 }
 
 const CheckDef& find_check(std::string_view name) {

@@ -1,6 +1,6 @@
 // A check measures signed margins: > 0 safe, 0 at the limit, < 0 violated; NaN counts as violated. One fold turns them
-// into findings, and nothing else does. Adding a check is one row in check_list.inc, one measuring function, and two
-// exemplars in the tests (just inside, just outside).
+// into findings, and nothing else does. Adding a check is one row in check_list.inc, one measuring function, two
+// exemplars in the tests (just inside, just outside) and a line in docs/checks.md.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,26 @@
 #include "checks/fold.h"
 #include "checks/settings.h"
 #include "model/character/character.h"
+#include "model/motion/execution.h"
 #include "model/motion/intent.h"
 #include "model/motion/motion.h"
 #include "model/world/environment.h"
 
 namespace contort {
+
+// What a check needs beside a character and a motion of it. Where that is missing it cannot judge, and says so.
+enum class Needs : std::uint8_t {
+  motion,            // nothing else
+  height,            // how high the root is above the ground
+  path,              // where the root goes in the world
+  intent,            // what the generator says that it meant
+  kinematic_intent,  // the same, and that dynamics did not move the figure away from it
+  response,          // what dynamics recorded
+  clip,              // instead of all that, a clip as it is in its file
+};
+
+struct ClipInput;  // clip_check.h
+struct ClipCheckResult;
 
 struct CheckInput {
   const Character& character;
@@ -26,6 +41,7 @@ struct CheckInput {
   const CheckSettings& settings;
   const Environment& environment;
   const Intent* intent = nullptr;  // what the generator says that it meant; null where it says nothing
+  RootPath path = RootPath::told;
 
   std::span<const Rigid> world_at(int frame) const {
     const std::size_t joints = character.joints().size();
@@ -43,15 +59,35 @@ struct CheckDef {
   double scale;           // margin / scale compares checks: 0.1 rad out of range is "as bad as" 2 cm deep
   double resolution;      // margins down to -resolution are rounding, not violations
   bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it
+  Needs needs;
+  std::string_view nothing;  // what is missing where what it needs is there and it still judged nothing
   std::string_view help;
-  // What is judged, numbered from 0.
+  // What is judged, numbered from 0. Checks of clips have no such subjects, and measure nothing.
   int (*subject_count)(const Character&);
   Subject (*subject)(const Character&, int);
   // Reports every subject in every frame that it judges; it may leave out margins that change nothing (fold.h).
   void (*measure)(const CheckInput&, MarginFold&);
+  ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // of checks of clips, and of no other
+};
+
+// A check that judged, with the number of its subjects. The texts are those of the manifest.
+struct JudgedCheck {
+  std::string_view check;
+  int subjects = 0;
+  bool operator==(const JudgedCheck&) const = default;
+};
+
+// A check that could not judge: "the motion has no dynamics".
+struct NotJudged {
+  std::string_view check;
+  std::string_view reason;
+  bool operator==(const NotJudged&) const = default;
 };
 
 std::span<const CheckDef> all_checks();
+
+// Why a check cannot judge a motion; empty where it can.
+std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& input);
 
 // The row of this name; there must be one.
 const CheckDef& find_check(std::string_view name);

@@ -84,18 +84,20 @@ void add_channel(const AssetNode& node, const ChannelSpeeds& speeds, const Speed
 
 }  // namespace
 
+ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const SpeedLimits& limits) {
+  ClipSpeeds out;
+  out.clip = clip.label;
+  for (const ChannelSpeeds& speeds : joint_speeds(clip)) {
+    ++out.channels;
+    add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], speeds, limits, out);
+  }
+  return out;
+}
+
 std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name) {
   std::vector<ClipSpeeds> all;
-  for (const AssetClip& clip : asset.clips) {
-    if (!name.empty() && clip.name != name && clip.label != name) continue;
-    ClipSpeeds out;
-    out.clip = clip.label;
-    for (const ChannelSpeeds& speeds : joint_speeds(clip)) {
-      ++out.channels;
-      add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], speeds, limits, out);
-    }
-    all.push_back(std::move(out));
-  }
+  for (const AssetClip& clip : asset.clips)
+    if (name.empty() || clip.name == name || clip.label == name) all.push_back(check_clip_speeds(asset, clip, limits));
   return all;
 }
 

@@ -40,7 +40,9 @@ struct ClipSpeeds {
   std::vector<ClipFinding> findings;  // in the order of channels, then time
 };
 
-// With `name` empty, all clips. Nothing fails: a clip without rotations has a peak of 0.
+ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const SpeedLimits& limits);
+
+// Of each clip. With `name` empty, all clips. Nothing fails: a clip without rotations has a peak of 0.
 std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name = "");
 
 }  // namespace contort

@@ -77,6 +77,7 @@ DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion,
   out.least_margin = std::numeric_limits<double>::infinity();
   for (const double margin : fold.smallest()) out.least_margin = std::min(out.least_margin, margin);
   out.worst_depth = -out.least_margin / scale;
+  out.subjects = fold.judged_subjects();
   return out;
 }
 

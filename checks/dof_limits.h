@@ -16,6 +16,7 @@ struct DofLimits {
   // Numbers that were judged: those of degrees of freedom with limits, the root's left out, in all frames.
   std::int64_t samples = 0;
   std::int64_t out_of_range = 0;
+  int subjects = 0;  // limits that have samples
   // Subjects are "lwrist ry min" and "max", units rad (prismatic: the file's unit of length). Frames are the file's own
   // numbers, which mostly begin with 1.
   std::vector<Finding> findings;

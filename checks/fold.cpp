@@ -5,8 +5,8 @@
 
 namespace contort {
 
-std::string family_of(const std::string& character, const Finding& finding) {
-  return finding.check + "|" + character + "|" + finding.subject;
+Family family_of(const std::string& character, const Finding& finding) {
+  return {finding.check, character, finding.subject};
 }
 
 MarginFold::MarginFold(int subject_count, int merge_gap_frames, double resolution)
@@ -59,6 +59,20 @@ void MarginFold::violated(int subject, int frame, double margin) {
     episode.worst = frame;
     episode.worst_margin = margin;
   }
+}
+
+bool MarginFold::is_ignored(std::size_t subject) const {
+  if (tolerances_.empty()) return false;
+  const double* of_phases = &tolerances_[subject * phase_count_];
+  return std::all_of(of_phases, of_phases + phase_count_,
+                     [](double more) { return more == std::numeric_limits<double>::infinity(); });
+}
+
+int MarginFold::judged_subjects() const {
+  int count = 0;
+  for (std::size_t s = 0; s < smallest_.size(); ++s)
+    count += smallest_[s] != std::numeric_limits<double>::infinity() || (judged_all_ && !is_ignored(s));
+  return count;
 }
 
 std::vector<MarginFold::Episode> MarginFold::episodes() const {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "checks/family.h"
+
 namespace contort {
 
 // An episode of negative margins of one subject.
@@ -22,8 +24,7 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-// The identity of a failure, without numbers: "joint_range|human|arm_left/elbow max".
-std::string family_of(const std::string& character, const Finding& finding);
+Family family_of(const std::string& character, const Finding& finding);
 
 // Folds margins as they are measured, without storing them: per subject the open episode and the smallest margin.
 // Frames of one subject must come in rising order.
@@ -67,6 +68,11 @@ class MarginFold {
     return smallest > least_ ? smallest : least_;
   }
 
+  // For checks that leave out margins: whatever subject has no margin was judged, too.
+  void judged_all() { judged_all_ = true; }
+  // Subjects that have a margin, or were judged without; not those that rules of the settings ignore.
+  int judged_subjects() const;
+
   // Episodes in the order of their first frame, then of subjects.
   std::vector<Episode> episodes() const;
 
@@ -77,6 +83,7 @@ class MarginFold {
   // +infinity where it is not judged.
   double tolerated_and_recorded(int subject, int frame, double margin);
   void violated(int subject, int frame, double margin);
+  bool is_ignored(std::size_t subject) const;
 
   int merge_gap_frames_;
   double least_;  // that is not violated: -resolution
@@ -87,6 +94,7 @@ class MarginFold {
   std::vector<double> tolerances_;  // subjects x phases; empty: none
   std::vector<std::uint8_t> phases_;
   std::size_t phase_count_ = 1;
+  bool judged_all_ = false;
   std::size_t recorded_frames_ = 0;
   std::vector<double> recorded_;  // subjects x frames
 };

@@ -46,8 +46,9 @@ Evaluation Judge::evaluate(const Execution& execution, std::string_view only_che
   Evaluation evaluation;
   evaluation.motion_hash = motion_hash(execution.motion);
   evaluation.frame_count = execution.motion.frame_count;
-  evaluation.findings =
-      judge(*execution.character, execution.motion, only_check, execution.environment, execution.said());
+  judge({*execution.character, execution.motion, {}, settings_, execution.environment, execution.said(),
+         execution.path},
+        only_check, evaluation);
   if (!settings_.waivers.empty()) set_waived_apart(execution, evaluation);
   return evaluation;
 }
@@ -75,31 +76,49 @@ MarginFold Judge::fold(const CheckDef& check, const CheckInput& input, bool reco
   MarginFold margins(check.subject_count(input.character), settings_.merge_gap_frames, check.resolution);
   if (record) margins.record(input.motion.frame_count);
   apply_limits(check, input, margins);
-  check.measure(input, margins);
+  if (reason_not_to_judge(check, input).empty()) check.measure(input, margins);
   return margins;
 }
 
 std::vector<Finding> Judge::judge(const Character& character, const Motion& motion, std::string_view only_check,
                                   const Environment& environment, const Intent* intent) {
-  bool placed = false;
+  Evaluation evaluation;
+  judge({character, motion, {}, settings_, environment, intent}, only_check, evaluation);
+  return std::move(evaluation.findings);
+}
+
+namespace {
+
+// Puts the check among those that judged, or among those that could not.
+void add_verdict(const CheckDef& check, std::string_view reason, const MarginFold& margins, Evaluation& out) {
+  const int subjects = reason.empty() ? margins.judged_subjects() : 0;
+  if (subjects > 0)
+    out.judged.push_back({check.name, subjects});
+  else
+    out.not_judged.push_back({check.name, reason.empty() ? check.nothing : reason});
+}
+
+}  // namespace
+
+void Judge::judge(CheckInput input, std::string_view only_check, Evaluation& out) {
   smallest_.clear();
-  std::vector<Finding> findings;
   for (const CheckDef& check : all_checks()) {
     if (!only_check.empty() && check.name != only_check) continue;
-    if (check.needs_world && !placed) {
-      place_frames(character, motion, world_);
-      placed = true;
+    const std::string_view reason = reason_not_to_judge(check, input);
+    if (reason.empty() && check.needs_world && input.world.empty()) {
+      place_frames(input.character, input.motion, world_);
+      input.world = world_;
     }
-    const MarginFold margins = fold(check, {character, motion, world_, settings_, environment, intent}, false);
-    append_findings(check, character, margins, findings);
-    smallest_.push_back({&check, margins.smallest()});
+    const MarginFold margins = fold(check, input, false);
+    append_findings(check, input.character, margins, out.findings);
+    add_verdict(check, reason, margins, out);
+    if (check.needs != Needs::clip) smallest_.push_back({&check, margins.smallest()});
   }
   // That a figure loses its balance is the fault; what its limbs do from then on only follows from it.
-  const int lost = first_without_balance(motion);
-  std::erase_if(findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });
-  std::stable_sort(findings.begin(), findings.end(),
+  const int lost = first_without_balance(input.motion);
+  std::erase_if(out.findings, [&](const Finding& f) { return f.first_frame >= lost && f.check != "balance"; });
+  std::stable_sort(out.findings.begin(), out.findings.end(),
                    [](const Finding& l, const Finding& r) { return l.first_frame < r.first_frame; });
-  return findings;
 }
 
 namespace {
@@ -138,7 +157,7 @@ std::vector<MarginCurve> Judge::curves(const Execution& execution, const Finding
   chosen.resize(std::min(chosen.size(), most));
   std::vector<MarginCurve> curves(chosen.size());
   const CheckInput input{*execution.character,  execution.motion, world_, settings_,
-                         execution.environment, execution.said()};
+                         execution.environment, execution.said(), execution.path};
   for (std::size_t row = 0; row < smallest_.size(); ++row) {
     if (std::ranges::none_of(chosen, [&](const Candidate& c) { return c.row == row; })) continue;
     const CheckDef& check = *smallest_[row].check;

@@ -22,6 +22,8 @@ struct Evaluation {
   std::uint64_t motion_hash = 0;
   int frame_count = 0;
   std::vector<Finding> findings;  // by first frame, then check in the manifest's order, then subject
+  std::vector<JudgedCheck> judged;    // in the manifest's order, like the next
+  std::vector<NotJudged> not_judged;  // with `only_check`, both tell of it alone
   std::vector<WaivedFinding> waived;
   std::vector<WaiverUse> waivers;  // for each waiver of the settings
   bool operator==(const Evaluation&) const = default;
@@ -55,13 +57,15 @@ class Judge {
   std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
                              const Environment& environment = {}, const Intent* intent = nullptr);
 
-  // The margins of the last judgement, in the manifest's order. The search is guided by them.
+  // The margins of the last judgement, in the manifest's order, of all checks of motions, whether they could judge or
+  // not. The search is guided by them.
   const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
   // The curves of the last judgement, which was of this execution and had all checks: first the subject that a finding
   // is about, then those that came nearest to their limits in the check's scale, `most` at the most.
   std::vector<MarginCurve> curves(const Execution& execution, const Finding& about, std::size_t most) const;
 
  private:
+  void judge(CheckInput input, std::string_view only_check, Evaluation& out);
   void set_waived_apart(const Execution& execution, Evaluation& evaluation) const;
   MarginFold fold(const CheckDef& check, const CheckInput& input, bool record) const;
 

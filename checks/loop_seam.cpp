@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "checks/clip_check.h"
 #include "model/asset/sample.h"
 
 namespace contort {
@@ -20,19 +21,30 @@ double margin_rad(const AssetChannel& channel) {
   return std::max(kSeam_rad, kSeamFactor * widest) - angle_between(channel, last, 0);
 }
 
+bool has_seam(const AssetChannel& channel) {
+  return channel.path == ChannelPath::rotation && channel.times_s.size() >= 3;
+}
+
 }  // namespace
 
 std::vector<Finding> check_loop_seam(const Asset& asset, const AssetClip& clip, const CheckSettings& settings) {
+  const double scale = find_check("loop_seam").scale;
   std::vector<Finding> findings;
   for (const AssetChannel& channel : clip.channels) {
-    if (channel.path != ChannelPath::rotation || channel.times_s.size() < 3) continue;
+    if (!has_seam(channel)) continue;
     const std::string& node = asset.nodes[static_cast<std::size_t>(channel.node)].label;
     const double margin = margin_rad(channel) + tolerance_of(settings, "loop_seam", node);
     const int last = static_cast<int>(channel.times_s.size()) - 1;
-    if (margin < 0.0)
-      findings.push_back({"loop_seam", node, "rad", last, last, last, margin, -margin / kSeamScale_rad});
+    if (margin < 0.0) findings.push_back({"loop_seam", node, "rad", last, last, last, margin, -margin / scale});
   }
   return findings;
+}
+
+ClipCheckResult loop_seam_in_clip(const ClipInput& in) {
+  if (!in.is_loop) return {0, "nothing says that the clip is a loop (--loops)", {}};
+  const auto seams = static_cast<int>(std::ranges::count_if(in.clip.channels, has_seam));
+  if (seams == 0) return {0, "no rotation has three keys", {}};
+  return {seams, "", check_loop_seam(in.asset, in.clip, in.settings)};
 }
 
 }  // namespace contort

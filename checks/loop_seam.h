@@ -13,7 +13,6 @@ namespace contort {
 
 inline constexpr double kSeam_rad = 1.0 * kRadPerDeg;  // nobody sees it
 inline constexpr double kSeamFactor = 2.0;
-inline constexpr double kSeamScale_rad = 0.1;
 
 // One finding for each node whose seam is wider, in the order of channels; frames are the number of the last key. Rules
 // of the settings for loop_seam apply by node label. Channels with fewer than three keys have no seam.

@@ -45,6 +45,7 @@ Subject obstacle_penetration_subject(const Character& character, int subject) {
 void obstacle_penetration_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<Solid> obstacles = placed_obstacles(in.environment);
   if (obstacles.empty()) return;
+  fold.judged_all();
   std::vector<Solid> own;
   for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
   std::vector<Solid> placed = own;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "checks/clip_check.h"
 #include "model/asset/sample.h"
 
 namespace contort {
@@ -37,6 +38,11 @@ double widest_m(const AssetChannel& channel, const Vec3& rest_m, std::size_t key
   return widest;
 }
 
+bool has_place(const Asset& asset, const AssetChannel& channel) {
+  return channel.path == ChannelPath::translation &&
+         is_inner(asset, asset.nodes[static_cast<std::size_t>(channel.node)]);
+}
+
 std::optional<Finding> judge(const AssetChannel& channel, const AssetNode& node, double allowed_m) {
   Finding finding{"part_gap", node.label, "m", -1, -1, -1, 0.0, 0.0};
   for (std::size_t key = 0; key < channel.times_s.size(); ++key) {
@@ -46,7 +52,7 @@ std::optional<Finding> judge(const AssetChannel& channel, const AssetNode& node,
     if (finding.first_frame < 0) finding.first_frame = finding.last_frame;
     if (margin_m < finding.worst_margin) finding.worst_frame = finding.last_frame, finding.worst_margin = margin_m;
   }
-  finding.depth = -finding.worst_margin / kGapScale_m;
+  finding.depth = -finding.worst_margin / find_check("part_gap").scale;
   return finding.first_frame < 0 ? std::optional<Finding>() : finding;
 }
 
@@ -56,12 +62,20 @@ std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, d
                                     const CheckSettings& settings) {
   std::vector<Finding> findings;
   for (const AssetChannel& channel : clip.channels) {
+    if (!has_place(asset, channel)) continue;
     const AssetNode& node = asset.nodes[static_cast<std::size_t>(channel.node)];
-    if (channel.path != ChannelPath::translation || !is_inner(asset, node)) continue;
     const double allowed_m = most_m + tolerance_of(settings, "part_gap", node.label);
     if (std::optional<Finding> finding = judge(channel, node, allowed_m)) findings.push_back(std::move(*finding));
   }
   return findings;
+}
+
+ClipCheckResult part_gap_in_clip(const ClipInput& in) {
+  if (!in.max_gap_m) return {0, "nothing says how far a joint may be from its place (--max-gap-m)", {}};
+  const auto is_one = [&](const AssetChannel& channel) { return has_place(in.asset, channel); };
+  const auto joints = static_cast<int>(std::ranges::count_if(in.clip.channels, is_one));
+  if (joints == 0) return {0, "no joint below the root's own has a translation", {}};
+  return {joints, "", check_part_gap(in.asset, in.clip, *in.max_gap_m, in.settings)};
 }
 
 }  // namespace contort

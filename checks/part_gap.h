@@ -11,8 +11,6 @@
 
 namespace contort {
 
-inline constexpr double kGapScale_m = 0.02;
-
 // One finding for each joint that is farther from its place at rest in its parent than `most_m` (metres, as glTF
 // says; lengths are in the unit of the file)
 // at some key, splines also at eighths between keys; in the order of channels. Frames are numbers of keys. Joints that

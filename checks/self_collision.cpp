@@ -96,6 +96,7 @@ Subject self_collision_subject(const Character& character, int subject) {
 void self_collision_measure(const CheckInput& in, MarginFold& fold) {
   Watch watch(in, fold);
   for (int frame = 0; frame < in.motion.frame_count; ++frame) watch.look_at(frame);
+  if (in.motion.frame_count > 0) fold.judged_all();
 }
 
 }  // namespace contort

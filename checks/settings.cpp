@@ -6,7 +6,6 @@
 
 #include "checks/check.h"
 #include "checks/circumstances.h"
-#include "checks/clip_checks.h"
 #include "model/core/json_fields.h"
 #include "model/core/nearest.h"
 
@@ -35,14 +34,13 @@ int days_of(int year, int month) {
 }
 
 bool is_check(std::string_view name) {
-  const auto is_named = [&](const auto& check) { return check.name == name; };
-  return std::ranges::any_of(all_checks(), is_named) || std::ranges::any_of(clip_checks(), is_named);
+  const auto is_named = [&](const CheckDef& check) { return check.name == name; };
+  return std::ranges::any_of(all_checks(), is_named);
 }
 
 std::string check_names_text() {
   std::string text;
   for (const CheckDef& check : all_checks()) text += std::string(check.name) + ", ";
-  for (const ClipCheckDef& check : clip_checks()) text += std::string(check.name) + ", ";
   return text;
 }
 

@@ -22,9 +22,11 @@ std::function<void(const FailingCase&)> CaseLog::listener() {
 // To the end at once: whoever follows the file, or kills the run, has whole lines.
 void CaseLog::add(const FailingCase& failing) {
   using json_fields::Json;
+  Json families = Json::array();
+  for (const Family& family : failing.families) families.push_back(print_family(family));
   const Json line = {{"index", failing.index},
                      {"arm", failing.arm},
-                     {"families", failing.families},
+                     {"families", families},
                      {"spec", Json::parse(print_spec(failing.spec))}};
   const std::string text = line.dump() + "\n";
   lost_ |= std::fwrite(text.data(), 1, text.size(), out_.get()) != text.size() || std::fflush(out_.get()) != 0;

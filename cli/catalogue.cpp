@@ -1,7 +1,6 @@
 #include <optional>
 
 #include "checks/check.h"
-#include "checks/clip_checks.h"
 #include "cli/catalogue_fields.h"
 #include "cli/variants.h"
 #include "fuzz/profile.h"
@@ -91,8 +90,6 @@ Json list_checks(Generator&) {
   for (const CheckDef& check : all_checks())
     out.push_back(
         {{"name", check.name}, {"scale", check.scale}, {"resolution", check.resolution}, {"help", check.help}});
-  for (const ClipCheckDef& check : clip_checks())
-    out.push_back({{"name", check.name}, {"scale", check.scale}, {"resolution", 0.0}, {"help", check.help}});
   return out;
 }
 

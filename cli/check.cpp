@@ -5,6 +5,7 @@
 #include "cli/check_clips.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/judged_text.h"
 #include "cli/print.h"
 #include "corpus/evaluator.h"
 #include "model/core/files.h"
@@ -23,8 +24,18 @@ Json spec_json(const std::string& file, const Execution& made, const CheckSettin
           {"character", made.character->name()},
           {"frames", evaluation.frame_count},
           {"motion_hash", to_hex(evaluation.motion_hash)},
+          {"judged", Json::parse(judged_json(evaluation.judged))},
+          {"not_judged", Json::parse(not_judged_json(evaluation.not_judged))},
           {"waivers", Json::parse(waivers_json(settings, evaluation.waivers))},
           {"findings", Json::parse(findings_json(evaluation.findings, made.motion.rate_hz, at_worst))}};
+}
+
+void print_judged(const Evaluation& evaluation, const Character& character) {
+  JudgedSummary summary;
+  summary.add(evaluation.judged, evaluation.not_judged);
+  summary.frames = evaluation.frame_count;
+  summary.joints = summary.joint_count = static_cast<int>(character.joints().size());
+  for (const std::string& line : judged_lines(summary)) std::printf("%s\n", line.c_str());
 }
 
 void check_spec(const std::string& file, bool as_json, Context& context) {
@@ -51,6 +62,7 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   for (std::size_t i = 0; i < at_worst.size(); ++i)
     std::printf("%s\n", finding_line(evaluation.findings[i], made.motion.rate_hz, at_worst[i]).c_str());
   for (const std::string& line : waiver_lines(*settings, evaluation.waivers)) std::printf("%s\n", line.c_str());
+  print_judged(evaluation, *made.character);
   const std::size_t count = evaluation.findings.size();
   std::printf("%s\nRESULT findings=%zu", count == 0 ? "OK: nothing found." : "FAILED: limits are violated.", count);
   if (!settings->waivers.empty()) std::printf(" waived=%zu", evaluation.waived.size());
@@ -87,15 +99,17 @@ void add_check(CLI::App& app, Context& context) {
                    "Spec or case (.json), or animation (.glb, .gltf, .bvh, .amc); with --all-clips, any number of "
                    "animations and folders")
       ->required();
-  CLI::Option* character = command->add_option("--character", options->character,
-                                               "Take speed limits from this character's joints, where names match");
+  CLI::Option* character = command->add_option(
+      "--character", options->character, "Judge the clips as motions of this character, by every check that applies");
   command
       ->add_option("--map", options->map, "File that says which node of the animation is which joint of the character")
       ->needs(character);
   command->add_option("--skeleton", options->animation.skeleton,
                       "Skeleton (.asf) of an .amc; else the only one in its folder, or the one named most alike");
-  command->add_option("--rate-hz", options->animation.rate_hz, "Frames per second of an .amc, which does not say it")
-      ->check(CLI::Range(1.0, 1e5))
+  CLI::Option* rate = command->add_option(
+      "--rate-hz", options->animation.rate_hz,
+      "Frames per second of an .amc, which does not say it; of motions of a character, instead of the clip's own");
+  rate->check(CLI::Range(1.0, 1e5))
       ->check(refuse_nan)
       ->capture_default_str();
   CLI::Option* clip = command->add_option("--clip", options->clip, "Only this clip of the file");
@@ -131,7 +145,10 @@ void add_check(CLI::App& app, Context& context) {
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
       "         contort check captures --all-clips");
-  command->callback([options, command, &context] { run(*options, *command, context); });
+  command->callback([options, command, rate, &context] {
+    if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
+    run(*options, *command, context);
+  });
 }
 
 }  // namespace contort::cli

@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <map>
 #include <set>
 
-#include "checks/clip_speed.h"
-#include "checks/dof_limits.h"
-#include "checks/joint_map.h"
-#include "checks/loop_seam.h"
-#include "checks/part_gap.h"
+#include "checks/judge_clip.h"
 #include "checks/waive.h"
+#include "cli/clip_character.h"
 #include "cli/clip_report.h"
 #include "cli/print.h"
-#include "model/character/character.h"
-#include "model/core/file_kind.h"
+#include "guest/finished_file.h"
 #include "model/core/files.h"
-#include "model/core/inside_folder.h"
-#include "model/core/json_fields.h"
 
 namespace contort::cli {
 
@@ -33,59 +25,23 @@ struct Checked {
   std::size_t waived = 0;
 };
 
-Issue map_issue(const std::string& node, std::string_view code, std::string text) {
-  json_fields::ReadContext context("map");
-  context.push("joints");
-  context.push(node);
-  context.fail(code, std::move(text));
-  return context.take_issue();
-}
+// All that does not change from file to file.
+struct ClipJudging {
+  const ClipCheckOptions& options;
+  ClipCharacter on;
+  SpeedLimits limits;
+  Judge judge;
+};
 
-// The map that `import` left beside the character, or "".
-Result<std::string> own_map(const std::string& character, const Context& context) {
-  std::error_code error;
-  for (const std::string& folder : context.library_folders)
-    if (const std::string path = folder + "/maps/" + character + ".json";
-        is_file_name(character) && std::filesystem::exists(path, error)) {
-      const Result<Done> inside = check_inside(folder, path);
-      return inside ? Result<std::string>(path) : inside.issue();
-    }
-  return std::string();
-}
-
-Result<JointMap> read_map(const std::string& path) {
-  if (path.empty()) return JointMap{};
-  const Result<std::string> text = read_json_file(path, "a map of joints (JSON)");
-  if (!text) return text.issue();
-  Result<JointMap> map = parse_joint_map(*text);
-  if (!map) return Issue{map.issue().code, map.issue().pointer, path + ": " + map.issue().text};
-  return map;
-}
-
-// Joints of the character that turn, by name.
-Result<SpeedLimits> limits_of(const ClipCheckOptions& options, const JointMap& map, Context& context) {
-  SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, {}, {}};
+Result<ClipJudging> judging_of(const ClipCheckOptions& options, Context& context) {
+  Result<ClipCharacter> on = load_clip_character(options.character, options.map, context);
+  if (!on) return on.issue();
   Result<CheckSettings> settings = context.load_settings();
   if (!settings) return settings.issue();
-  limits.settings = std::move(settings).value();
-  if (options.character.empty()) return limits;
-  const Library* library = context.load_library();
-  if (library == nullptr) return Issue{"library.unreadable", "", "the library could not be read"};
-  const Result<Character> character = build_character({options.character, {}, {}}, *library);
-  if (!character) return character.issue();
-  for (const Joint& joint : character->joints())
-    if (joint.kind == JointKind::hinge || joint.kind == JointKind::ball) limits.of_node[joint.name] = joint.max_speed;
-  std::map<std::string, double> mapped;
-  for (const auto& [node, joint] : map.joints) {
-    const auto found = limits.of_node.find(joint);
-    if (found == limits.of_node.end())
-      return map_issue(
-          node, "unknown_joint",
-          "the character " + options.character + " has no joint " + json_fields::quoted(joint) + " that turns");
-    mapped[node] = found->second;
-  }
-  for (const auto& [node, limit] : mapped) limits.of_node[node] = limit;
-  return limits;
+  CheckSettings unwaived = *settings;  // findings of all sources are waived together
+  unwaived.waivers.clear();
+  SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, speed_limits_of(*on), std::move(settings).value()};
+  return ClipJudging{options, std::move(on).value(), std::move(limits), Judge(unwaived)};
 }
 
 void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
@@ -109,34 +65,68 @@ void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingO
 
 void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked& out) {
   keep_open(
-      settings, report.speeds.findings, [](const ClipFinding& f) { return f.finding; }, out);
-  for (std::vector<Finding>* found : {&report.seams, &report.gaps})
-    keep_open(
-        settings, *found, [](const Finding& f) { return f; }, out);
-  if (report.limits)
-    keep_open(
-        settings, report.limits->findings, [](const Finding& f) { return f; }, out);
+      settings, report.judged.speeds.findings, [](const ClipFinding& f) { return f.finding; }, out);
+  const auto itself = [](const Finding& f) { return f; };
+  keep_open(settings, report.judged.clip_findings, itself, out);
+  keep_open(settings, report.judged.motion_findings, itself, out);
+  if (report.judged.limits) keep_open(settings, report.judged.limits->findings, itself, out);
 }
 
-const AssetClip& clip_of(const Asset& asset, const std::string& label) {
-  return *std::ranges::find_if(asset.clips, [&](const AssetClip& clip) { return clip.label == label; });
+// A joint that left out so much of its node's turn has coordinates that jump where the node does not.
+constexpr double kNotFollowed_rad = 30.0 * kRadPerDeg;
+
+// A joint goes with those that share its node's turn.
+SpeedsElsewhere speeds_elsewhere(const Character& character, const Conversion& made, const AssetClip& clip) {
+  SpeedsElsewhere out;
+  for (const FollowedNode& f : made.followed) {
+    const bool has_channel = std::ranges::any_of(clip.channels, [&](const AssetChannel& channel) {
+      return channel.node == f.node && channel.path == ChannelPath::rotation;
+    });
+    for (int joint = std::max(f.joint, 1); joint < f.joint + f.hinges; ++joint) {
+      const std::string& name = character.joint(joint).name;
+      if (has_channel) out.in_channels.insert(name);
+      if (f.missed_rad > kNotFollowed_rad) out.not_followed.insert(name);
+    }
+  }
+  return out;
 }
 
-void check_file(const std::string& file, const ClipCheckOptions& options, const SpeedLimits& limits, Checked& out) {
-  const Result<Animation> animation = read_animation(file, options.animation);
+Result<Done> judge_on_character(ClipJudging& with, const Asset& asset, const AssetClip& clip, ClipReport& report) {
+  if (!with.on.character) return Done{};
+  const Result<Conversion> made =
+      convert({asset, clip, with.on.character, with.on.map.joints, with.options.rate_hz.value_or(0.0)});
+  if (!made) return made.issue();
+  add_motion(with.judge.evaluate(made->execution), speeds_elsewhere(*with.on.character, *made, clip), report.judged);
+  report.motion = motion_of_clip(asset, clip, *made);
+  return Done{};
+}
+
+Result<ClipReport> check_clip(const std::string& file, const Animation& animation, const AssetClip& clip,
+                              ClipJudging& with) {
+  const bool is_loop = !with.options.loops.empty() && matches(with.options.loops, clip.label);
+  const ClipInput in{animation.asset, clip, with.limits.settings, is_loop, with.options.max_gap_m};
+  ClipReport report{file, {}, {}, with.options.animation.rate_hz, 0};
+  if (const std::optional<Take>& take = animation.take; take) {
+    const Capture capture{take->skeleton, take->motion};
+    report.judged = judge_clip(in, with.limits, &capture);
+    report.first_frame = take->motion.first_frame;
+  } else {
+    report.judged = judge_clip(in, with.limits, nullptr);
+  }
+  if (const Result<Done> moved = judge_on_character(with, animation.asset, clip, report); !moved) return moved.issue();
+  return report;
+}
+
+void check_file(const std::string& file, ClipJudging& with, Checked& out) {
+  const Result<Animation> animation = read_animation(file, with.options.animation);
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
-  for (ClipSpeeds& speeds : check_clip_speeds(animation->asset, limits, options.clip)) {
-    const AssetClip& clip = clip_of(animation->asset, speeds.clip);
-    ClipReport report{file, std::move(speeds), {}, {}, {}, options.animation.rate_hz, 0};
-    if (!options.loops.empty() && matches(options.loops, clip.label))
-      report.seams = check_loop_seam(animation->asset, clip, limits.settings);
-    if (options.max_gap_m) report.gaps = check_part_gap(animation->asset, clip, *options.max_gap_m, limits.settings);
-    if (const std::optional<Take>& take = animation->take; take) {
-      report.limits = check_dof_limits(take->skeleton, take->motion, limits.settings);
-      report.first_frame = take->motion.first_frame;
-    }
-    set_waived_apart(limits.settings, report, out);
+  for (const AssetClip& clip : animation->asset.clips) {
+    if (!with.options.clip.empty() && clip.name != with.options.clip && clip.label != with.options.clip) continue;
+    Result<ClipReport> checked = check_clip(file, *animation, clip, with);
+    if (!checked) return out.unreadable.push_back({file, checked.issue()});
+    ClipReport report = std::move(checked).value();
+    set_waived_apart(with.limits.settings, report, out);
     out.clips.push_back(std::move(report));
   }
 }
@@ -163,6 +153,7 @@ void print_one(const ClipCheckOptions& options, const CheckSettings& settings, c
   if (options.json) return print_json(options.files.front(), checked.clips, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip(clip);
   print_waivers(settings, checked);
+  print_judged(checked.clips);
   print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, checked));
 }
 
@@ -173,6 +164,7 @@ void print_all(const ClipCheckOptions& options, const CheckSettings& settings, c
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
   print_waivers(settings, checked);
+  print_judged(checked.clips);
   const std::string missing = is_incomplete(options, checked) ? count_unreadable(checked, files) : "";
   print_result(count_findings(checked.clips), checked.clips.size(), missing,
                waived_count(settings, checked) + " files=" + std::to_string(files) +
@@ -181,19 +173,16 @@ void print_all(const ClipCheckOptions& options, const CheckSettings& settings, c
 
 // What stops the command before anything is printed: nothing to judge, or a map that does not fit.
 Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked) {
+  const auto matches_nothing = [](const Unreadable& file) { return file.issue.code == "check.nothing_matches"; };
+  const bool was_read = !checked.clips.empty() || std::ranges::any_of(checked.unreadable, matches_nothing);
+  if (!checked.unmatched.empty() && was_read)
+    return map_issue(*checked.unmatched.begin(), "unknown_node", "no file has a node of this name");
   if (!options.all_clips && !checked.unreadable.empty())
     return about_file(checked.unreadable.front().file, checked.unreadable.front().issue);
-  if (!checked.unmatched.empty() && !checked.clips.empty())
-    return map_issue(*checked.unmatched.begin(), "unknown_node", "no file has a node of this name");
   if (!checked.clips.empty() || !checked.unreadable.empty()) return Done{};
   const std::string where = options.files.size() == 1 ? options.files.front() : "none of the files";
   return Issue{"check.no_clip", "",
                where + (options.clip.empty() ? " holds no animation" : " holds no clip \"" + options.clip + "\"")};
-}
-
-// Names the file of the map in an issue that is about the map.
-Issue in_map(const std::string& map, const Issue& issue) {
-  return issue.code.starts_with("map.") && !map.empty() ? about_file(map, issue) : issue;
 }
 
 void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) {
@@ -206,25 +195,22 @@ void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) 
 
 void check_clips(const ClipCheckOptions& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<std::string> map_file = options.map.empty() ? own_map(options.character, context) : options.map;
-  if (!map_file) return context.fail(map_file.issue());
-  const std::string& map_path = *map_file;
-  const Result<JointMap> map = read_map(map_path);
-  if (!map) return context.fail(map.issue());
-  const Result<SpeedLimits> limits = limits_of(options, *map, context);
-  if (!limits) return context.fail(in_map(map_path, limits.issue()));
+  Result<ClipJudging> judging = judging_of(options, context);
+  if (!judging) return context.fail(judging.issue());
+  ClipJudging with = std::move(judging).value();
   Checked checked;
   const std::vector<std::string> files =
       options.all_clips ? expand_animations(options.files, checked.unreadable) : options.files;
   const std::size_t count = files.size() + checked.unreadable.size();
   if (!options.map.empty())  // an own map may say more than the file has
-    for (const auto& entry : map->joints) checked.unmatched.insert(entry.first);
-  for (const std::string& file : files) check_file(file, options, *limits, checked);
-  if (const Result<Done> fit = judge_input(options, checked); !fit) return context.fail(in_map(map_path, fit.issue()));
+    for (const auto& entry : with.on.map.joints) checked.unmatched.insert(entry.first);
+  for (const std::string& file : files) check_file(file, with, checked);
+  if (const Result<Done> fit = judge_input(options, checked); !fit)
+    return context.fail(in_map(with.on.map_file, fit.issue()));
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
-  if (!options.all_clips) return print_one(options, limits->settings, checked);
+  if (!options.all_clips) return print_one(options, with.limits.settings, checked);
   std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
-  print_all(options, limits->settings, checked, count);
+  print_all(options, with.limits.settings, checked, count);
   if (is_incomplete(options, checked))
     context.fail({"check.unreadable", "",
                   count_unreadable(checked, count) + ": the list says why; --allow-unreadable lets the others decide"});

@@ -12,12 +12,13 @@ namespace contort::cli {
 
 struct ClipCheckOptions {
   std::vector<std::string> files;   // with all_clips, folders too; without, one file
-  std::string character;            // whose speed limits apply, "" for none
+  std::string character;            // that is judged as the clips move it, "" for none
   std::string map;                  // a file that says which node stands for which joint of the character
   std::string clip;                 // "" for all
   std::string loops;                // clips with such names are loops, "" for none
   std::optional<double> max_gap_m;  // joints farther from their places are part_gap; nothing is judged without
   AnimationOptions animation;
+  std::optional<double> rate_hz;  // of motions of the character; each clip's own without
   double max_speed_deg_s = 3000.0;
   bool all_clips = false;
   bool allow_unreadable = false;  // with all_clips: files that cannot be read do not fail the check

@@ -1,10 +1,13 @@
 #include "cli/clip_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <functional>
 
-#include "checks/check.h"
+#include "cli/judged_text.h"
 #include "cli/print.h"
+#include "model/core/index.h"
 #include "model/core/json_fields.h"
 
 namespace contort::cli {
@@ -14,14 +17,16 @@ namespace {
 using json_fields::Json;
 
 std::size_t findings_of(const ClipReport& clip) {
-  return clip.speeds.findings.size() + (clip.limits ? clip.limits->findings.size() : 0) + clip.seams.size() +
-         clip.gaps.size();
+  const ClipEvaluation& judged = clip.judged;
+  return judged.speeds.findings.size() + (judged.limits ? judged.limits->findings.size() : 0) +
+         judged.clip_findings.size() + judged.motion_findings.size();
 }
 
 double worst_depth(const ClipReport& clip) {
-  const double fast = -clip.speeds.least_margin_rad_s / find_check("angular_velocity").scale;
-  double worst = clip.limits ? std::max(fast, clip.limits->worst_depth) : fast;
-  for (const std::vector<Finding>* found : {&clip.seams, &clip.gaps})
+  const std::optional<DofLimits>& limits = clip.judged.limits;
+  const double fast = -clip.judged.speeds.least_margin_rad_s / find_check("angular_velocity").scale;
+  double worst = limits ? std::max(fast, limits->worst_depth) : fast;
+  for (const std::vector<Finding>* found : {&clip.judged.clip_findings, &clip.judged.motion_findings})
     for (const Finding& finding : *found) worst = std::max(worst, finding.depth);
   return worst;
 }
@@ -35,9 +40,10 @@ const Finding* deepest_of(const DofLimits& limits) {
 double time_s(const ClipReport& clip, int frame) { return (frame - clip.first_frame) / clip.rate_hz; }
 
 // Angles for people.
-std::string margin_text(const Finding& finding) {
+std::string margin_text(const Finding& finding, int digits_of_lengths = 1) {
   const bool is_angle = finding.unit == "rad";
-  return decimal(-finding.worst_margin * (is_angle ? kDegPerRad : 1.0), 1) + " " + (is_angle ? "deg" : finding.unit);
+  if (is_angle) return decimal(-finding.worst_margin * kDegPerRad, 1) + " deg";
+  return decimal(-finding.worst_margin, digits_of_lengths) + " " + finding.unit;
 }
 
 std::string peak_text(const ClipSpeeds& clip) {
@@ -57,7 +63,7 @@ std::string limits_text(const DofLimits& limits) {
 }
 
 void print_limit_findings(const ClipReport& clip) {
-  for (const Finding& f : clip.limits->findings)
+  for (const Finding& f : clip.judged.limits->findings)
     std::printf("  joint_range  %s  %s out of range  frames %d-%d, worst %d (%s s)\n", printable(f.subject).c_str(),
                 margin_text(f).c_str(), f.first_frame, f.last_frame, f.worst_frame,
                 decimal(time_s(clip, f.worst_frame), 3).c_str());
@@ -89,12 +95,7 @@ Json limit_json(const ClipReport& clip, const Finding& f) {
           {"worst_time_s", time_s(clip, f.worst_frame)}};
 }
 
-Json seam_json(const Finding& f) {
-  return {{"check", f.check}, {"subject", f.subject},     {"unit", f.unit}, {"worst_margin", f.worst_margin},
-          {"depth", f.depth}, {"last_key", f.worst_frame}};
-}
-
-Json gap_json(const Finding& f) {
+Json key_json(const Finding& f) {
   return {{"check", f.check},
           {"subject", f.subject},
           {"unit", f.unit},
@@ -105,23 +106,65 @@ Json gap_json(const Finding& f) {
           {"last_key", f.last_frame}};
 }
 
-Json clip_json(const ClipReport& clip) {
+Json motion_json(const ClipMotion& motion, const Finding& f) {
+  const bool finite = std::isfinite(f.worst_margin);
+  return {{"check", f.check},
+          {"subject", f.subject},
+          {"unit", f.unit},
+          {"worst_margin", finite ? Json(f.worst_margin) : Json()},
+          {"depth", finite ? Json(f.depth) : Json()},
+          {"first_frame", f.first_frame},
+          {"worst_frame", f.worst_frame},
+          {"last_frame", f.last_frame},
+          {"worst_time_s", motion.first_s + f.worst_frame / motion.rate_hz}};
+}
+
+const char* path_name(RootPath path) {
+  return path == RootPath::told ? "told" : path == RootPath::on_the_spot ? "on_the_spot" : "unknown";
+}
+
+Json conversion_json(const ClipMotion& motion) {
+  Json left_out = Json::array();
+  for (const LeftOut& l : motion.left_out)
+    left_out.push_back({{"joint", l.joint},
+                        {"node", l.node},
+                        {"turn_deg", l.turn_rad * kDegPerRad},
+                        {"turn_time_s", l.turn_s},
+                        {"offset_m", l.offset_m},
+                        {"offset_time_s", l.offset_s}});
+  return {{"rate_hz", motion.rate_hz},      {"frames", motion.frames},
+          {"joints", motion.joints},        {"joint_count", motion.joint_count},
+          {"root_path", path_name(motion.path)}, {"left_out", left_out},
+          {"stray_nodes", motion.stray_nodes}, {"joints_at_rest", motion.joints_at_rest}};
+}
+
+Json findings_of_clip(const ClipReport& clip) {
   Json findings = Json::array();
-  for (const ClipFinding& f : clip.speeds.findings) findings.push_back(speed_json(f));
-  Json out = {{"clip", clip.speeds.clip},
-              {"peak_joint", clip.speeds.peak_node},
-              {"peak_deg_s", clip.speeds.peak_rad_s * kDegPerRad},
-              {"peak_t0_s", clip.speeds.peak_t0_s},
-              {"peak_t1_s", clip.speeds.peak_t1_s},
-              {"least_margin_deg_s", clip.speeds.least_margin_rad_s * kDegPerRad}};
-  if (clip.limits) {
-    for (const Finding& f : clip.limits->findings) findings.push_back(limit_json(clip, f));
-    out["samples"] = clip.limits->samples;
-    out["samples_out_of_range"] = clip.limits->out_of_range;
+  for (const ClipFinding& f : clip.judged.speeds.findings) findings.push_back(speed_json(f));
+  if (clip.judged.limits)
+    for (const Finding& f : clip.judged.limits->findings) findings.push_back(limit_json(clip, f));
+  for (const Finding& f : clip.judged.clip_findings) findings.push_back(key_json(f));
+  if (clip.motion)
+    for (const Finding& f : clip.judged.motion_findings) findings.push_back(motion_json(*clip.motion, f));
+  return findings;
+}
+
+Json clip_json(const ClipReport& clip) {
+  const ClipSpeeds& speeds = clip.judged.speeds;
+  Json out = {{"clip", speeds.clip},
+              {"peak_joint", speeds.peak_node},
+              {"peak_deg_s", speeds.peak_rad_s * kDegPerRad},
+              {"peak_t0_s", speeds.peak_t0_s},
+              {"peak_t1_s", speeds.peak_t1_s},
+              {"least_margin_deg_s", speeds.least_margin_rad_s * kDegPerRad},
+              {"judged", Json::parse(judged_json(clip.judged.judged))},
+              {"not_judged", Json::parse(not_judged_json(clip.judged.not_judged))},
+              {"findings", findings_of_clip(clip)}};
+  if (clip.judged.limits) {
+    out["samples"] = clip.judged.limits->samples;
+    out["samples_out_of_range"] = clip.judged.limits->out_of_range;
   }
-  for (const Finding& f : clip.seams) findings.push_back(seam_json(f));
-  for (const Finding& f : clip.gaps) findings.push_back(gap_json(f));
-  out["findings"] = findings;
+  if (clip.motion) out["conversion"] = conversion_json(*clip.motion);
   return out;
 }
 
@@ -140,35 +183,134 @@ std::size_t count_findings(const std::vector<ClipReport>& clips) {
 bool is_worse(const ClipReport& a, const ClipReport& b) {
   const double depth_a = worst_depth(a);
   const double depth_b = worst_depth(b);
-  return depth_a != depth_b ? depth_a > depth_b : a.speeds.peak_rad_s > b.speeds.peak_rad_s;
+  return depth_a != depth_b ? depth_a > depth_b : a.judged.speeds.peak_rad_s > b.judged.speeds.peak_rad_s;
 }
 
-void print_clip(const ClipReport& clip) {
-  std::printf("clip %s: %s\n", printable(clip.speeds.clip).c_str(), peak_text(clip.speeds).c_str());
-  for (const ClipFinding& f : clip.speeds.findings)
+namespace {
+
+constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: more than this is worth a line
+constexpr double kPlainOffset_m = 0.01;
+constexpr std::size_t kMostLines = 5;
+
+void print_speed_findings(const ClipSpeeds& speeds) {
+  for (const ClipFinding& f : speeds.findings)
     std::printf("  %s  %s  %s deg/s, allowed %s  at %s-%s s\n", f.finding.check.c_str(),
                 printable(f.finding.subject).c_str(), decimal(f.worst_speed_rad_s * kDegPerRad, 1).c_str(),
                 decimal((f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, 1).c_str(),
                 decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str());
-  for (const Finding& f : clip.seams)
-    std::printf("  loop_seam  %s  %s wider than allowed between its last key and its first\n",
-                printable(f.subject).c_str(), margin_text(f).c_str());
-  for (const Finding& f : clip.gaps)
-    std::printf("  part_gap  %s  %s m farther from its place than allowed  keys %d-%d, worst %d\n",
-                printable(f.subject).c_str(), decimal(-f.worst_margin, 3).c_str(), f.first_frame, f.last_frame,
-                f.worst_frame);
-  if (!clip.limits) return;
-  std::printf("  declared limits: %s\n", limits_text(*clip.limits).c_str());
-  print_limit_findings(clip);
+}
+
+void print_key_findings(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings)
+    std::printf("  %s  %s  %s beyond what is allowed  keys %d-%d, worst %d\n", f.check.c_str(),
+                printable(f.subject).c_str(), margin_text(f, 3).c_str(), f.first_frame, f.last_frame, f.worst_frame);
+}
+
+void print_motion_findings(const ClipReport& clip) {
+  for (const Finding& f : clip.judged.motion_findings)
+    std::printf("  %s  %s  %s %s  frames %d-%d, worst %d (%s s)\n", f.check.c_str(), printable(f.subject).c_str(),
+                short_number(f.worst_margin).c_str(), f.unit.c_str(), f.first_frame, f.last_frame, f.worst_frame,
+                decimal(clip.motion->first_s + f.worst_frame / clip.motion->rate_hz, 3).c_str());
+}
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
+    text += (i > 0 ? ", " : "") + printable(names[i]);
+  return names.size() <= kMostLines ? text : text + " and " + std::to_string(names.size() - kMostLines) + " more";
+}
+
+// Those that left out more than is plain, most first, as lines; of many the first few.
+void print_left_out(std::vector<LeftOut> left_out, double LeftOut::*amount, double plain,
+                    const std::function<std::string(const LeftOut&)>& text) {
+  std::erase_if(left_out, [&](const LeftOut& l) { return !(l.*amount > plain); });
+  std::ranges::stable_sort(left_out, [&](const LeftOut& a, const LeftOut& b) { return a.*amount > b.*amount; });
+  for (std::size_t i = 0; i < std::min(left_out.size(), kMostLines); ++i)
+    std::printf("  left out: %s\n", text(left_out[i]).c_str());
+  if (left_out.size() > kMostLines)
+    std::printf("  left out: less of that at %zu more joints (--json lists them)\n", left_out.size() - kMostLines);
+}
+
+void print_conversion(const ClipMotion& motion) {
+  print_left_out(motion.left_out, &LeftOut::turn_rad, kPlainTurn_rad, [](const LeftOut& l) {
+    return decimal(l.turn_rad * kDegPerRad, 1) + " deg of the turn of " + printable(l.node) + ", for which " +
+           printable(l.joint) + " has no axis (" + decimal(l.turn_s, 3) + " s)";
+  });
+  print_left_out(motion.left_out, &LeftOut::offset_m, kPlainOffset_m, [](const LeftOut& l) {
+    return decimal(l.offset_m, 3) + " m by which " + printable(l.node) + " leaves its place (" +
+           decimal(l.offset_s, 3) + " s)";
+  });
+  if (!motion.stray_nodes.empty())
+    std::printf("  left out: nodes that move and are no joint: %s\n", names_text(motion.stray_nodes).c_str());
+  if (!motion.joints_at_rest.empty())
+    std::printf("  at rest: joints without a node: %s\n", names_text(motion.joints_at_rest).c_str());
+}
+
+// "; left out 12.3 deg, 0.180 m, 3 nodes", or "".
+std::string left_out_text(const ClipMotion& motion) {
+  double turn_rad = 0.0, offset_m = 0.0;
+  for (const LeftOut& l : motion.left_out)
+    turn_rad = std::max(turn_rad, l.turn_rad), offset_m = std::max(offset_m, l.offset_m);
+  std::string text;
+  if (turn_rad > kPlainTurn_rad) text += ", turns of up to " + decimal(turn_rad * kDegPerRad, 1) + " deg";
+  if (offset_m > kPlainOffset_m) text += ", offsets of up to " + decimal(offset_m, 3) + " m";
+  if (!motion.stray_nodes.empty()) text += ", " + std::to_string(motion.stray_nodes.size()) + " nodes that move";
+  return text.empty() ? "" : "; left out" + text.substr(1);
+}
+
+}  // namespace
+
+ClipMotion motion_of_clip(const Asset& asset, const AssetClip& clip, const Conversion& made) {
+  const Motion& motion = made.execution.motion;
+  const Character& character = *made.execution.character;
+  ClipMotion out{motion.rate_hz, clip.first_s, motion.frame_count, 0, static_cast<int>(character.joints().size()),
+                 made.execution.path, {}, {}, {}};
+  const auto time_of = [&](int frame) { return clip.first_s + frame / motion.rate_hz; };
+  for (const FollowedNode& f : made.followed) {
+    out.joints += f.hinges;
+    if (f.missed_rad > 0.0 || f.moved_m > 0.0)
+      out.left_out.push_back({character.joint(f.joint).name, asset.nodes[at(f.node)].label, f.missed_rad,
+                              time_of(f.missed_frame), f.moved_m, time_of(f.moved_frame)});
+  }
+  for (const int node : made.stray_nodes) out.stray_nodes.push_back(asset.nodes[at(node)].label);
+  for (const int joint : made.joints_at_rest) out.joints_at_rest.push_back(character.joint(joint).name);
+  return out;
+}
+
+void print_clip(const ClipReport& clip) {
+  std::printf("clip %s: %s\n", printable(clip.judged.speeds.clip).c_str(), peak_text(clip.judged.speeds).c_str());
+  print_speed_findings(clip.judged.speeds);
+  print_key_findings(clip.judged.clip_findings);
+  print_motion_findings(clip);
+  if (clip.judged.limits) {
+    std::printf("  declared limits: %s\n", limits_text(*clip.judged.limits).c_str());
+    print_limit_findings(clip);
+  }
+  if (clip.motion) print_conversion(*clip.motion);
 }
 
 void print_clip_line(const ClipReport& clip) {
-  const std::size_t pops =
-      static_cast<std::size_t>(std::count_if(clip.speeds.findings.begin(), clip.speeds.findings.end(),
-                                             [](const ClipFinding& f) { return f.finding.check == "pop"; }));
+  const ClipSpeeds& speeds = clip.judged.speeds;
+  const auto is_pop = [](const ClipFinding& f) { return f.finding.check == "pop"; };
+  const auto pops = std::ranges::count_if(speeds.findings, is_pop) +
+                    std::ranges::count(clip.judged.motion_findings, "pop", &Finding::check);
   std::printf("%s: clip %s: findings %zu, pops %zu, %s%s%s\n", printable(clip.file).c_str(),
-              printable(clip.speeds.clip).c_str(), findings_of(clip), pops, peak_text(clip.speeds).c_str(),
-              clip.limits ? "; " : "", clip.limits ? limits_text(*clip.limits).c_str() : "");
+              printable(speeds.clip).c_str(), findings_of(clip), static_cast<std::size_t>(pops),
+              peak_text(speeds).c_str(),
+              clip.judged.limits ? ("; " + limits_text(*clip.judged.limits)).c_str() : "",
+              clip.motion ? left_out_text(*clip.motion).c_str() : "");
+}
+
+void print_judged(const std::vector<ClipReport>& clips) {
+  JudgedSummary summary;
+  for (const ClipReport& clip : clips) {
+    summary.add(clip.judged.judged, clip.judged.not_judged);
+    summary.channels = std::max(summary.channels, clip.judged.speeds.channels);
+    if (!clip.motion) continue;
+    summary.frames += clip.motion->frames;
+    summary.joints = std::max(summary.joints, clip.motion->joints), summary.joint_count = clip.motion->joint_count;
+  }
+  for (const std::string& line : judged_lines(summary)) std::printf("%s\n", line.c_str());
 }
 
 void print_result(std::size_t findings, std::size_t clips, const std::string& missing, const std::string& more) {

@@ -5,22 +5,45 @@
 #include <string>
 #include <vector>
 
-#include "checks/clip_speed.h"
-#include "checks/dof_limits.h"
+#include "checks/judge_clip.h"
 #include "cli/animation.h"
+#include "guest/finished_file.h"
 #include "model/core/result.h"
 
 namespace contort::cli {
 
+// A joint and the most that it left out of its node's movement.
+struct LeftOut {
+  std::string joint;
+  std::string node;
+  double turn_rad = 0.0;
+  double turn_s = 0.0;
+  double offset_m = 0.0;
+  double offset_s = 0.0;
+};
+
+// A clip as it moved a character.
+struct ClipMotion {
+  double rate_hz = 0.0;
+  double first_s = 0.0;
+  int frames = 0;
+  int joints = 0;       // that follow nodes
+  int joint_count = 0;  // of the character
+  RootPath path = RootPath::told;
+  std::vector<LeftOut> left_out;            // of each joint that left out anything
+  std::vector<std::string> stray_nodes;     // that move and are no joint
+  std::vector<std::string> joints_at_rest;  // without a node
+};
+
 struct ClipReport {
   std::string file;
-  ClipSpeeds speeds;
-  std::optional<DofLimits> limits;  // of an .amc
-  std::vector<Finding> seams;       // of a loop
-  std::vector<Finding> gaps;        // joints out of their places
-  double rate_hz = 0.0;             // of an .amc, with the number of its first frame
+  ClipEvaluation judged;
+  std::optional<ClipMotion> motion;  // on a character
+  double rate_hz = 0.0;              // of an .amc, with the number of its first frame
   int first_frame = 0;
 };
+
+ClipMotion motion_of_clip(const Asset& asset, const AssetClip& clip, const Conversion& made);
 
 std::size_t count_findings(const std::vector<ClipReport>& clips);
 
@@ -29,6 +52,9 @@ bool is_worse(const ClipReport& a, const ClipReport& b);
 
 void print_clip(const ClipReport& clip);       // a line, and one for each finding
 void print_clip_line(const ClipReport& clip);  // one line, with the file
+
+// What was judged in all of them, and what could not be.
+void print_judged(const std::vector<ClipReport>& clips);
 
 // "OK …" or "FAILED …", and the line for scripts with `more` at its end. `missing` says what could not be judged: where
 // it is not empty, nothing is OK.

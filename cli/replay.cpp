@@ -39,7 +39,7 @@ struct ReplayOptions {
 std::string explain(const Case& stored, const Replay& result) {
   std::string text;
   if (result.verdict == Verdict::refused) return to_line(result.issue);
-  text += family_of(stored);
+  text += print_family(family_of(stored));
   if (result.verdict != Verdict::passes)
     text += "  " + short_number(result.now.worst_margin) + " " + result.now.unit + " at frame " +
             std::to_string(result.now.worst_frame);
@@ -49,9 +49,9 @@ std::string explain(const Case& stored, const Replay& result) {
   return text;
 }
 
-Json as_json(const std::string& path, const std::string& family, const Replay& result) {
+Json as_json(const std::string& path, const Family& family, const Replay& result) {
   Json out = {{"case", path},
-              {"family", family},
+              {"family", print_family(family)},
               {"verdict", verdict_name(result.verdict)},
               {"character_changed", result.character_changed},
               {"motion_hash", result.now.motion_hash}};
@@ -207,7 +207,7 @@ class Session {
     if (gates(ran, next, context_.day(), known_)) text += ", GATES";
     if (is_expired(ran.bucket, context_.day())) text += ", the quarantine is over";
     if (is_stale(next)) text += ", STALE: it passes";
-    text += "  " + ran.bucket.family;
+    text += "  " + print_family(ran.bucket.family);
     if (const CaseReplay* one = shown_case(ran)) {
       if (one->result.verdict == Verdict::refused) text += "  " + to_line(one->result.issue);
       text += "  " + replay_command(one->path, context_.library_folders);
@@ -220,7 +220,7 @@ class Session {
     Json cases = Json::array();
     for (const CaseReplay& one : ran.cases) cases.push_back(as_json(one.path, one.family, one.result));
     return {{"bucket", folder_name(ran.bucket)},
-            {"family", ran.bucket.family},
+            {"family", print_family(ran.bucket.family)},
             {"verdict", ran.shown == Shown::unsteady ? "unsteady" : verdict_name(ran.verdict)},
             {"state", state_name(ran.bucket.state)},
             {"next_state", state_name(next.state)},

@@ -86,25 +86,26 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
   if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
     std::printf("worst: %s %s, %s here\n", short_number(shrunk.worst.expect.worst_margin).c_str(),
                 shrunk.worst.expect.unit.c_str(), short_number(shrunk.minimal.expect.worst_margin).c_str());
-  for (const std::string& other : shrunk.minimal.also) std::printf("comes with it: %s\n", other.c_str());
-  if (shrunk.precursor) std::printf("a run files it under: %s\n", family_of(*shrunk.precursor).c_str());
-  for (const Case& other : shrunk.met) std::printf("also met: %s\n", family_of(other).c_str());
+  for (const Family& other : shrunk.minimal.also) std::printf("comes with it: %s\n", print_family(other).c_str());
+  if (shrunk.precursor) std::printf("a run files it under: %s\n", print_family(family_of(*shrunk.precursor)).c_str());
+  for (const Case& other : shrunk.met) std::printf("also met: %s\n", print_family(family_of(other)).c_str());
   std::printf("%s\n", replay_command(output, context.library_folders).c_str());
 }
 
 void print_json(const Shrunk& shrunk, const std::string& output) {
-  json_fields::Json met = json_fields::Json::array();
-  for (const Case& other : shrunk.met) met.push_back(family_of(other));
+  json_fields::Json also = json_fields::Json::array(), met = json_fields::Json::array();
+  for (const Family& other : shrunk.minimal.also) also.push_back(print_family(other));
+  for (const Case& other : shrunk.met) met.push_back(print_family(family_of(other)));
   const json_fields::Json out = {
       {"case", output},
-      {"family", family_of(shrunk.minimal)},
+      {"family", print_family(family_of(shrunk.minimal))},
       {"stopped", shrunk.stopped},
       {"evaluations", shrunk.evaluations},
       {"depth", shrunk.minimal.expect.depth},
       {"worst_depth", shrunk.worst.expect.depth},
       {"free_fields", shrunk.minimal.free_fields},
-      {"also", shrunk.minimal.also},
-      {"precursor", shrunk.precursor ? json_fields::Json(family_of(*shrunk.precursor)) : nullptr},
+      {"also", also},
+      {"precursor", shrunk.precursor ? json_fields::Json(print_family(family_of(*shrunk.precursor))) : nullptr},
       {"met", met}};
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }

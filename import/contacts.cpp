@@ -7,10 +7,10 @@
 
 #include "checks/distance.h"
 #include "generator/motion/joint_clamp.h"
-#include "generator/motion/recording.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/recording.h"
 
 namespace contort {
 

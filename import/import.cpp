@@ -50,11 +50,19 @@ SkinDesc skin_of(const Imported& imported) {
           to_rotation_vector(imported.figure.world_from_model) * kDegPerRad, imported.cut.carrier_of_node};
 }
 
+// The root is in it too: without it nobody knows where the figure goes.
+std::map<std::string, std::string> map_of(const Imported& imported) {
+  std::map<std::string, std::string> joints = imported.cut.joint_of_node;
+  const std::string& root = imported.figure.bones.front().label;
+  if (!root.empty() && root.size() <= 200) joints[root] = "root";
+  return joints;
+}
+
 void write_files(Imported& out, bool wears_model) {
   const std::string& name = out.cut.character.name;
   for (const PartDesc& part : out.cut.parts) out.files.push_back({part.name + ".json", print_part(part)});
   out.files.push_back({name + ".json", print_character(out.cut.character)});
-  out.files.push_back({"maps/" + name + ".json", print_joint_map({out.cut.joint_of_node})});
+  out.files.push_back({"maps/" + name + ".json", print_joint_map({map_of(out)})});
   if (wears_model) out.files.push_back({"skins/" + name + ".json", print_skin(skin_of(out))});
   out.files.push_back({name + ".import.md", write_report(out, name)});
 }
@@ -80,9 +88,7 @@ Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& op
       describe(out.figure, followed(out.figure, sample_clips(asset.asset, out.figure)), *plans, options.name, meshes);
   const Result<Character> plain = build(out.cut);
   if (!plain) return plain.issue();
-  std::map<std::string, std::string> joints = out.cut.joint_of_node;
-  joints[out.figure.bones.front().label] = "root";
-  out.contacts = find_contacts(*plain, asset.asset, joints);
+  out.contacts = find_contacts(*plain, asset.asset, map_of(out));
   out.cut.character.allowed_pairs = out.contacts.pairs;
   const Result<Character> character = build(out.cut);
   if (!character) return character.issue();

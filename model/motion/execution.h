@@ -1,6 +1,7 @@
 // Execution: what a generator made of a request, and all that a check may see of it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -11,11 +12,19 @@
 
 namespace contort {
 
+// What is known of where the root goes.
+enum class RootPath : std::uint8_t {
+  told,         // all of it
+  on_the_spot,  // how high it is; the figure walks without getting anywhere, as clips do that an engine moves
+  unknown,      // nothing: it stays where it is at rest
+};
+
 struct Execution {
   std::shared_ptr<const Character> character;  // never null once there is a motion
   Environment environment;                     // level ground at height 0 where nobody says another
   Motion motion;
   std::optional<Intent> intent;  // nothing where the generator does not say what it meant
+  RootPath path = RootPath::told;
 
   const Intent* said() const { return intent ? &*intent : nullptr; }
 };

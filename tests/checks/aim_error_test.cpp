@@ -42,7 +42,8 @@ TEST(AimError, ATargetInThePointItselfIsViolated) {
   forward_kinematics(character, motion.root[0], motion.row(0), world);
   motion.aims = {{0, 0, socket, world_from_socket(character, world, socket).p_m}};
   StageEvaluator evaluator;
-  const std::vector<Finding> findings = evaluator.judge(character, motion, "aim_error");
+  const Intent intent;
+  const std::vector<Finding> findings = evaluator.judge(character, motion, "aim_error", {}, &intent);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_TRUE(std::isnan(findings[0].worst_margin));
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/checks/family_text.h"
+
 namespace contort {
 
 namespace {
@@ -195,7 +197,7 @@ TEST(Fold, AFamilyHoldsNoNumbers) {
   Finding a{"joint_range", "arm_left/elbow max", "rad", 1, 2, 3, -0.5, 5.0};
   Finding b = a;
   b.first_frame = 9, b.worst_margin = -0.1;
-  EXPECT_EQ(family_of("human", a), "joint_range|human|arm_left/elbow max");
+  EXPECT_EQ(family_of("human", a), family("joint_range|human|arm_left/elbow max"));
   EXPECT_EQ(family_of("human", a), family_of("human", b));
 }
 

@@ -98,7 +98,10 @@ TEST_F(CheckClips, AMapBringsTheLimitsOfACharacter) {
   };
   EXPECT_EQ(check(slow, "100").code, 0) << "the character's limit holds, not the general one";
   EXPECT_EQ(check(fast, "3000").code, 1);
-  EXPECT_EQ(contort_program({"check", fast, "--character", "human"}).code, 0) << "names do not match without a map";
+  const Ran unmapped = contort_program({"check", fast, "--character", "human"});
+  EXPECT_EQ(unmapped.code, 2) << "names do not match without a map";
+  EXPECT_TRUE(has(unmapped.err, "check.nothing_matches: ") && has(unmapped.err, "nodes are rig:Left Arm"))
+      << unmapped.err;
   const Ran alone = contort_program({"check", fast, "--map", map});
   EXPECT_EQ(alone.code, 2);
   EXPECT_TRUE(has(alone.err, "--character")) << alone.err;
@@ -128,12 +131,13 @@ TEST_F(CheckClips, AllClipsAreOneLineEachWorstFirst) {
   const Ran ran = contort_program({"check", folder_.path(), "--all-clips", "--allow-unreadable"});
   EXPECT_EQ(ran.code, 1) << ran.err;
   const std::vector<std::string> lines = lines_of(ran.out);
-  ASSERT_EQ(lines.size(), 6U) << ran.out;
+  ASSERT_EQ(lines.size(), 11U) << ran.out;
   EXPECT_TRUE(has(lines[0], "wild.BVH: clip wild: findings 1, pops 0, peak 5000.0 deg/s at arm, ")) << lines[0];
   EXPECT_TRUE(has(lines[1], "a.bvh: clip a: findings 0")) << lines[1];
   EXPECT_TRUE(has(lines[2], "calm.bvh: clip calm: findings 0")) << lines[2];
   EXPECT_TRUE(has(lines[3], "broken.bvh: unreadable: bvh.bad_syntax at line 1: ")) << lines[3];
-  EXPECT_EQ(lines[5], "RESULT findings=1 clips=3 files=4 unreadable=1");
+  EXPECT_EQ(lines[4], "Judged: 2 checks on 1 channel, in 3 motions");
+  EXPECT_EQ(lines[10], "RESULT findings=1 clips=3 files=4 unreadable=1");
   EXPECT_TRUE(has(ran.err, "clips per second")) << ran.err;
   EXPECT_FALSE(has(ran.out, "clips per second"));
 }

@@ -57,7 +57,7 @@ TEST_F(ShrinkCommand, KeepsTheFamilyAndSaysUnderWhichARunFilesIt) {
   ASSERT_TRUE(said["precursor"].is_string()) << said;
   const std::string precursor = said["precursor"];
   EXPECT_NE(ran.out.find("a run files it under: " + precursor + "\n"), std::string::npos) << ran.out;
-  EXPECT_NE(precursor, family_of(stored));
+  EXPECT_NE(precursor, print_family(family_of(stored)));
 }
 
 // Its 150 frames are what the profile asks for: at least 120.

@@ -7,8 +7,8 @@
 
 #include "tests/stage_evaluator.h"
 #include "formats/gltf/read.h"
-#include "generator/motion/recording.h"
 #include "import/import.h"
+#include "model/motion/recording.h"
 
 namespace contort {
 namespace {

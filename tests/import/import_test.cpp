@@ -42,6 +42,9 @@ TEST(Import, CutsAPersonAtTheUsualPlaces) {
   EXPECT_EQ(in.cut.joint_of_node.at("RightLeg"), "leg_right/knee");
   EXPECT_EQ(in.cut.joint_of_node.at("LeftFoot"), "foot_left/ankle_flex");
   EXPECT_FALSE(in.cut.joint_of_node.contains("Hips"));  // the root does not turn against anything
+  const auto map = std::ranges::find(in.files, "maps/figure.json", &ImportFile::name);
+  ASSERT_NE(map, in.files.end());
+  EXPECT_NE(map->text.find("\"Hips\": \"root\""), std::string::npos) << "but clips say where it goes: " << map->text;
 }
 
 TEST(Import, StockActionsPlayOnAPerson) {

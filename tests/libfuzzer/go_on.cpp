@@ -5,9 +5,9 @@
 
 #include "checks/circumstances.h"
 #include "checks/clip_speed.h"
-#include "tests/stage_evaluator.h"
-#include "generator/motion/recording.h"
 #include "model/asset/sample.h"
+#include "model/motion/recording.h"
+#include "tests/stage_evaluator.h"
 #include "tests/libfuzzer/targets.h"
 
 namespace contort::hostile {

@@ -147,7 +147,7 @@ TEST(Isolate, TheChildOfACallerThatIsKilledGoesWithIt) {
 TEST(Isolate, EndingsMakeCasesOfTheirOwnFamilies) {
   Spec spec;
   spec.character.name = "mech";
-  const auto family = [&](const Ending& ending) { return family_of(ending_case(spec, ending)); };
+  const auto family = [&](const Ending& ending) { return print_family(family_of(ending_case(spec, ending))); };
   EXPECT_EQ(family({Ending::Kind::crash, "SIGSEGV", ""}), "crash|mech|SIGSEGV");
   EXPECT_EQ(family({Ending::Kind::timeout, "", ""}), "timeout|mech|evaluation");
   EXPECT_EQ(family({Ending::Kind::memory, "", ""}), "memory|mech|evaluation");

@@ -1,0 +1,28 @@
+// A check of a clip as it is in its file, without a character: a row CLIP of the manifest and a function foo_in_clip.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "checks/check.h"
+#include "model/asset/asset.h"
+
+namespace contort {
+
+struct ClipInput {
+  const Asset& asset;
+  const AssetClip& clip;
+  const CheckSettings& settings;
+  bool is_loop = false;             // somebody says that it is played in a loop
+  std::optional<double> max_gap_m;  // joints farther from their places are faults; nothing says so without
+};
+
+// Frames of findings are keys.
+struct ClipCheckResult {
+  int subjects = 0;          // that were judged
+  std::string_view why_not;  // where there are none
+  std::vector<Finding> findings;
+};
+
+}  // namespace contort

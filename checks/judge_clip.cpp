@@ -1,0 +1,86 @@
+#include "checks/judge_clip.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace contort {
+
+namespace {
+
+constexpr std::string_view kNoCharacter = "no character is given (--character)";
+constexpr std::string_view kNotFollowed = "no joint can follow its node";
+
+// How many subjects a check judged in a clip, or why it could not.
+struct Verdict {
+  int subjects = 0;
+  std::string_view reason;
+};
+
+bool is_speed(std::string_view check) { return check == "angular_velocity" || check == "pop"; }
+
+Verdict in_channels(const CheckDef& check, const ClipEvaluation& clip) {
+  if (is_speed(check.name)) return {clip.speeds.channels, "no node turns"};
+  if (check.name == "joint_range" && clip.limits && clip.limits->subjects > 0) return {clip.limits->subjects, ""};
+  return {0, kNoCharacter};
+}
+
+void note_verdict(const CheckDef& check, const Verdict& verdict, ClipEvaluation& out) {
+  if (verdict.subjects > 0)
+    out.judged.push_back({check.name, verdict.subjects});
+  else
+    out.not_judged.push_back({check.name, verdict.reason});
+}
+
+int subjects_of(const std::vector<JudgedCheck>& judged, std::string_view check) {
+  const auto found = std::ranges::find(judged, check, &JudgedCheck::check);
+  return found == judged.end() ? 0 : found->subjects;
+}
+
+// Of the motion's joints those whose speeds or accelerations the check is not to judge.
+std::set<std::string> left_to_others(std::string_view check, const SpeedsElsewhere& elsewhere) {
+  std::set<std::string> joints;
+  if (is_speed(check) || check == "angular_acceleration") joints = elsewhere.not_followed;
+  if (is_speed(check)) joints.insert(elsewhere.in_channels.begin(), elsewhere.in_channels.end());
+  return joints;
+}
+
+std::string_view reason_of(const std::vector<NotJudged>& not_judged, std::string_view check) {
+  const auto found = std::ranges::find(not_judged, check, &NotJudged::check);
+  return found == not_judged.end() ? std::string_view() : found->reason;
+}
+
+}  // namespace
+
+ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const Capture* capture) {
+  ClipEvaluation out;
+  out.speeds = check_clip_speeds(in.asset, in.clip, limits);
+  if (capture != nullptr) out.limits = check_dof_limits(capture->skeleton, capture->motion, in.settings);
+  for (const CheckDef& check : all_checks()) {
+    if (check.in_clip == nullptr) {
+      note_verdict(check, in_channels(check, out), out);
+      continue;
+    }
+    ClipCheckResult result = check.in_clip(in);
+    note_verdict(check, {result.subjects, result.why_not}, out);
+    std::ranges::move(result.findings, std::back_inserter(out.clip_findings));
+  }
+  return out;
+}
+
+void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, ClipEvaluation& into) {
+  const ClipEvaluation before = into;
+  into.judged.clear(), into.not_judged.clear();
+  std::ranges::copy_if(motion.findings, std::back_inserter(into.motion_findings), [&](const Finding& f) {
+    return !left_to_others(f.check, elsewhere).contains(f.subject);
+  });
+  for (const CheckDef& check : all_checks()) {
+    const int left_out = static_cast<int>(left_to_others(check.name, elsewhere).size());
+    const int joints = std::max(0, subjects_of(motion.judged, check.name) - left_out);
+    const std::string_view reason =
+        check.in_clip != nullptr ? reason_of(before.not_judged, check.name) : reason_of(motion.not_judged, check.name);
+    const int subjects = subjects_of(before.judged, check.name) + joints;
+    note_verdict(check, {subjects, reason.empty() ? kNotFollowed : reason}, into);
+  }
+}
+
+}  // namespace contort

@@ -1,0 +1,45 @@
+// A finished animation file as a generator of one motion: a clip becomes an Execution of a character, without an
+// intent, as the file says none. What the conversion cannot take over is told beside it and never dropped in silence
+// (docs/checks.md).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/asset/asset.h"
+#include "model/core/result.h"
+#include "model/motion/execution.h"
+#include "model/motion/recording.h"
+
+namespace contort {
+
+struct FinishedFile {
+  const Asset& asset;
+  const AssetClip& clip;
+  std::shared_ptr<const Character> character;
+  const std::map<std::string, std::string>& joints;  // node -> the character's joint; unknown nodes are passed over
+  double rate_hz = 0.0;                              // 0: own_rate_hz
+};
+
+struct Conversion {
+  Execution execution;
+  std::vector<FollowedNode> followed;  // by joint: with a node, and how much of its movement is left out
+  std::vector<int> stray_nodes;        // that the clip moves and no joint follows, by index
+  std::vector<int> joints_at_rest;     // that follow no node
+};
+
+// Frames per second at which keys fall on frames: one frame for each of the shortest steps between keys where that
+// makes at most 240, else as many as the densest channel has keys; a whole multiple of that where it is below 30, so
+// that what happens between sparse keys is seen. 30 for clips of a single pose.
+double own_rate_hz(const AssetClip& clip);
+
+// The ground is level, where the model stands at rest. Without a node for the root the figure stays at its place, and
+// its path is unknown. It walks on the spot where the root stays within a quarter of its height at rest while two feet
+// at least are pulled the same way over the ground, each by more than a tenth of that height. Codes
+// "check.nothing_matches" (no joint but the root has a node), "check.too_long" (more than 100,000 frames),
+// "recording.unknown_joint" and "recording.duplicate_joint".
+Result<Conversion> convert(const FinishedFile& file);
+
+}  // namespace contort

@@ -1,0 +1,138 @@
+// Checks of clips: each has an exemplar just inside its limit and one just outside. And what could not judge a clip.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+
+#include "checks/judge_clip.h"
+
+namespace contort {
+namespace {
+
+struct ShownClip {
+  Asset asset;
+  bool is_loop = false;
+  std::optional<double> max_gap_m;
+};
+
+// Three joints above each other, 0.3 m apart, of which the last has a channel.
+Asset joints_with(const AssetChannel& channel) {
+  Asset asset;
+  for (const char* name : {"hips", "spine", "arm"}) {
+    AssetNode node;
+    node.name = node.label = name;
+    node.parent = static_cast<int>(asset.nodes.size()) - 1;
+    node.rest.translation = Vec3(0.3, 0.0, 0.0);
+    node.is_joint = true;
+    asset.order.push_back(static_cast<int>(asset.nodes.size()));
+    asset.nodes.push_back(node);
+  }
+  asset.clips.push_back({"wave", "wave", {channel}, 0.0, channel.times_s.back()});
+  return asset;
+}
+
+AssetChannel turning_by(const std::vector<double>& angles_rad) {
+  AssetChannel channel;
+  channel.node = 2, channel.path = ChannelPath::rotation;
+  for (const double angle : angles_rad) {
+    channel.times_s.push_back(0.1 * static_cast<double>(channel.times_s.size()));
+    const Quat q = axis_angle(Vec3(1, 0, 0), angle);
+    for (const double value : {q.x, q.y, q.z, q.w}) channel.values.push_back(value);
+  }
+  return channel;
+}
+
+// A loop may gape by 1 degree.
+ShownClip gaping(double inside) {
+  const double seam_rad = kRadPerDeg - inside;
+  return {joints_with(turning_by({0.0, 0.0, seam_rad, seam_rad})), true, {}};
+}
+
+ShownClip pulled_out(double inside) {
+  AssetChannel channel;
+  channel.node = 2, channel.times_s = {0.0, 0.1}, channel.values = {0.3, 0, 0, 0.31 - inside, 0, 0};
+  return {joints_with(channel), false, 0.01};
+}
+
+const std::map<std::string, std::function<ShownClip(double)>>& clip_exemplars() {
+  static const std::map<std::string, std::function<ShownClip(double)>> all = {{"loop_seam", gaping},
+                                                                          {"part_gap", pulled_out}};
+  return all;
+}
+
+ClipEvaluation judged_clip(const ShownClip& shown) {
+  const CheckSettings settings;
+  return judge_clip({shown.asset, shown.asset.clips[0], settings, shown.is_loop, shown.max_gap_m}, {100.0, {}, {}},
+                    nullptr);
+}
+
+std::string reason_for(const std::vector<NotJudged>& not_judged, const std::string& check) {
+  for (const NotJudged& one : not_judged)
+    if (one.check == check) return std::string(one.reason);
+  return "";
+}
+
+TEST(ClipManifest, EveryCheckOfClipsHasAnExemplarInsideThatPassesAndOneOutsideThatFails) {
+  std::size_t seen = 0;
+  for (const CheckDef& check : all_checks()) {
+    EXPECT_EQ(check.needs == Needs::clip, check.in_clip != nullptr) << check.name;
+    if (check.needs != Needs::clip) continue;
+    ++seen;
+    const auto exemplar = clip_exemplars().find(std::string(check.name));
+    ASSERT_NE(exemplar, clip_exemplars().end()) << check.name << " has no exemplar: add one to this file";
+    EXPECT_TRUE(judged_clip(exemplar->second(2e-6)).clip_findings.empty()) << check.name;
+    const std::vector<Finding> outside = judged_clip(exemplar->second(-2e-6)).clip_findings;
+    ASSERT_EQ(outside.size(), 1U) << check.name;
+    EXPECT_EQ(outside[0].check, check.name);
+    EXPECT_NEAR(outside[0].worst_margin, -2e-6, 1e-9) << check.name;
+    EXPECT_NEAR(outside[0].depth, -outside[0].worst_margin / check.scale, 1e-12) << check.name;
+  }
+  EXPECT_EQ(seen, clip_exemplars().size());
+}
+
+TEST(ClipManifest, EveryCheckEitherJudgesAClipOrSaysWhyNot) {
+  const ClipEvaluation out = judged_clip(gaping(0.0));
+  EXPECT_EQ(out.judged, (std::vector<JudgedCheck>{{"angular_velocity", 1}, {"pop", 1}, {"loop_seam", 1}}));
+  EXPECT_EQ(out.judged.size() + out.not_judged.size(), all_checks().size());
+  EXPECT_EQ(reason_for(out.not_judged, "joint_range"), "no character is given (--character)");
+  EXPECT_EQ(reason_for(out.not_judged, "part_gap"),
+            "nothing says how far a joint may be from its place (--max-gap-m)");
+  EXPECT_EQ(reason_for(judged_clip(pulled_out(0.0)).not_judged, "pop"), "no node turns");
+}
+
+Evaluation of_motion() {
+  Evaluation motion;
+  motion.findings = {{"pop", "arm/elbow", "rad/s", 3, 3, 3, -1.0, 0.1},
+                     {"pop", "arm/slide", "m/s", 3, 3, 3, -1.0, 0.1},
+                     {"joint_range", "arm/elbow max", "rad", 3, 3, 3, -1.0, 10.0}};
+  motion.judged = {{"joint_range", 4}, {"angular_velocity", 2}, {"pop", 2}};
+  motion.not_judged = {{"balance", "the motion has no dynamics"}};
+  return motion;
+}
+
+TEST(ClipManifest, ASpeedIsJudgedOnce) {
+  ClipEvaluation out = judged_clip(gaping(0.0));
+  add_motion(of_motion(), {{"arm/elbow"}, {}}, out);
+  ASSERT_EQ(out.motion_findings.size(), 2U);
+  EXPECT_EQ(out.motion_findings[0].subject, "arm/slide");
+  EXPECT_EQ(out.motion_findings[1].check, "joint_range");
+  EXPECT_EQ(out.judged, (std::vector<JudgedCheck>{
+                            {"joint_range", 4}, {"angular_velocity", 2}, {"pop", 2}, {"loop_seam", 1}}));
+  EXPECT_EQ(reason_for(out.not_judged, "balance"), "the motion has no dynamics");
+  EXPECT_EQ(reason_for(out.not_judged, "loop_seam"), "");
+}
+
+TEST(ClipManifest, SpeedsOfJointsThatCannotFollowAreNotJudged) {
+  ClipEvaluation out = judged_clip(pulled_out(0.0));
+  Evaluation motion = of_motion();
+  motion.findings.push_back({"angular_acceleration", "arm/slide", "m/s^2", 3, 3, 3, -1.0, 0.1});
+  motion.judged.push_back({"angular_acceleration", 2});
+  add_motion(motion, {{}, {"arm/slide", "arm/elbow"}}, out);
+  ASSERT_EQ(out.motion_findings.size(), 1U);
+  EXPECT_EQ(out.motion_findings[0].check, "joint_range");
+  for (const char* check : {"angular_velocity", "pop", "angular_acceleration"})
+    EXPECT_EQ(reason_for(out.not_judged, check), "no joint can follow its node") << check;
+}
+
+}  // namespace
+}  // namespace contort
