@@ -56,7 +56,7 @@ struct Place {
   Vec3 center_m, axis;
 };
 
-std::vector<Place> places_of(const Pose& pose) {
+std::vector<Place> spec_fields_of(const Pose& pose) {
   std::vector<Place> places;
   for (const Solid& capsule : pose) places.push_back({capsule.center_m, capsule.axis});
   return places;
@@ -228,7 +228,7 @@ int main() {
   const Measure pairs = [&](int pose) { return least_of_pairs(poses[static_cast<std::size_t>(pose)]); };
   std::vector<std::pair<std::string, Measure>> ours{{"one pair at a time", pairs}};
   std::vector<std::vector<Place>> places;
-  for (const Pose& pose : poses) places.push_back(places_of(pose));
+  for (const Pose& pose : poses) places.push_back(spec_fields_of(pose));
   for (const RoundKernel& kernel : round_kernels()) {
     AllPairs all(poses.front(), kernel);
     ours.emplace_back(kernel.name,

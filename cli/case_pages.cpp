@@ -36,7 +36,7 @@ Result<std::string> data_of(const CasePage& page, Generator& generator, const Ch
     Result<Case> stored = read_case_of(page.folder, file);
     if (!stored && cases.empty()) return stored.issue();
     const auto is_there = [&](const auto& other) { return other.second.spec == stored->spec; };
-    if (stored && !is_ending(stored->expect) && std::ranges::none_of(cases, is_there))
+    if (stored && !is_abnormal_exit(stored->expect) && std::ranges::none_of(cases, is_there))
       cases.emplace_back(role, std::move(stored).value());
   }
   std::vector<ShownCase> shown;

@@ -134,7 +134,7 @@ void show(const CorpusOptions& options, Context& context) {
   for (const std::string& build : bucket.passed_in) line("passed in", build);
   for (const std::string& run : bucket.runs) line("run", run);
   if (minimal)
-    for (const Family& other : minimal->also) line("comes with", print_family(other));
+    for (const Family& other : minimal->co_failures) line("comes with", print_family(other));
   for (const std::string& file : files_of(bucket))
     line(file.substr(0, file.find('-')).c_str(),
          replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));

@@ -93,7 +93,7 @@ const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& fi
 }
 
 bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation) {
-  if (!input.stored || is_ending(input.stored->expect)) return false;
+  if (!input.stored || is_abnormal_exit(input.stored->expect)) return false;
   return input.stored->expect.motion_hash != to_hex(evaluation.motion_hash);
 }
 

@@ -37,7 +37,7 @@ Result<std::vector<std::string>> cases_of(const std::string& folder, int& unread
     const std::string path = corpus->folder_of(bucket) + "/" + bucket.min;
     const Result<Case> stored = read_case_of(corpus->folder_of(bucket), bucket.min);
     if (!stored) damaged.push_back(stored.issue());
-    if (stored && !is_ending(stored->expect)) cases.emplace_back(-stored->expect.depth, path);
+    if (stored && !is_abnormal_exit(stored->expect)) cases.emplace_back(-stored->expect.depth, path);
   }
   for (const Issue& issue : damaged) std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
   unreadable += static_cast<int>(damaged.size());

@@ -79,7 +79,7 @@ struct RowContext {
 ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
   ReportRow row;
   row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
-  row.character = stored.spec.character.name, row.has_motion = !is_ending(stored.expect);
+  row.character = stored.spec.character.name, row.has_motion = !is_abnormal_exit(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin;
   row.case_file = location_of(with.corpus, path);
@@ -93,7 +93,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
   row.needs = needs_of(stored.spec);
-  row.also = stored.also;
+  row.co_failures = stored.co_failures;
   row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
     if (check.name == row.check) row.meaning = check.help;
@@ -273,7 +273,7 @@ Result<std::string> bucket_line(const std::string& bucket_folder, const std::vec
     if (!stored) return stored.issue();
     return "NEW " + print_family(family_of(*stored)) + "  " + short_number(stored->expect.worst_margin) + " " +
            stored->expect.unit +
-           (stored->also.empty() ? "" : " and " + std::to_string(stored->also.size()) + " that come with it") + "  " +
+           (stored->co_failures.empty() ? "" : " and " + std::to_string(stored->co_failures.size()) + " that come with it") + "  " +
            replay_command(entry.path().string(), library_folders);
   }
   return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};

@@ -11,7 +11,7 @@
 #include "cli/print.h"
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
-#include "fuzz/departures.h"
+#include "fuzz/profile_violations.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "model/core/output.h"
@@ -86,7 +86,7 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
   if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
     std::printf("worst: %s %s, %s here\n", short_number(shrunk.worst.expect.worst_margin).c_str(),
                 shrunk.worst.expect.unit.c_str(), short_number(shrunk.minimal.expect.worst_margin).c_str());
-  for (const Family& other : shrunk.minimal.also) std::printf("comes with it: %s\n", print_family(other).c_str());
+  for (const Family& other : shrunk.minimal.co_failures) std::printf("comes with it: %s\n", print_family(other).c_str());
   if (shrunk.precursor) std::printf("a run files it under: %s\n", print_family(family_of(*shrunk.precursor)).c_str());
   for (const Case& other : shrunk.met) std::printf("also met: %s\n", print_family(family_of(other)).c_str());
   std::printf("%s\n", replay_command(output, context.library_folders).c_str());
@@ -94,7 +94,7 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
 
 void print_json(const Shrunk& shrunk, const std::string& output) {
   json_fields::Json also = json_fields::Json::array(), met = json_fields::Json::array();
-  for (const Family& other : shrunk.minimal.also) also.push_back(print_family(other));
+  for (const Family& other : shrunk.minimal.co_failures) also.push_back(print_family(other));
   for (const Case& other : shrunk.met) met.push_back(print_family(family_of(other)));
   const json_fields::Json out = {
       {"case", output},

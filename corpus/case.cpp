@@ -18,13 +18,13 @@ double depth_of(const Expectation& expect) {
   return std::isnan(expect.worst_margin) ? std::numeric_limits<double>::infinity() : expect.depth;
 }
 
-bool is_ending(const Expectation& expect) {
+bool is_abnormal_exit(const Expectation& expect) {
   return expect.check == "crash" || expect.check == "timeout" || expect.check == "memory";
 }
 
 Result<Case> parse_case(std::string_view json) {
   Result<Case> read = json_fields::read_document<Case>(json, "case");
-  if (!read || is_ending(read->expect)) return read;
+  if (!read || is_abnormal_exit(read->expect)) return read;
   for (const auto& [hash, name] :
        {std::pair(&read->expect.motion_hash, "motion_hash"), std::pair(&read->expect.character_hash, "character_hash")})
     if (hash->empty())

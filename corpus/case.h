@@ -52,7 +52,7 @@ struct Case {
   Expectation expect;
   Provenance provenance;
   std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
-  std::vector<Family> also{};              // came with it before it was shrunk, and still do
+  std::vector<Family> co_failures{};              // came with it before it was shrunk, and still do
   bool operator==(const Case&) const = default;
 };
 
@@ -62,7 +62,7 @@ Family family_of(const Case& stored);
 double depth_of(const Expectation& expect);
 
 // The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.
-bool is_ending(const Expectation& expect);
+bool is_abnormal_exit(const Expectation& expect);
 
 // Codes "case.*" and "json.*".
 Result<Case> parse_case(std::string_view json);

@@ -65,7 +65,7 @@ void fields(V& v, const Case*) {
   v.field("provenance", &Case::provenance, {}, "Where it came from.");
   v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = json_fields::Text::label},
           "Pointers into the spec: fields that could as well have other values.");
-  v.field("also", &Case::also, {.max_count = 100'000, .text = json_fields::Text::prose},
+  v.field("also", &Case::co_failures, {.max_count = 100'000, .text = json_fields::Text::prose},
           "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
 }
 

@@ -53,7 +53,8 @@ WorkerPool::Work work_of(RunCase replay) {
 
 // An ending takes a process of its own up to its limit, before the worker runs the case itself.
 double patience_for(const Case& stored, const WorkerLimits& limits) {
-  return is_ending(stored.expect) ? 1.0 + isolation_of(stored.expect, isolation_of(limits)).seconds / limits.seconds : 1.0;
+  if (!is_abnormal_exit(stored.expect)) return 1.0;
+  return 1.0 + isolation_of(stored.expect, isolation_of(limits)).seconds / limits.seconds;
 }
 
 }  // namespace

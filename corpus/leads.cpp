@@ -63,7 +63,7 @@ bool is_unsteady(const Lead& lead) { return !lead.minimal && lead.original.prove
 
 std::set<Family> families_told_by(const Lead& lead) {
   if (!lead.minimal) return {};
-  std::set<Family> told(lead.minimal->also.begin(), lead.minimal->also.end());
+  std::set<Family> told(lead.minimal->co_failures.begin(), lead.minimal->co_failures.end());
   told.insert(family_of(*lead.minimal));
   return told;
 }

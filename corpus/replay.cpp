@@ -77,7 +77,7 @@ Replay replay_ending(const Case& stored, const std::function<Replay()>& work, co
 
 Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope, const Isolation& isolation) {
   const auto work = [&] { return replay_here(stored, evaluator, scope); };
-  return is_ending(stored.expect) ? replay_ending(stored, work, isolation) : work();
+  return is_abnormal_exit(stored.expect) ? replay_ending(stored, work, isolation) : work();
 }
 
 }  // namespace contort

@@ -31,8 +31,8 @@ struct Replay {
 using RunCase = std::function<Replay(const Case&)>;
 
 // In a scope below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
-// its process (is_ending) is run in a child process first, within the limits that it says, else those of `isolation`: the
-// caller has one thread then.
+// its process (is_abnormal_exit) is run in a child process first, within the limits that it says, else those of
+// `isolation`: the caller has one thread then.
 Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope = {},
               const Isolation& isolation = {});
 

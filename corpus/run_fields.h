@@ -25,9 +25,9 @@ void fields(V& v, const FamilyCount*) {
 }
 
 template <class V>
-void fields(V& v, const ArmCount*) {
-  v.field("cases", &ArmCount::cases, run_rules::kTotal, "Cases that were drawn in this way.");
-  v.field("failing", &ArmCount::failing, run_rules::kTotal, "Of these with at least one finding.");
+void fields(V& v, const StrategyCount*) {
+  v.field("cases", &StrategyCount::cases, run_rules::kTotal, "Cases that were drawn in this way.");
+  v.field("failing", &StrategyCount::failing, run_rules::kTotal, "Of these with at least one finding.");
 }
 
 template <class V>

@@ -22,10 +22,10 @@ struct FamilyCount {
 };
 
 // What one way of drawing cases found.
-struct ArmCount {
+struct StrategyCount {
   std::int64_t cases = 0;
   std::int64_t failing = 0;
-  bool operator==(const ArmCount&) const = default;
+  bool operator==(const StrategyCount&) const = default;
 };
 
 // Nothing in it depends on time or machine. `shard` of `shards` ran; a whole run is shard 0 of 1.
@@ -41,7 +41,7 @@ struct RunRecord {
   std::int64_t discarded = 0;                   // drawn specs that did not build: a fault of the draw
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
   std::map<Family, FamilyCount> families;
-  std::map<std::string, ArmCount> arms;         // "uniform", "guided"
+  std::map<std::string, StrategyCount> arms;         // "uniform", "guided"
   bool operator==(const RunRecord&) const = default;
 };
 

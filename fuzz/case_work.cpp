@@ -7,7 +7,7 @@
 #include "corpus/ending_case.h"
 #include "process/clock.h"
 #include "corpus/replay.h"
-#include "fuzz/departures.h"
+#include "fuzz/profile_violations.h"
 #include "fuzz/labels.h"
 #include "fuzz/precursor.h"
 #include "model/core/hash.h"
@@ -150,7 +150,7 @@ SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
   Provenance& from = settled.lead.original.provenance;
   from = provenance_in(config_, task.lineage.back());
   from.rank = task.rank;
-  settled.confirmed = again && (is_ending(again->expect) || again->expect.motion_hash == task.motion_hash);
+  settled.confirmed = again && (is_abnormal_exit(again->expect) || again->expect.motion_hash == task.motion_hash);
   from.shrink_stopped = !settled.confirmed ? kUnsteady : task.shrinks ? "" : kWaits;
   Result<Done> kept = done(keep_lead(corpus_, settled.lead));
   if (kept && settled.confirmed && task.shrinks) kept = shrink_lead(settled, task.guarded, slot);
@@ -184,8 +184,8 @@ void take_shrunk(const Shrunk& shrunk, Lead& lead) {
 // What shrank in this process at first is shrunk with a guard once a candidate has ended that.
 Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const {
   Lead& lead = settled.lead;
-  const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const Onward& onward) {
-    return shrink_one(original, lead.run, guarded, slot, onward);
+  const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
+    return shrink_one(original, lead.run, guarded, slot, search);
   });
   settled.confirmed = shows_again(shrunk);
   if (settled.confirmed)
@@ -194,7 +194,7 @@ Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlo
     lead.original.provenance.shrink_stopped = kUnsteady;
   Result<Done> kept = done(keep_lead(corpus_, lead));
   for (const Case& met : shrunk.met)
-    if (kept && is_ending(met.expect)) kept = keep_incidental(met, settled, slot);
+    if (kept && is_abnormal_exit(met.expect)) kept = keep_incidental(met, settled, slot);
   return kept;
 }
 
@@ -223,9 +223,9 @@ std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, con
 }
 
 Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
-                            const Onward& onward) const {
+                            const PrimarySearch& search) const {
   ShrinkConfig config = config_.shrink;
-  config.onward = onward;
+  config.search = search;
   config.checks = config_.checks;
   config.isolation = isolation_of(config_.limits);
   config.guarded = guarded;

@@ -43,7 +43,7 @@ class CaseWork {
   std::vector<NearMiss> near_misses(const Character& character, int group);
   std::optional<Case> shown_again(const SettleTask& task, const Spec& spec);
   Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
-                    const Onward& onward) const;
+                    const PrimarySearch& search) const;
   Result<Done> shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const;
   std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
   Result<Done> keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) const;

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "fuzz/settling.h"
+#include "fuzz/failure_queue.h"
 #include "process/worker_pool.h"
 
 namespace contort {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 #include "fuzz/shrink_state.h"
 #include "model/core/math.h"
 
@@ -15,7 +15,7 @@ constexpr int kQuarters = 4;
 
 // The default first, as most fields are there because without them all is well: then one motion answers. Further half
 // of the way to it, and the ends and quarters of the range.
-std::vector<double> other_numbers(const SpecPlace& place) {
+std::vector<double> other_numbers(const SpecField& place) {
   if (!std::isfinite(place.low) || !std::isfinite(place.high) || place.low == place.high) return {};
   std::vector<double> values = {place.preset, 0.5 * (place.value + place.preset)};
   for (int i = 0; i <= kQuarters; ++i) values.push_back(place.low + (place.high - place.low) * i / kQuarters);
@@ -27,11 +27,11 @@ std::vector<double> other_numbers(const SpecPlace& place) {
   return others;
 }
 
-std::vector<Spec> with_others(const Spec& spec, const SpecPlace& place) {
+std::vector<Spec> with_others(const Spec& spec, const SpecField& place) {
   std::vector<Spec> candidates;
   const auto add = [&](const auto& value) {
     candidates.push_back(spec);
-    set_place(candidates.back(), place, value);
+    set_spec_field(candidates.back(), place, value);
   };
   if (place.is_number)
     for (const double value : other_numbers(place)) add(value);
@@ -65,7 +65,7 @@ std::vector<std::string> free_fields_of(ShrinkState& state) {
   for (const auto& [slot, part] : spec.character.parts)
     if (character != characters.end() && all_fail(state, with_other_parts(spec, slot, character->second)))
       pointers.push_back("/character/parts/" + slot);
-  for (const SpecPlace& place : state.places(spec))
+  for (const SpecField& place : state.spec_fields(spec))
     if (all_fail(state, with_others(spec, place))) pointers.push_back(place.pointer);
   return pointers;
 }

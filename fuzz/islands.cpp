@@ -37,7 +37,7 @@ int group_of_target(const Family& family) {
   return static_cast<int>((hash.value() >> 16) % kTargetGroups);
 }
 
-double TargetPool::remoteness() const {
+double TargetPool::relative_distance() const {
   if (nearest.empty() || farthest <= nearest.front().margin) return std::numeric_limits<double>::infinity();
   return nearest.front().margin / (farthest - nearest.front().margin);
 }
@@ -46,12 +46,12 @@ double TargetPool::remoteness() const {
 const TargetPool* Island::promising(Dice& dice) const {
   std::vector<const TargetPool*> open;
   for (const auto& [family, pool] : pools)
-    if (std::isfinite(pool.remoteness())) open.push_back(&pool);
+    if (std::isfinite(pool.relative_distance())) open.push_back(&pool);
   if (open.empty()) return nullptr;
   const TargetPool* best = open[static_cast<std::size_t>(dice.below(static_cast<int>(open.size())))];
   for (int i = 1; i < kTournament; ++i) {
     const TargetPool* other = open[static_cast<std::size_t>(dice.below(static_cast<int>(open.size())))];
-    if (other->remoteness() < best->remoteness()) best = other;
+    if (other->relative_distance() < best->relative_distance()) best = other;
   }
   return best;
 }

@@ -49,7 +49,7 @@ struct TargetPool {
   bool operator==(const TargetPool&) const = default;
 
   // How far the limit is, in what the margin was seen to vary by; infinite where nothing moves it. Small is promising.
-  double remoteness() const;
+  double relative_distance() const;
 };
 
 class Island {

@@ -15,7 +15,7 @@ enum Stream : std::uint64_t { kChoice, kChange };
 constexpr int kThrows = 8;  // of one mutation
 
 // What these are worth: docs/fuzzing.md
-constexpr std::uint64_t kMates = 4;    // that crowd a case
+constexpr std::uint64_t kMates = 4;    // that are laid over a case
 constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a case that is on level ground
 
 // Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
@@ -34,11 +34,11 @@ RawSpec child_of(const RawSpec& parent, const RawSpec& mate, Dice& dice, const D
   return child;
 }
 
-RawSpec crowded(std::int64_t seed, std::int64_t index, const Profile& profile) {
+RawSpec overlaid(std::int64_t seed, std::int64_t index, const Profile& profile) {
   RawSpec raw = draw_raw(seed, index);
   for (std::uint64_t i = 1; i <= kMates; ++i) {
     const RawSpec mate = draw_raw(seed, index, i);
-    crowd(raw, mate);
+    overlay(raw, mate);
     if (i <= kGrounds && is_level(raw.ground, profile)) raw.ground = mate.ground;
   }
   return raw;
@@ -46,9 +46,10 @@ RawSpec crowded(std::int64_t seed, std::int64_t index, const Profile& profile) {
 
 }  // namespace
 
-std::string_view arm_name(Arm arm) {
-  constexpr std::string_view kNames[kArms] = {"uniform", "crowded", "corners", "swarm", "corners_and_swarm", "guided"};
-  return kNames[static_cast<std::size_t>(arm)];
+std::string_view strategy_name(Strategy strategy) {
+  constexpr std::string_view kNames[kStrategies] = {"uniform", "crowded",           "corners",
+                                                    "swarm",   "corners_and_swarm", "guided"};
+  return kNames[static_cast<std::size_t>(strategy)];
 }
 
 bool wants_guidance(const Odds& odds, std::int64_t index) {
@@ -56,25 +57,26 @@ bool wants_guidance(const Odds& odds, std::int64_t index) {
   return Dice(odds.seed, index, kChoice).below(100) < 100.0 * odds.guided * learned;
 }
 
-// A share is even; the rest are crowded, and have corners, or features left out, or both, or neither.
-Arm unguided(const Odds& odds, std::int64_t index) {
+// A share is even; the rest are overlaid with other draws, and have corners, or features left out, or both, or neither.
+Strategy unguided(const Odds& odds, std::int64_t index) {
   Dice dice(odds.seed, index, kChoice);
   dice.next();  // wants_guidance
-  if (dice.below(100) < 100.0 * odds.uniform) return Arm::uniform;
-  constexpr std::pair<Arm, int> kPercent[] = {{Arm::corners, 70}, {Arm::crowded, 20}, {Arm::swarm, 5}};
+  if (dice.below(100) < 100.0 * odds.uniform) return Strategy::uniform;
+  constexpr std::pair<Strategy, int> kPercent[] = {
+      {Strategy::corners, 70}, {Strategy::overlaid, 20}, {Strategy::swarm, 5}};
   int left = dice.below(100);
-  for (const auto& [arm, percent] : kPercent)
-    if ((left -= percent) < 0) return arm;
-  return Arm::corners_and_swarm;
+  for (const auto& [strategy, percent] : kPercent)
+    if ((left -= percent) < 0) return strategy;
+  return Strategy::corners_and_swarm;
 }
 
 RawSpec raw_of(const DrawConfig& config, Generator& generator, std::int64_t seed, const Lineage& lineage) {
   const std::int64_t drawn = lineage.front();
-  const Arm arm = unguided(odds_of(seed, config.profile), drawn);
-  RawSpec raw = arm == Arm::uniform ? draw_raw(seed, drawn) : crowded(seed, drawn, config.profile);
+  const Strategy strategy = unguided(odds_of(seed, config.profile), drawn);
+  RawSpec raw = strategy == Strategy::uniform ? draw_raw(seed, drawn) : overlaid(seed, drawn, config.profile);
   Dice dice(seed, drawn, kChange);
-  if (arm == Arm::corners || arm == Arm::corners_and_swarm) go_to_corners(raw, dice);
-  if (arm == Arm::swarm || arm == Arm::corners_and_swarm) leave_out(raw, dice);
+  if (strategy == Strategy::corners || strategy == Strategy::corners_and_swarm) go_to_corners(raw, dice);
+  if (strategy == Strategy::swarm || strategy == Strategy::corners_and_swarm) leave_out(raw, dice);
   for (std::size_t i = 1; i < lineage.size(); ++i) {
     Dice own(seed, lineage[i], kChange);
     raw = child_of(raw, draw_raw(seed, lineage[i]), own, config, generator);

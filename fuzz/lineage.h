@@ -13,10 +13,11 @@
 
 namespace contort {
 
-// Ways of making a case. All but the even ones are crowded, or come of one that was.
-enum class Arm { uniform, crowded, corners, swarm, corners_and_swarm, guided };
-std::string_view arm_name(Arm arm);
-inline constexpr int kArms = 6;
+// Ways of making a case. All but the even ones have other draws laid over them, or come of one that had. Files call
+// `overlaid` "crowded".
+enum class Strategy { uniform, overlaid, corners, swarm, corners_and_swarm, guided };
+std::string_view strategy_name(Strategy strategy);
+inline constexpr int kStrategies = 6;
 
 using Lineage = std::vector<std::int64_t>;  // never empty
 
@@ -32,9 +33,9 @@ inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, p
 // nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm
 // instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);
-Arm unguided(const Odds& odds, std::int64_t index);
-inline Arm arm_of(const Odds& odds, const Lineage& lineage) {
-  return lineage.size() > 1 ? Arm::guided : unguided(odds, lineage.front());
+Strategy unguided(const Odds& odds, std::int64_t index);
+inline Strategy strategy_of(const Odds& odds, const Lineage& lineage) {
+  return lineage.size() > 1 ? Strategy::guided : unguided(odds, lineage.front());
 }
 
 // A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in

@@ -178,7 +178,7 @@ std::span<const T> beyond(std::size_t count, const std::vector<T>& list) {
   return std::span(list).subspan(std::min(count, list.size()));
 }
 
-void crowd_sequence(std::vector<RawClip>& clips, const std::vector<RawClip>& mate) {
+void overlay_sequence(std::vector<RawClip>& clips, const std::vector<RawClip>& mate) {
   const std::size_t both = std::min(clips.size(), mate.size());
   for (std::size_t c = 0; c < both; ++c) add_up_to(kMostActions, clips[c].actions, std::span(mate[c].actions));
   add_up_to(kMostClips, clips, beyond(both, mate));
@@ -186,9 +186,9 @@ void crowd_sequence(std::vector<RawClip>& clips, const std::vector<RawClip>& mat
 
 }  // namespace
 
-void crowd(RawSpec& raw, const RawSpec& mate) {
+void overlay(RawSpec& raw, const RawSpec& mate) {
   const std::size_t both = std::min(raw.sequences.size(), mate.sequences.size());
-  for (std::size_t s = 0; s < both; ++s) crowd_sequence(raw.sequences[s], mate.sequences[s]);
+  for (std::size_t s = 0; s < both; ++s) overlay_sequence(raw.sequences[s], mate.sequences[s]);
   add_up_to(kMostSequences, raw.sequences, beyond(both, mate.sequences));
   add_up_to(kMostInterrupts, raw.interrupts, std::span(mate.interrupts));
   for (const std::size_t count : {kLoadCount, kBlowCount})

@@ -1,4 +1,4 @@
-// Changes to raw specs: crowding, corner values, swarm, and the small steps of a guided search. Each result composes to
+// Changes to raw specs: overlays, corner values, swarm, and the small steps of a guided search. Each result composes to
 // a spec that builds.
 #pragma once
 
@@ -18,7 +18,7 @@ inline constexpr std::size_t kMostInterrupts = 6;
 // What another draw has comes along, behind what is there: its actions into the clips, its clips, sequences and
 // interrupts after the others, as far as there is room. It is interrupted if one of them is, and has as many loads and
 // blows as the one that has most. So more of it meets.
-void crowd(RawSpec& raw, const RawSpec& mate);
+void overlay(RawSpec& raw, const RawSpec& mate);
 
 // Every fourth number of actions, of times of clips, and of the ground goes to an end of its range: faults like to sit
 // there, and an even draw rarely comes by.

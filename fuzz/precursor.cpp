@@ -45,13 +45,13 @@ const Case* precursor_of(const Case& shown, const std::vector<Case>& others, con
   return first == &shown ? nullptr : first;
 }
 
-Shrunk shrink_to_precursor(const Case& original, const ShrinkOnward& shrink_onward) {
-  Onward onward;
-  Shrunk shrunk = shrink_onward(original, onward);
+Shrunk shrink_to_precursor(const Case& original, const ShrinkStep& shrink_step) {
+  PrimarySearch search;
+  Shrunk shrunk = shrink_step(original, search);
   while (shrunk.precursor) {
-    onward.begin_with = shrunk.minimal.spec;
-    onward.left.insert(family_of(shrunk.minimal));
-    Shrunk next = shrink_onward(*shrunk.precursor, onward);
+    search.begin_with = shrunk.minimal.spec;
+    search.left.insert(family_of(shrunk.minimal));
+    Shrunk next = shrink_step(*shrunk.precursor, search);
     if (next.stopped == "flaky" || next.stopped == "gone") break;
     shrunk = added_up(shrunk, std::move(next));
   }

@@ -25,11 +25,11 @@ inline constexpr double kOneTime_s = 0.2;
 // one.
 const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
-using ShrinkOnward = std::function<Shrunk(const Case& original, const Onward& onward)>;
+using ShrinkStep = std::function<Shrunk(const Case& original, const PrimarySearch& search)>;
 
 // Shrinks, and shrinks on to the precursor and that one's, until there is none that it did not come by. What is handed
 // back may be of another family than `original`. `evaluations` and what was met are of all together, the latter with
 // the cheapest spec of each family.
-Shrunk shrink_to_precursor(const Case& original, const ShrinkOnward& shrink_onward);
+Shrunk shrink_to_precursor(const Case& original, const ShrinkStep& shrink_step);
 
 }  // namespace contort

@@ -7,10 +7,10 @@
 #include "fuzz/case_work.h"
 #include "fuzz/compose.h"
 #include "fuzz/crew.h"
+#include "fuzz/failure_queue.h"
 #include "fuzz/round.h"
 #include "fuzz/run_state.h"
 #include "fuzz/run_statistics.h"
-#include "fuzz/settling.h"
 #include "fuzz/time_budget.h"
 #include "model/core/hash.h"
 #include "process/clock.h"
@@ -54,14 +54,14 @@ class Run {
     const Result<RunLock> lock = RunLock::take(corpus_, state_.record);
     if (!lock) return result_.issue = lock.issue(), std::move(result_);
     if (config_.resume) resume();
-    if (config_.shard.count == 1) settling_.find_waiting();
+    if (config_.shard.count == 1) failures_.find_waiting();
     if (ok()) search();
     finish();
     return std::move(result_);
   }
 
  private:
-  bool ok() const { return result_.issue.code.empty() && settling_.issue().code.empty(); }
+  bool ok() const { return result_.issue.code.empty() && failures_.issue().code.empty(); }
   bool is_last(std::int64_t index) const { return config_.cases >= 0 && index >= config_.cases; }
   bool has_time_for_waiting() const { return time_.has_time_for_waiting(steady_s()); }
   bool halted() {
@@ -74,7 +74,7 @@ class Run {
     Result<std::optional<RunState>> kept = load_state(corpus_, state_.record, state_.plan);
     if (!kept) return fail(kept.issue());
     if (kept->has_value()) state_ = std::move(**kept);
-    settling_.go_on();
+    failures_.go_on();
   }
 
   void search() {
@@ -91,9 +91,9 @@ class Run {
 
   // Cases are over. Once time is up, what is left is only kept: another run on this corpus shrinks it.
   void settle_the_rest(Crew& crew) {
-    while (ok() && !result_.interrupted && (crew.busy() > 0 || !settling_.is_done(has_time_for_waiting()))) {
+    while (ok() && !result_.interrupted && (crew.busy() > 0 || !failures_.is_done(has_time_for_waiting()))) {
       if (listeners_.stop()) result_.interrupted = true;
-      if (time_.is_over(steady_s())) settling_.only_keep();
+      if (time_.is_over(steady_s())) failures_.only_keep();
       step(crew, true);
     }
   }
@@ -120,14 +120,14 @@ class Run {
 
   // Failures go first: what was found shall be on its way to the user.
   std::optional<Job> next_job() {
-    if (const std::optional<FailureJob> failure = settling_.next(has_time_for_waiting())) return *failure;
+    if (const std::optional<FailureJob> failure = failures_.next(has_time_for_waiting())) return *failure;
     if (const std::optional<int> place = round_.next()) return PlacedCase{*place, {round_.lineage(*place)}};
     return std::nullopt;
   }
 
   void take(const Crew::Finished& finished) {
     const auto& [job, event] = finished;
-    if (const auto* failure = std::get_if<FailureJob>(&job)) return settling_.take(*failure, event);
+    if (const auto* failure = std::get_if<FailureJob>(&job)) return failures_.take(*failure, event);
     const auto& [place, task] = std::get<PlacedCase>(job);
     if (event.end == WorkerEnd::replied) return round_.take_report(place, parse_report<EvaluateReport>(event.text));
     const Case ended = case_of_ending(event, spec_of(config_, generator_, task.lineage), config_.limits);
@@ -152,14 +152,14 @@ class Run {
 
   void fold(const RoundCase& one) {
     tell(one);
-    for (const SettleTask& task : statistics_.add(one)) settling_.want(task);
-    if (one.ended_once) settling_.keep_ending_of_once(*one.ended_once, one.lineage);
+    for (const SettleTask& task : statistics_.add(one)) failures_.want(task);
+    if (one.ended_once) failures_.keep_ending_of_once(*one.ended_once, one.lineage);
   }
 
   void tell(const RoundCase& one) {
     const std::vector<Family>& broken = one.report->broken;
     if (!listeners_.failing || broken.empty()) return;
-    listeners_.failing({one.lineage.back(), statistics_.arm_of_case(one.lineage), broken,
+    listeners_.failing({one.lineage.back(), statistics_.strategy_of_case(one.lineage), broken,
                         spec_of(config_, generator_, one.lineage)});
   }
 
@@ -178,7 +178,7 @@ class Run {
 
   // The workers are gone, and under the run's lock there are no others.
   void finish() {
-    fail(settling_.issue());
+    fail(failures_.issue());
     if (const Result<Done> dropped = drop_half_written(corpus_, state_.record); !dropped) fail(dropped.issue());
     tidy_leads(corpus_, state_.record.name);
     // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
@@ -196,7 +196,7 @@ class Run {
   void tell_result() {
     result_.record = state_.record;
     result_.elapsed_s = time_.elapsed_s(steady_s());
-    result_.waiting = settling_.waiting();
+    result_.waiting = failures_.waiting();
     result_.unsettled = static_cast<int>(state_.wanted.size());
     result_.waivers = state_.waivers;
     for (const std::string& name : state_.new_buckets) result_.new_buckets.push_back(bucket_folder(name));
@@ -214,7 +214,7 @@ class Run {
     const RunRecord& record = state_.record;
     listeners_.progress({record.cases + round_.done_count(), record.frames, record.failing,
                          static_cast<int>(record.families.size()), static_cast<int>(state_.new_buckets.size()),
-                         settling_.waiting_count(), time_.elapsed_s(steady_s())});
+                         failures_.waiting_count(), time_.elapsed_s(steady_s())});
   }
 
   RunConfig config_;
@@ -228,7 +228,7 @@ class Run {
   RunState state_;
   Round round_;
   bool is_cut_ = false;  // the last round was not done whole
-  Settling settling_{config_, generator_, corpus_, state_};
+  FailureQueue failures_{config_, generator_, corpus_, state_};
   RunStatistics statistics_{config_, state_};
   RunResult result_;
 };

@@ -5,25 +5,26 @@
 
 namespace contort {
 
-std::string RunStatistics::arm_of_case(const Lineage& lineage) const {
+std::string RunStatistics::strategy_of_case(const Lineage& lineage) const {
   if (is_seed(config_, lineage.back())) return "seed";
-  return std::string(arm_name(arm_of(odds_of(config_.seed, config_.draw.profile), lineage)));
+  return std::string(strategy_name(strategy_of(odds_of(config_.seed, config_.draw.profile), lineage)));
 }
 
-void RunStatistics::count(const EvaluateReport& report, const std::string& arm_name) {
+void RunStatistics::count(const EvaluateReport& report, const std::string& strategy_name) {
   RunRecord& record = state_.record;
-  ArmCount& arm = record.arms[arm_name];
-  ++record.cases, ++arm.cases;
+  StrategyCount& strategy = record.arms[strategy_name];
+  ++record.cases, ++strategy.cases;
   record.frames += report.frames;
   record.discarded += !report.built;
-  record.failing += !report.broken.empty(), arm.failing += !report.broken.empty();
+  record.failing += !report.broken.empty(), strategy.failing += !report.broken.empty();
   for (const std::string& label : report.tested) ++record.tested[label];
   add_uses(report.waivers, state_.waivers);
 }
 
 // Whether this failure is to be settled. It is counted in any case.
-bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& arm_name) {
-  FamilyCount& count = state_.record.families.try_emplace(family, FamilyCount{0, index, {}, arm_name}).first->second;
+bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name) {
+  std::map<Family, FamilyCount>& families = state_.record.families;
+  FamilyCount& count = families.try_emplace(family, FamilyCount{0, index, {}, strategy_name}).first->second;
   ++count.cases;
   if (std::cmp_greater_equal(rank, config_.shrinks_per_case)) return false;
   if (std::ssize(count.first_indices) >= config_.shrinks_per_family) return false;
@@ -34,12 +35,12 @@ bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t i
 std::vector<SettleTask> RunStatistics::add(const RoundCase& one) {
   const EvaluateReport& report = *one.report;
   const std::int64_t index = one.lineage.back();
-  const std::string arm_name = arm_of_case(one.lineage);
-  count(report, arm_name);
+  const std::string strategy_name = strategy_of_case(one.lineage);
+  count(report, strategy_name);
   state_.islands[static_cast<std::size_t>(island_of(index))].learn(one.lineage, report.near, report.broken);
   std::vector<SettleTask> wanted;
   for (std::size_t rank = 0; rank < report.broken.size(); ++rank)
-    if (wants(report.broken[rank], rank, index, arm_name))
+    if (wants(report.broken[rank], rank, index, strategy_name))
       wanted.push_back({one.lineage, report.broken[rank], static_cast<int>(rank), report.motion_hash,
                         one.ends_process, true});
   return wanted;

@@ -21,11 +21,11 @@ class RunStatistics {
   std::vector<SettleTask> add(const RoundCase& one);
 
   // "guided", "seed"
-  std::string arm_of_case(const Lineage& lineage) const;
+  std::string strategy_of_case(const Lineage& lineage) const;
 
  private:
-  void count(const EvaluateReport& report, const std::string& arm_name);
-  bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& arm_name);
+  void count(const EvaluateReport& report, const std::string& strategy_name);
+  bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name);
 
   const RunConfig& config_;
   RunState& state_;

@@ -48,9 +48,9 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
 // What there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
 void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const ShrinkConfig& config) {
   for (const Case& other : others) state.meet(other);
-  const Case* precursor = precursor_of(shrunk.minimal, others, config.onward.value_or(Onward{}).left);
+  const Case* precursor = precursor_of(shrunk.minimal, others, config.search.value_or(PrimarySearch{}).left);
   if (precursor != nullptr) shrunk.precursor = state.before(*precursor);
-  if (shrunk.precursor && config.onward) return;
+  if (shrunk.precursor && config.search) return;
   state.allow_frames(std::max(kShortFrames, 2 * state.shown().most_frames));
   shrunk.minimal.free_fields = free_fields_of(state);
   shrunk.worst = worst_of(state);
@@ -65,13 +65,13 @@ Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, con
   std::vector<Case> others;
   if (state.confirm()) {
     shrunk.original.expect = state.best().expect;
-    if (config.onward && config.onward->begin_with) state.accept(*config.onward->begin_with);
+    if (config.search && config.search->begin_with) state.accept(*config.search->begin_with);
     make_minimal(state);
     others = state.others();
   }
   shrunk.stopped = state.stopped();
   shrunk.minimal = shrunk.worst = state.best();
-  shrunk.minimal.also = is_as_it_was(original, state.best()) ? original.also : state.still_shown(others);
+  shrunk.minimal.co_failures = is_as_it_was(original, state.best()) ? original.co_failures : state.still_shown(others);
   if (shrunk.stopped == "fixpoint") look_closer(shrunk, state, others, config);
   shrunk.minimal.provenance = shrunk.worst.provenance = provenance_of(shrunk.original, state, shrunk.stopped);
   shrunk.met = state.met();
@@ -80,7 +80,7 @@ Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, con
 }
 
 Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config) {
-  if (!is_ending(original.expect)) {
+  if (!is_abnormal_exit(original.expect)) {
     CheckTrial trial(original.expect, generator, config.checks, config.before_run);
     GuardedTrial guarded(trial, config.isolation);
     return shrink_with(config.guarded ? static_cast<Trial&>(guarded) : trial, original, generator, config);

@@ -18,7 +18,7 @@
 namespace contort {
 
 // A shrink on the way to the precursor (precursor.h). What has one is neither explained nor climbed.
-struct Onward {
+struct PrimarySearch {
   std::optional<Spec> begin_with;  // tried first: what another failure of the same case was shrunk to
   std::set<Family> left;           // it came by these; none of them is the precursor again
 };
@@ -33,7 +33,7 @@ struct ShrinkConfig {
   bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
   BeforeRun before_run;  // may be empty
   std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty
-  std::optional<Onward> onward;              // the caller goes on with the precursor
+  std::optional<PrimarySearch> search;              // the caller goes on with the precursor
   std::function<bool()> out_of_time;         // asked before every evaluation; may be empty. Makes results differ.
 };
 

@@ -7,7 +7,7 @@
 
 #include "fuzz/ddmin.h"
 #include "fuzz/edits.h"
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 #include "fuzz/shrink_state.h"
 #include "model/core/math.h"
 
@@ -111,12 +111,12 @@ void queue_interrupts(ShrinkState& state) {
 }
 
 void reset_fields(ShrinkState& state) {
-  std::vector<SpecPlace> left = state.places(state.spec());
+  std::vector<SpecField> left = state.spec_fields(state.spec());
   ddmin([&] { return static_cast<int>(left.size()); },
         [&](int first, int n) {
           const auto from = left.begin() + first;
           Spec candidate = state.spec();
-          reset_places(candidate, std::span(&*from, static_cast<std::size_t>(n)));
+          reset_spec_fields(candidate, std::span(&*from, static_cast<std::size_t>(n)));
           if (!state.accept(std::move(candidate))) return false;
           left.erase(from, from + n);
           return true;
@@ -128,7 +128,7 @@ namespace {
 // One number, counted in steps of its lattice from its default.
 class Lowering {
  public:
-  Lowering(ShrinkState& state, const SpecPlace& place) : state_(state), place_(place) {
+  Lowering(ShrinkState& state, const SpecField& place) : state_(state), place_(place) {
     const double steps = std::ceil(std::abs(place.value - place.preset) * place.steps_per_unit);
     if (steps < kMostSteps) now_ = static_cast<std::int64_t>(steps);
   }
@@ -148,7 +148,7 @@ class Lowering {
     const double way = static_cast<double>(steps) / place_.steps_per_unit;
     Spec candidate = state_.spec();
     const double value = place_.preset + (place_.value < place_.preset ? -way : way);
-    set_place(candidate, place_, on_lattice(value, place_.steps_per_unit));
+    set_spec_field(candidate, place_, on_lattice(value, place_.steps_per_unit));
     return state_.accept(std::move(candidate));
   }
 
@@ -164,14 +164,14 @@ class Lowering {
   }
 
   ShrinkState& state_;
-  const SpecPlace& place_;
+  const SpecField& place_;
   std::int64_t now_ = 0;
 };
 
 }  // namespace
 
 void lower_numbers(ShrinkState& state) {
-  for (const SpecPlace& place : state.places(state.spec()))
+  for (const SpecField& place : state.spec_fields(state.spec()))
     if (place.is_number && !state.halted()) Lowering(state, place).run();
 }
 
@@ -180,12 +180,12 @@ namespace {
 constexpr std::size_t kMostForAllPairs = 8;  // 28 pairs; of more, only neighbours
 
 bool reset_two_fields(ShrinkState& state) {
-  const std::vector<SpecPlace> places = state.places(state.spec());
+  const std::vector<SpecField> places = state.spec_fields(state.spec());
   const std::size_t apart = places.size() <= kMostForAllPairs ? places.size() : 2;
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = i + 1; j < std::min(i + apart, places.size()); ++j) {
       Spec candidate = state.spec();
-      reset_places(candidate, std::array{places[i], places[j]});
+      reset_spec_fields(candidate, std::array{places[i], places[j]});
       if (state.accept(std::move(candidate))) return true;
     }
   return false;

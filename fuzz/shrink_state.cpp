@@ -23,8 +23,8 @@ double least_depth_of(const Case& stored, double depth, double floor) {
 ShrinkState::ShrinkState(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config)
     : trial_(trial), generator_(generator), config_(config), best_(original) {}
 
-std::vector<SpecPlace> ShrinkState::places(const Spec& spec) const {
-  return places_of(spec, generator_, shown_.character.get());
+std::vector<SpecField> ShrinkState::spec_fields(const Spec& spec) const {
+  return spec_fields_of(spec, generator_, shown_.character.get());
 }
 
 bool ShrinkState::spent() {
@@ -53,7 +53,7 @@ bool ShrinkState::confirm() {
     stopped_ = "gone";
   if (halted()) return false;
   best_.expect = second->expect;
-  best_.free_fields.clear(), best_.also.clear();
+  best_.free_fields.clear(), best_.co_failures.clear();
   shown_ = *second;
   least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
   most_frames_ = shown_.most_frames;
@@ -87,7 +87,7 @@ bool ShrinkState::fails(const Spec& candidate) {
 }
 
 std::vector<Case> ShrinkState::others() {
-  if (is_ending(best_.expect)) return {};  // there is no motion, and one that hangs would hang once more
+  if (is_abnormal_exit(best_.expect)) return {};  // there is no motion, and one that hangs would hang once more
   trial_.run(best_.spec, most_frames_);
   return trial_.others(best_.spec);
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 #include "fuzz/shrink.h"
 
 namespace contort {
@@ -40,7 +40,7 @@ class ShrinkState {
   void allow_frames(int most_frames) { most_frames_ = most_frames; }
 
   // The places of a spec that has the character of best().
-  std::vector<SpecPlace> places(const Spec& spec) const;
+  std::vector<SpecField> spec_fields(const Spec& spec) const;
 
   const Library& library() const { return *generator_.manifest().library; }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 #include "fuzz/shrink_state.h"
 #include "model/core/math.h"
 
@@ -19,7 +19,7 @@ class Climb {
       : state_(state), worst_(state.best()), depth_(state.depth()), first_evaluation_(state.evaluations()) {}
 
   Case run() {
-    if (!std::isfinite(depth_) || is_ending(worst_.expect)) return worst_;
+    if (!std::isfinite(depth_) || is_abnormal_exit(worst_.expect)) return worst_;
     for (double share = 0.5; share > 0.1; share *= 0.5)
       while (sweep(share)) {
       }
@@ -29,15 +29,15 @@ class Climb {
  private:
   bool sweep(double share) {
     bool climbed = false;
-    for (const SpecPlace& place : state_.places(worst_.spec))
+    for (const SpecField& place : state_.spec_fields(worst_.spec))
       for (const double end : {place.low, place.high})
         if (place.is_number && std::isfinite(end)) climbed |= step(place, place.value + share * (end - place.value));
     return climbed;
   }
 
-  bool step(const SpecPlace& place, double value) {
+  bool step(const SpecField& place, double value) {
     Spec candidate = worst_.spec;
-    set_place(candidate, place, on_lattice(value, place.steps_per_unit));
+    set_spec_field(candidate, place, on_lattice(value, place.steps_per_unit));
     if (candidate == worst_.spec || state_.evaluations() - first_evaluation_ >= kMostEvaluations) return false;
     if (!tried_.insert(print_spec(candidate)).second || !state_.allows(candidate)) return false;
     const std::optional<TrialResult> shown = state_.run(candidate);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "generator/additive.h"
-#include "generator/happened.h"
+#include "generator/condition.h"
 #include "generator/motion/blend.h"
 
 namespace contort {
@@ -75,7 +75,7 @@ class Generation {
     for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
       const PlannedInterrupt& interrupt = timeline_.interrupts[i];
       if (PlayQueue::knows(interrupt.when.event)) continue;
-      s_.signals[i] = happened(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
+      s_.signals[i] = condition_holds(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
     }
   }
 

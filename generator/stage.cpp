@@ -141,7 +141,7 @@ class StageBuilder {
     return Done{};
   }
 
-  // A kinematic spec may hold loads and blows too: they are checked, and wait for another mode.
+  // A kinematic spec may hold loads and impacts too: they are checked, and wait for another mode.
   Result<Done> add_dynamics() {
     if (spec_.dynamics == DynamicsDesc{}) return Done{};
     Result<DynamicsSetup> dynamics = build_dynamics(spec_.dynamics, character_, out_.legs, out_.rate_hz, out_.start.q);

@@ -44,7 +44,7 @@ Json row_json(const ReportRow& row) {
           {"rate_hz", std::isfinite(row.rate_hz) ? Json(row.rate_hz) : Json()},
           {"features", row.features},
           {"needs", row.needs},
-          {"also", texts_of(row.also)},
+          {"also", texts_of(row.co_failures)},
           {"phase", row.phase},
           {"note", row.note}};
 }

@@ -38,7 +38,7 @@ struct ReportRow {
   double rate_hz = 60.0;
   std::string features;   // of the bucket: what its id is made of beside the family
   std::string needs;      // of the minimal spec, in words (renders/needs.h)
-  std::vector<Family> also;  // that its minimal spec shows too: they have no row for that
+  std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
   std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // what people know about it: "ana, ticket 12"

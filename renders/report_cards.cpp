@@ -62,9 +62,9 @@ std::string without_figure(const Family& family) { return family.check + " " + f
 std::string also_fact(const ReportRow& row) {
   constexpr std::size_t kNamed = 5;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kNamed, row.also.size()); ++i)
-    text += (i > 0 ? ", " : "") + without_figure(row.also[i]);
-  if (row.also.size() > kNamed) text += ", and " + std::to_string(row.also.size() - kNamed) + " more";
+  for (std::size_t i = 0; i < std::min(kNamed, row.co_failures.size()); ++i)
+    text += (i > 0 ? ", " : "") + without_figure(row.co_failures[i]);
+  if (row.co_failures.size() > kNamed) text += ", and " + std::to_string(row.co_failures.size() - kNamed) + " more";
   return text;
 }
 

@@ -41,7 +41,7 @@ void brace(std::span<const double> velocity, std::span<const double> stiff, std:
   for (std::size_t k = 0; k < change.size(); ++k) change[k] = stiff[k] + share * (change[k] - stiff[k]);
 }
 
-void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Blow& blow, std::span<double> impulse) {
+void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& blow, std::span<double> impulse) {
   const Placement& link = dynamics.world[static_cast<std::size_t>(blow.link)];
   const Vec3 arm = link.origin_m + link.rotation * blow.point_m - dynamics.world[0].origin_m;
   const SpatialForce force{glm::cross(arm, blow.impulse_N_s), blow.impulse_N_s};

@@ -22,7 +22,7 @@ void respond(const Multibody& body, std::span<const double> factors, const Suppo
              std::span<const double> wanted, ResponseScratch& scratch, std::span<double> x);
 
 // A blow in no time.
-struct Blow {
+struct Impact {
   int frame = 0;
   int link = 0;
   Vec3 point_m{0.0};      // in the link's frame
@@ -30,7 +30,7 @@ struct Blow {
 };
 
 // Adds what a blow is as a generalised impulse, at the placed pose.
-void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Blow& blow, std::span<double> impulse);
+void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& blow, std::span<double> impulse);
 
 // Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than it can be
 // (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the blow, and so does what

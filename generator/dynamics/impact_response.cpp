@@ -11,7 +11,7 @@ constexpr double kBlow_s = 0.02;  // a blow takes so long: what weight presses o
 
 }  // namespace
 
-void ImpactResponse::find(EquationOfMotion& equation, FootContacts& contacts, const Blow& blow) {
+void ImpactResponse::find(EquationOfMotion& equation, FootContacts& contacts, const Impact& blow) {
   contacts.find_rows(equation);
   change_.assign(equation.size(), 0.0);
   add_impulse(equation.body(), equation.dynamics, blow, change_);
@@ -28,13 +28,13 @@ bool ImpactResponse::pulls_a_foot(const EquationOfMotion& equation, const FootCo
   return false;
 }
 
-void ImpactResponse::apply(EquationOfMotion& equation, const FootContacts& contacts, const Blow& blow) {
+void ImpactResponse::apply(EquationOfMotion& equation, const FootContacts& contacts, const Impact& blow) {
   find_stiff(equation, contacts, blow);
   brace(equation.state.velocity, stiff_, equation.figure->fastest, change_);
   add_scaled(1.0, change_, equation.state.velocity);
 }
 
-void ImpactResponse::find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Blow& blow) {
+void ImpactResponse::find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Impact& blow) {
   stiff_.assign(equation.size(), 0.0);
   if (!contacts.feet().none()) return;
   impulse_.assign(equation.size(), 0.0);

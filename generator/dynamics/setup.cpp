@@ -33,14 +33,14 @@ int first_joint(const Character& character, const Part& part) {
   return 0;
 }
 
-Result<Blow> build_blow(const ImpactDesc& desc, const Character& character, const Quat& start,
+Result<Impact> build_blow(const ImpactDesc& desc, const Character& character, const Quat& start,
                         const std::string& pointer) {
   const int part = character.find_part(desc.slot);
   if (part < 0) return unknown(pointer + "/slot", desc.slot, "slot of " + character.name());
   int joint = first_joint(character, character.parts()[static_cast<std::size_t>(part)]);
   if (!desc.joint.empty()) joint = character.find_joint(part, desc.joint);
   if (joint < 0) return unknown(pointer + "/joint", desc.joint, "joint of the part in " + desc.slot);
-  return Blow{desc.frame, joint, desc.point_m, start * desc.impulse_N_s};
+  return Impact{desc.frame, joint, desc.point_m, start * desc.impulse_N_s};
 }
 
 }  // namespace
@@ -61,9 +61,9 @@ Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& 
     loads.push_back(*load);
   }
   for (std::size_t i = 0; i < desc.impacts.size(); ++i) {
-    Result<Blow> blow = build_blow(desc.impacts[i], character, start, "/impacts/" + std::to_string(i));
+    Result<Impact> blow = build_blow(desc.impacts[i], character, start, "/impacts/" + std::to_string(i));
     if (!blow) return blow.issue();
-    if (blow->impulse_N_s != Vec3(0.0)) setup.blows.push_back(*blow);  // one of nothing happens to nobody
+    if (blow->impulse_N_s != Vec3(0.0)) setup.impacts.push_back(*blow);  // one of nothing happens to nobody
   }
   setup.figure = build_figure(character, legs, loads);
   setup.touches = touch_points(character, setup.figure);

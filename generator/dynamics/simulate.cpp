@@ -32,7 +32,7 @@ class Simulation {
     prepare();
     for (frame_ = 0; frame_ < motion_.frame_count; ++frame_) {
       s_.record.begin_frame(frame_, state_, s_.contacts.planned(frame_));
-      for (const Blow& blow : setup_.blows)
+      for (const Impact& blow : setup_.impacts)
         if (blow.frame == frame_) strike(blow);
       s_.equation.place();
       s_.contacts.begin_frame(frame_);
@@ -82,7 +82,7 @@ class Simulation {
     s_.contacts.stop(state_.velocity);
   }
 
-  void strike(const Blow& blow) {
+  void strike(const Impact& blow) {
     s_.equation.place();
     s_.equation.find_mass();
     s_.equation.find_factors();

@@ -20,7 +20,7 @@ struct DynamicsSetup {
   int ticks_per_frame = 1;
   DynamicFigure figure;
   std::vector<TouchPoint> touches;
-  std::vector<Blow> blows;
+  std::vector<Impact> impacts;
 };
 
 // Codes dynamics.unknown_name, .bad_load, with pointers from the description's root. `start` turns impulses.

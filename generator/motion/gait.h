@@ -53,8 +53,6 @@ class Gait {
   std::span<const Leg> legs_;
   const Environment* environment_ = nullptr;
   Rigid world_from_start_;
-  double leg_length_m_ = 1.0;  // of the shortest
-  int rows_ = 1;
   std::array<Step, kMaxLegs> steps_;
   std::array<Rigid, kMaxLegs> first_soles_;
 };

@@ -55,12 +55,12 @@ TEST_F(CrowdedCases, WhatComesWithAFailureIsToldWithIt) {
   int with_others = 0;
   for (const Bucket& bucket : corpus->buckets(damaged)) {
     const std::string file = corpus->folder_of(bucket) + "/" + bucket.min;
-    const std::vector<Family> also = read_case(file)->also;
-    if (also.empty()) continue;
+    const std::vector<Family> co_failures = read_case(file)->co_failures;
+    if (co_failures.empty()) continue;
     ++with_others;
-    EXPECT_NE(ran.out.find(" and " + std::to_string(also.size()) + " that come with it"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find(" and " + std::to_string(co_failures.size()) + " that come with it"), std::string::npos) << ran.out;
     const Ran shown = contort_program({"corpus", "show", corpus->folder(), bucket.id});
-    EXPECT_NE(shown.out.find("comes with " + print_family(also.front())), std::string::npos) << shown.out << shown.err;
+    EXPECT_NE(shown.out.find("comes with " + print_family(co_failures.front())), std::string::npos) << shown.out << shown.err;
     const Ran shrunk = contort_program({"shrink", file, "-o", folder_ / "again.json"});
     EXPECT_NE(shrunk.out.find("comes with it: "), std::string::npos) << shrunk.out << shrunk.err;
   }

@@ -63,7 +63,7 @@ Case draw_case() {
                                                : Family{"check", draw_text("abc_", 1, 20), draw_text("abc|/ ~", 1, 40)}};
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {
     c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
-    c.also.push_back({"check", draw_text("abc/_ ~", 1, 60), "a"});
+    c.co_failures.push_back({"check", draw_text("abc/_ ~", 1, 60), "a"});
   }
   return c;
 }

@@ -13,7 +13,7 @@ TEST(Leads, TellWhatTheirMinimalSpecShows) {
   Lead lead{"seed_1", made_up(170, 60, 1), {}};
   EXPECT_TRUE(families_told_by(lead).empty());
   lead.minimal = made_up(160, 30, 1);
-  lead.minimal->also = {family("pop|human|head/neck")};
+  lead.minimal->co_failures = {family("pop|human|head/neck")};
   EXPECT_EQ(families_told_by(lead), (std::set<Family>{family_of(lead.original), family("pop|human|head/neck")}));
 }
 

@@ -49,7 +49,7 @@ Lead lead_of(const Failure& failure) {
   for (const int subject : failure.also) {
     Case other = lead.original;
     other.expect.subject = subject_text(subject);
-    lead.minimal->also.push_back(family_of(other));
+    lead.minimal->co_failures.push_back(family_of(other));
   }
   return lead;
 }

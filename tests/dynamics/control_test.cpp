@@ -1,4 +1,4 @@
-// Ground, relief and blows one by one, on a human in a squat with 8 kg on its back.
+// Ground, relief and impacts one by one, on a human in a squat with 8 kg on its back.
 #include "generator/dynamics/control.h"
 
 #include <gtest/gtest.h>
@@ -266,7 +266,7 @@ TEST(Impact, SolesStayAndMomentumIsTheBlowsAndTheGrounds) {
   Tick tick(9);
   std::vector<double> factors = tick.mass, change(tick.size(), 0.0);
   factorise(tick.figure.body, factors);
-  const Blow blow{0, fixtures::human().find_joint("arm_left/shoulder"), {0, -0.1, 0}, {2, 1, -5}};
+  const Impact blow{0, fixtures::human().find_joint("arm_left/shoulder"), {0, -0.1, 0}, {2, 1, -5}};
   add_impulse(tick.figure.body, tick.dynamics, blow, change);
   std::vector<double> stay(static_cast<std::size_t>(tick.support.count));
   soles_moved_by(tick.support, tick.state.velocity, stay);
@@ -288,7 +288,7 @@ TEST(Impact, BracingKeepsTheMomentumAndNoJointIsFasterThanItCanBe) {
   Tick tick(11);
   std::vector<double> factors = tick.mass, change(tick.size(), 0.0), stiff(tick.size(), 0.0), forces(tick.size(), 0.0);
   factorise(tick.figure.body, factors);
-  const Blow blow{0, fixtures::human().find_joint("arm_left/elbow"), {0, -0.2, 0}, {0, 0, 60}};
+  const Impact blow{0, fixtures::human().find_joint("arm_left/elbow"), {0, -0.2, 0}, {0, 0, 60}};
   add_impulse(tick.figure.body, tick.dynamics, blow, change);
   const std::vector<double> impulse = change;
   solve(tick.figure.body, factors, change);

@@ -1,4 +1,4 @@
-// Contacts of soles, blows and a figure that lets go, each by itself, on a human that stands at rest.
+// Contacts of soles, impacts and a figure that lets go, each by itself, on a human that stands at rest.
 #include "generator/dynamics/foot_contacts.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ struct StandingHuman {
   FootContacts contacts;
 };
 
-Blow blow_on(const char* joint_name, const Vec3& impulse_N_s) {
+Impact blow_on(const char* joint_name, const Vec3& impulse_N_s) {
   return {0, static_cast<int>(&fixtures::joint(fixtures::human(), joint_name) - fixtures::human().joints().data()),
           Vec3(0.0), impulse_N_s};
 }
@@ -108,7 +108,7 @@ TEST(ImpactResponse, ABlowOnAStandingFigureMovesItAndNotItsSoles) {
   StandingHuman human;
   human.land();
   ImpactResponse impact;
-  const Blow blow = blow_on("arm_left/shoulder", {2.0, 0.0, -4.0});
+  const Impact blow = blow_on("arm_left/shoulder", {2.0, 0.0, -4.0});
   impact.find(human.equation, human.contacts, blow);
   EXPECT_FALSE(impact.pulls_a_foot(human.equation, human.contacts));
   impact.apply(human.equation, human.contacts, blow);
@@ -132,7 +132,7 @@ TEST(ImpactResponse, ABlowThatLiftsTheFigureWouldHaveToPullItsFeet) {
 TEST(ImpactResponse, AFreeFigureTakesAllOfTheImpulse) {
   StandingHuman human;
   ImpactResponse impact;
-  const Blow blow = blow_on("arm_left/shoulder", {30.0, 10.0, -40.0});
+  const Impact blow = blow_on("arm_left/shoulder", {30.0, 10.0, -40.0});
   impact.find(human.equation, human.contacts, blow);
   impact.apply(human.equation, human.contacts, blow);
   const Vec3 gained = human.momentum().force;

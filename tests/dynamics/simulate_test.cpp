@@ -1,4 +1,4 @@
-// Whole simulations: blows, falls, long motions, loads, errors in specs.
+// Whole simulations: impacts, falls, long motions, loads, errors in specs.
 #include "generator/dynamics/simulate.h"
 
 #include <gtest/gtest.h>

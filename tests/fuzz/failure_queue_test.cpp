@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "fuzz/settling.h"
+#include "fuzz/failure_queue.h"
 #include "tests/stage_evaluator.h"
 #include "tests/checks/family_text.h"
 #include "tests/corpus/sample_corpus.h"
@@ -48,7 +48,7 @@ class QueuedFailures : public testing::Test {
   Corpus corpus_;
   RunConfig config_;
   RunState state_;
-  Settling queue_{config_, stock_generator(), corpus_, state_};
+  FailureQueue queue_{config_, stock_generator(), corpus_, state_};
 };
 
 TEST_F(QueuedFailures, OfOneCaseAreSettledOneAtATime) {
@@ -74,7 +74,7 @@ TEST_F(QueuedFailures, GoIntoBucketsAsTheyCameInTheMessage) {
 TEST_F(QueuedFailures, ThatTheMinimalSpecShowsTooAreNotSettled) {
   queue_.want(task(0, elbow_)), queue_.want(task(0, knee_, 1));
   SettledLead settled = shrunk();
-  settled.lead.minimal->also = {knee_};
+  settled.lead.minimal->co_failures = {knee_};
   reply(next_wanted(), {settled, ""});
   EXPECT_TRUE(state_.wanted.empty());
   EXPECT_EQ(queue_.next(true), std::nullopt);
@@ -84,7 +84,7 @@ TEST_F(QueuedFailures, OfAShardAreLeftToMerge) {
   config_.shard = {0, 2};
   queue_.want(task(0, elbow_)), queue_.want(task(0, knee_, 1));
   SettledLead settled = shrunk();
-  settled.lead.minimal->also = {knee_};
+  settled.lead.minimal->co_failures = {knee_};
   reply(next_wanted(), {settled, ""});
   EXPECT_TRUE(state_.new_buckets.empty());
   EXPECT_EQ(state_.wanted.size(), 1U) << "merge says which of them need no bucket";

@@ -46,7 +46,7 @@ TEST(Islands, KeepTheCasesThatCameNearest) {
   const TargetPool& pool = island.pools.at(named("a"));
   EXPECT_EQ(pool.nearest, (std::vector<PoolEntry>{{1.0, {3}}, {2.0, {1}}, {3.0, {4}}}));
   EXPECT_EQ(pool.farthest, 5.0);
-  EXPECT_EQ(pool.remoteness(), 1.0 / 4.0);
+  EXPECT_EQ(pool.relative_distance(), 1.0 / 4.0);
 }
 
 TEST(Islands, LetGoOfWhatIsBroken) {

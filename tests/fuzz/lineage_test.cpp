@@ -34,8 +34,8 @@ std::size_t action_count(const Spec& spec) {
 
 TEST(Lineage, ArmsHaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
-  for (int arm = 0; arm < kArms; ++arm) names.insert(arm_name(static_cast<Arm>(arm)));
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kArms));
+  for (int arm = 0; arm < kStrategies; ++arm) names.insert(strategy_name(static_cast<Strategy>(arm)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kStrategies));
 }
 
 // What the search is measured against.
@@ -47,15 +47,15 @@ TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
 }
 
 TEST(Lineage, EveryArmHasItsShare) {
-  std::map<Arm, double> percent;
+  std::map<Strategy, double> percent;
   constexpr int kCases = 20000;
   for (std::int64_t index = 0; index < kCases; ++index) percent[unguided(odds_of(1, {}), index)] += 100.0 / kCases;
-  const std::map<Arm, double> expected = {{Arm::uniform, 2.0},
-                                          {Arm::corners, 68.6},
-                                          {Arm::crowded, 19.6},
-                                          {Arm::swarm, 4.9},
-                                          {Arm::corners_and_swarm, 4.9}};
-  for (const auto& [arm, share] : expected) EXPECT_NEAR(percent[arm], share, 1.0) << arm_name(arm);
+  const std::map<Strategy, double> expected = {{Strategy::uniform, 2.0},
+                                          {Strategy::corners, 68.6},
+                                          {Strategy::overlaid, 19.6},
+                                          {Strategy::swarm, 4.9},
+                                          {Strategy::corners_and_swarm, 4.9}};
+  for (const auto& [arm, share] : expected) EXPECT_NEAR(percent[arm], share, 1.0) << strategy_name(arm);
   EXPECT_EQ(percent.size(), expected.size());
 }
 
@@ -97,7 +97,7 @@ TEST(Crowding, KeepsWhatIsThereAndAddsBehindIt) {
   for (std::int64_t index = 0; index < 200; ++index) {
     const RawSpec before = draw_raw(1, index), mate = draw_raw(1, index, 1);
     RawSpec after = before;
-    crowd(after, mate);
+    overlay(after, mate);
     ASSERT_GE(after.sequences.size(), std::max(before.sequences.size(), mate.sequences.size()));
     for (std::size_t s = 0; s < before.sequences.size(); ++s)
       for (std::size_t c = 0; c < before.sequences[s].size(); ++c)
@@ -114,7 +114,7 @@ TEST(Crowding, KeepsWhatIsThereAndAddsBehindIt) {
 
 TEST(Crowding, EndsWhereThereIsNoRoom) {
   RawSpec raw = draw_raw(1, 0);
-  for (std::uint64_t mate = 1; mate <= 100; ++mate) crowd(raw, draw_raw(1, 0, mate));
+  for (std::uint64_t mate = 1; mate <= 100; ++mate) overlay(raw, draw_raw(1, 0, mate));
   EXPECT_LE(raw.sequences.size(), kMostSequences);
   EXPECT_EQ(raw.interrupts.size(), kMostInterrupts);
   for (const std::vector<RawClip>& clips : raw.sequences) {
@@ -127,7 +127,7 @@ TEST(Crowding, MakesCasesThatBuildAndHaveTwiceTheActions) {
   const DrawConfig config{{"human", "mech", "quadruped"}};
   std::size_t even = 0, crowded = 0;
   for (std::int64_t index = 0; index < 300; ++index) {
-    if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
+    if (unguided(odds_of(1, config.profile), index) != Strategy::overlaid) continue;
     const Spec spec = compose(raw_of(config, stock_generator(), 1, {index}), config, stock_generator());
     const Result<Stage> stage = build_stage(spec, stock_library());
     ASSERT_TRUE(stage) << to_line(stage.issue());
@@ -143,7 +143,7 @@ TEST(Crowding, BringsGroundsThatAreNotLevel) {
   const auto level_percent = [](const DrawConfig& config) {
     double level = 0.0, all = 0.0;
     for (std::int64_t index = 0; index < 4000; ++index) {
-      if (unguided(odds_of(1, config.profile), index) != Arm::crowded) continue;
+      if (unguided(odds_of(1, config.profile), index) != Strategy::overlaid) continue;
       const Spec spec = compose(raw_of(config, stock_generator(), 1, {index}), config, stock_generator());
       ++all, level += std::holds_alternative<PlaneGround>(spec.environment.ground);
     }

@@ -43,7 +43,7 @@ TEST(Messages, ReportsArriveAsTheyWereSent) {
   EXPECT_EQ(parse_report<EvaluateReport>(print_report(evaluated)), evaluated);
   SettledLead settled{{"seed_1", made_up(170, 60, 1), made_up(160, 30, 1)}, true, {}, {}};
   settled.lead.shrunk_from = made_up(171, 61, 1);
-  settled.lead.minimal->also = {kFamily};
+  settled.lead.minimal->co_failures = {kFamily};
   settled.incidental = {settled.lead};
   settled.incidental_unconfirmed = {{"seed_1", made_up(172, 62, 1), {}}};
   const SettleReport report{settled, ""};

@@ -99,9 +99,9 @@ Shrunk minimal_of(const Case& original, const std::string& precursor, int evalua
 }
 
 TEST(ShrinkToPrecursor, GoesOnFromWhatItHas) {
-  std::vector<Onward> asked;
-  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const Onward& onward) {
-    asked.push_back(onward);
+  std::vector<PrimarySearch> asked;
+  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const auto& search) {
+    asked.push_back(search);
     const std::map<std::string, std::string> before = {{"hip", "knee"}, {"knee", "ankle"}, {"ankle", ""}};
     return minimal_of(original, before.at(original.expect.subject), 10 * static_cast<int>(asked.size()));
   });
@@ -116,10 +116,10 @@ TEST(ShrinkToPrecursor, GoesOnFromWhatItHas) {
 }
 
 TEST(ShrinkToPrecursor, HandsBackTheCheapestOfWhatWasMetOnTheWay) {
-  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const Onward& onward) {
-    Shrunk next = minimal_of(original, onward.begin_with ? "" : "knee", 1);
-    next.met = {shown("crash", 0, 0, 1.0), shown(onward.begin_with ? "second" : "first", 0, 0, 1.0)};
-    if (onward.begin_with) next.met[0].spec = spec_of({pose_use("head", {})});
+  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const auto& search) {
+    Shrunk next = minimal_of(original, search.begin_with ? "" : "knee", 1);
+    next.met = {shown("crash", 0, 0, 1.0), shown(search.begin_with ? "second" : "first", 0, 0, 1.0)};
+    if (search.begin_with) next.met[0].spec = spec_of({pose_use("head", {})});
     return next;
   });
   ASSERT_EQ(shrunk.met.size(), 3U);
@@ -127,9 +127,9 @@ TEST(ShrinkToPrecursor, HandsBackTheCheapestOfWhatWasMetOnTheWay) {
 }
 
 TEST(ShrinkToPrecursor, StaysWithWhatIsSteady) {
-  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const Onward& onward) {
+  const Shrunk shrunk = shrink_to_precursor(shown("hip", 0, 0, 1.0), [&](const Case& original, const auto& search) {
     Shrunk next = minimal_of(original, "knee", 10);
-    if (onward.begin_with) next.stopped = "flaky";
+    if (search.begin_with) next.stopped = "flaky";
     return next;
   });
   EXPECT_EQ(shrunk.minimal.expect.subject, "hip");
@@ -168,11 +168,11 @@ Case preceded_elbow_case() {
   return original;
 }
 
-TEST(ShrinkOnward, TellsThePrecursorAsTheOriginalShowsIt) {
+TEST(ShrinkPrimarySearch, TellsThePrecursorAsTheOriginalShowsIt) {
   PlantedMotion trial({shown("wrist", 19, 20, 2.0)});
   const Case original = preceded_elbow_case();
   ShrinkConfig config;
-  config.onward = Onward{};
+  config.search = PrimarySearch{};
   const Shrunk result = shrink_with(trial, original, stock_generator(), config);
   ASSERT_TRUE(result.precursor);
   EXPECT_EQ(result.precursor->expect.subject, "wrist");
@@ -181,20 +181,20 @@ TEST(ShrinkOnward, TellsThePrecursorAsTheOriginalShowsIt) {
   EXPECT_EQ(result.minimal.expect.subject, "elbow") << "shrinking keeps the family";
 }
 
-TEST(ShrinkOnward, LooksCloserOnlyAtWhatHasNoPrecursor) {
+TEST(ShrinkPrimarySearch, LooksCloserOnlyAtWhatHasNoPrecursor) {
   PlantedMotion crowded({shown("wrist", 19, 20, 2.0)}), alone({});
-  ShrinkConfig alone_config, onward;
-  onward.onward = Onward{};
+  ShrinkConfig alone_config, search;
+  search.search = PrimarySearch{};
   const int looked = shrink_with(crowded, preceded_elbow_case(), stock_generator(), alone_config).evaluations;
-  EXPECT_LT(shrink_with(crowded, preceded_elbow_case(), stock_generator(), onward).evaluations, looked);
-  EXPECT_EQ(shrink_with(alone, preceded_elbow_case(), stock_generator(), onward).evaluations, looked);
+  EXPECT_LT(shrink_with(crowded, preceded_elbow_case(), stock_generator(), search).evaluations, looked);
+  EXPECT_EQ(shrink_with(alone, preceded_elbow_case(), stock_generator(), search).evaluations, looked);
 }
 
-TEST(ShrinkOnward, BeginsWithTheSpecThatTheOtherCameTo) {
+TEST(ShrinkPrimarySearch, BeginsWithTheSpecThatTheOtherCameTo) {
   PlantedMotion trial({});
   ShrinkConfig config;
   const Shrunk slow = shrink_with(trial, preceded_elbow_case(), stock_generator(), config);
-  config.onward = Onward{slow.minimal.spec, {}};
+  config.search = PrimarySearch{slow.minimal.spec, {}};
   const Shrunk quick = shrink_with(trial, preceded_elbow_case(), stock_generator(), config);
   EXPECT_EQ(quick.minimal.spec, slow.minimal.spec);
   EXPECT_EQ(quick.minimal.provenance.shrunk_from, spec_id(preceded_elbow_case().spec));

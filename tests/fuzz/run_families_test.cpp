@@ -96,9 +96,9 @@ TEST_F(RunFamilies, WhatTheMinimalSpecOfAnEarlierFailureShowsTooHasNoBucketOfIts
   std::size_t told = 0;
   for (const auto& [index, cases] : of_case)
     for (const Case& before : cases) {
-      told += before.also.size();
+      told += before.co_failures.size();
       for (const Case& after : cases) {
-        const bool is_told = std::ranges::find(before.also, family_of(after)) != before.also.end();
+        const bool is_told = std::ranges::find(before.co_failures, family_of(after)) != before.co_failures.end();
         EXPECT_FALSE(is_told && before.provenance.rank < after.provenance.rank)
             << family_of(before) << ", " << family_of(after);
       }

@@ -30,7 +30,7 @@ TEST_F(RunSeeds, BeginWithTheirSeeds) {
   config.seeds = failing_seeds();
   const RunResult result = run(config, corpus);
   EXPECT_EQ(result.issue.code, "");
-  EXPECT_EQ(result.record.arms, (std::map<std::string, ArmCount>{{"seed", {3, 2}}}));
+  EXPECT_EQ(result.record.arms, (std::map<std::string, StrategyCount>{{"seed", {3, 2}}}));
   const auto family = result.record.families.find({"joint_range", "small", "arm_left/lift max"});
   ASSERT_NE(family, result.record.families.end());
   EXPECT_EQ(family->second.first_indices, std::vector<std::int64_t>{1});

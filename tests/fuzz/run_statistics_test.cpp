@@ -32,8 +32,8 @@ TEST_F(CountedCases, AddUp) {
   EXPECT_EQ(record.frames, 120);
   EXPECT_EQ(record.discarded, 0);
   EXPECT_EQ(record.tested.at("ground steps"), 2);
-  EXPECT_EQ(record.arms.at("seed"), (ArmCount{1, 1}));
-  EXPECT_EQ(record.arms.at(statistics_.arm_of_case({1})), (ArmCount{1, 0}));
+  EXPECT_EQ(record.arms.at("seed"), (StrategyCount{1, 1}));
+  EXPECT_EQ(record.arms.at(statistics_.strategy_of_case({1})), (StrategyCount{1, 0}));
   EXPECT_EQ(record.families.at(knee_), (FamilyCount{1, 0, {0}, "seed"}));
 }
 

@@ -11,7 +11,7 @@
 
 #include "corpus/leads.h"
 #include "corpus/runs.h"
-#include "fuzz/departures.h"
+#include "fuzz/profile_violations.h"
 #include "fuzz/run_state.h"
 #include "model/core/files.h"
 #include "tests/checks/family_text.h"
@@ -170,7 +170,7 @@ TEST_F(Runs, ShrinkWithinTheirProfile) {
   for (const Bucket& bucket : buckets)
     for (const std::string& file : {bucket.min, bucket.worst}) {
       const Case stored = read_case(corpus.folder_of(bucket) + "/" + file).value();
-      EXPECT_EQ(departures(stored.spec, config.draw.profile, generator()), 0) << pretty_spec(stored.spec);
+      EXPECT_EQ(profile_violations(stored.spec, config.draw.profile, generator()), 0) << pretty_spec(stored.spec);
       EXPECT_EQ(stored.provenance.profile, "long");
     }
 }

@@ -27,7 +27,7 @@ class TimedRuns : public testing::Test {
 bool is_told(const Family& family, const Corpus& corpus) {
   return std::ranges::any_of(buckets_of(corpus), [&](const Bucket& bucket) {
     const Case min = *read_case(corpus.folder_of(bucket) + "/" + bucket.min);
-    return std::ranges::find(min.also, family) != min.also.end();
+    return std::ranges::find(min.co_failures, family) != min.co_failures.end();
   });
 }
 

@@ -299,8 +299,8 @@ TEST(ShrinkStages, OtherFamiliesOnTheWayAreHandedBackWithTheirCheapestSpecs) {
 TEST(ShrinkStages, TheMinimalCaseNamesWhatOfTheOriginalItStillShowsHalfAsDeep) {
   CrowdedTrial trial;
   const Shrunk result = shrink_with(trial, holding(), stock_generator(), {});
-  EXPECT_EQ(result.minimal.also, (std::vector<Family>{family("nan|human|it"), family("old|human|it")}));
-  EXPECT_TRUE(result.worst.also.empty());
+  EXPECT_EQ(result.minimal.co_failures, (std::vector<Family>{family("nan|human|it"), family("old|human|it")}));
+  EXPECT_TRUE(result.worst.co_failures.empty());
   const Shrunk again = shrink_with(trial, result.minimal, stock_generator(), {});
   EXPECT_EQ(print_case(again.minimal), print_case(result.minimal)) << "what led here stays on record";
 }
@@ -327,7 +327,7 @@ TEST(ShrinkStages, WhatRunsOutOfEvaluationsSaysAsWellWhatItShows) {
   config.max_evaluations = 2;
   const Shrunk result = shrink_with(trial, holding(), stock_generator(), config);
   EXPECT_EQ(result.stopped, "evaluations");
-  EXPECT_EQ(result.minimal.also,
+  EXPECT_EQ(result.minimal.co_failures,
             (std::vector<Family>{family("gone|human|it"), family("nan|human|it"), family("old|human|it"),
                                  family("shallow|human|it")}));
 }

@@ -147,13 +147,13 @@ TEST(Report, ShowsEverythingOfARow) {
 TEST(Report, NamesWhatComesWithAFailure) {
   ReportRow row = row_of("pop", "human: head/neck", "new", true);
   EXPECT_FALSE(contains(report_html(page({row})), "<dt>comes with</dt><dd>pop"));
-  row.also = {{"pop", "human", "torso/lumbar_flex"}, {"self_collision", "human", "a/b ~ c/d"}};
+  row.co_failures = {{"pop", "human", "torso/lumbar_flex"}, {"self_collision", "human", "a/b ~ c/d"}};
   EXPECT_TRUE(contains(report_html(page({row})),
                        "<dt>comes with</dt><dd>pop torso/lumbar_flex, self_collision a/b ~ c/d</dd>"));
-  row.also.clear();
-  for (int i = 1; i <= 7; ++i) row.also.push_back({"a", "h", std::to_string(i)});
+  row.co_failures.clear();
+  for (int i = 1; i <= 7; ++i) row.co_failures.push_back({"a", "h", std::to_string(i)});
   EXPECT_TRUE(contains(report_html(page({row})), "<dd>a 1, a 2, a 3, a 4, a 5, and 2 more</dd>"));
-  row.also = {{kMarkup, "human", "one"}, {"one", "human", kMarkup}};
+  row.co_failures = {{kMarkup, "human", "one"}, {"one", "human", kMarkup}};
   EXPECT_FALSE(contains(body_of(report_html(page({row}))), kMarkup));
 }
 

@@ -1,4 +1,4 @@
-#include "fuzz/departures.h"
+#include "fuzz/profile_violations.h"
 
 #include <algorithm>
 #include <variant>
@@ -24,9 +24,9 @@ bool is_outside(const DrawRule& rule, const ParamValue& value) {
   return vector != nullptr && (beyond(vector->x, 0) || beyond(vector->y, 1) || beyond(vector->z, 2));
 }
 
-class Departures {
+class ProfileViolations {
  public:
-  Departures(const Profile& profile, Generator& generator, const Character* character)
+  ProfileViolations(const Profile& profile, Generator& generator, const Character* character)
       : profile_(profile), generator_(generator), character_(character) {}
 
   int count(const SequenceDesc& sequence) {
@@ -83,11 +83,11 @@ class Departures {
 
 }  // namespace
 
-int departures(const Spec& spec, const Profile& profile, Generator& generator) {
+int profile_violations(const Spec& spec, const Profile& profile, Generator& generator) {
   const bool asks_character = !profile.overlaps || !profile.rules.empty();
   const Result<Character> character =
       asks_character ? build_character(spec.character, *generator.manifest().library) : Result<Character>(Issue{});
-  Departures found(profile, generator, character ? &*character : nullptr);
+  ProfileViolations found(profile, generator, character ? &*character : nullptr);
   int count = 0;
   for (const SequenceDesc& sequence : spec.sequences) count = found.count(sequence);
   for (const InterruptDesc& interrupt : spec.interrupts) count = found.count(interrupt.sequence);
@@ -95,8 +95,8 @@ int departures(const Spec& spec, const Profile& profile, Generator& generator) {
 }
 
 std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, Generator& generator) {
-  return [profile, &generator, most = departures(original, profile, generator)](const Spec& spec) {
-    return departures(spec, profile, generator) <= most;
+  return [profile, &generator, most = profile_violations(original, profile, generator)](const Spec& spec) {
+    return profile_violations(spec, profile, generator) <= most;
   };
 }
 

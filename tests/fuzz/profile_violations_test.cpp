@@ -1,5 +1,5 @@
 // What of a spec a profile would not have drawn, and shrinking that stays within it.
-#include "fuzz/departures.h"
+#include "fuzz/profile_violations.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Profile profile_of(const std::string& json) { return parse_profile(json).value(); }
+Profile profile_of(const std::string& text) { return parse_profile(text).value(); }
 
 // The built-in ones, and those for planted faults.
 std::vector<Profile> known_profiles() {
@@ -26,14 +26,14 @@ std::vector<Profile> known_profiles() {
   return all;
 }
 
-TEST(Departures, ADrawnSpecHasNone) {
+TEST(ProfileViolations, ADrawnSpecHasNone) {
   for (const Profile& profile : known_profiles()) {
     DrawConfig draw{profile.characters, profile};
     if (draw.characters.empty()) draw.characters = {"human", "mech", "quadruped"};
     ASSERT_TRUE(validate(profile, draw.characters, stock_generator()).ok()) << profile.name;
     for (int i = 0; i < 60; ++i) {
       const Spec spec = draw_spec(draw, stock_generator(), 5, i);
-      ASSERT_EQ(departures(spec, profile, stock_generator()), 0) << profile.name << pretty_spec(spec);
+      ASSERT_EQ(profile_violations(spec, profile, stock_generator()), 0) << profile.name << pretty_spec(spec);
     }
   }
 }
@@ -66,14 +66,14 @@ ActionUse slow_walk() {
   return walk;
 }
 
-int departures_of(const Spec& spec) { return departures(spec, kSlow, stock_generator()); }
+int profile_violations_of(const Spec& spec) { return profile_violations(spec, kSlow, stock_generator()); }
 
-TEST(Departures, EachIsCounted) {
-  ASSERT_EQ(departures_of(spec_of_one(slow_walk())), 0);
+TEST(ProfileViolations, EachIsCounted) {
+  ASSERT_EQ(profile_violations_of(spec_of_one(slow_walk())), 0);
   const auto walk = [](auto&& change) {
     ActionUse use = slow_walk();
     change(use);
-    return departures_of(spec_of_one(use));
+    return profile_violations_of(spec_of_one(use));
   };
   EXPECT_EQ(walk([](ActionUse& use) { use.blend_in_frames = 19; }), 1);
   EXPECT_EQ(walk([](ActionUse& use) { use.blend_out_frames = 5; }), 0) << "no rule speaks of it";
@@ -85,40 +85,40 @@ TEST(Departures, EachIsCounted) {
   EXPECT_EQ(walk([](ActionUse& use) { use.action = "squat"; }), 1);
 }
 
-TEST(Departures, VectorsAreHeldAgainstEachLimit) {
+TEST(ProfileViolations, VectorsAreHeldAgainstEachLimit) {
   ActionUse look = use_of("look_at", "head");
   look.blend_in_frames = 25;
   for (const auto& [target, count] : {std::pair(Vec3(0, 1, 3), 0), std::pair(Vec3(0, 3, 3), 1), std::pair(Vec3(0, 1, 1), 1)}) {
     look.params["target_m"] = target;
-    EXPECT_EQ(departures_of(spec_of_one(look)), count) << target.y << " " << target.z;
+    EXPECT_EQ(profile_violations_of(spec_of_one(look)), count) << target.y << " " << target.z;
   }
 }
 
-TEST(Departures, ClipsAndTurnsAreHeldAgainstTheProfile) {
+TEST(ProfileViolations, ClipsAndTurnsAreHeldAgainstTheProfile) {
   Spec spec = spec_of_one(slow_walk());
   spec.sequences[0].clips[0].duration_frames = 40;
-  EXPECT_EQ(departures_of(spec), 1) << "it stretches nothing";
+  EXPECT_EQ(profile_violations_of(spec), 1) << "it stretches nothing";
   spec.sequences[0].clips[0].duration_frames = 0;
   spec.sequences[0].clips[0].actions.push_back(slow_walk());
-  EXPECT_EQ(departures_of(spec), 1) << "one takes over from the other";
+  EXPECT_EQ(profile_violations_of(spec), 1) << "one takes over from the other";
   spec.sequences[0].clips[0].actions[1].start_frame = 30;
-  EXPECT_EQ(departures_of(spec), 0);
-  EXPECT_EQ(departures(spec_of_one(use_of("walk", "waist")), Profile{}, stock_generator()), 0);
+  EXPECT_EQ(profile_violations_of(spec), 0);
+  EXPECT_EQ(profile_violations(spec_of_one(use_of("walk", "waist")), Profile{}, stock_generator()), 0);
   Spec stretched = spec_of_one(use_of("walk", "waist"));
   stretched.sequences[0].clips[0].duration_frames = 4;
-  EXPECT_EQ(departures(stretched, Profile{}, stock_generator()), 1) << "20 frames is the least";
+  EXPECT_EQ(profile_violations(stretched, Profile{}, stock_generator()), 1) << "20 frames is the least";
 }
 
-TEST(Departures, WhatALibraryDoesNotKnowIsSomebodyElsesError) {
-  EXPECT_EQ(departures_of(spec_of_one(use_of("walk", "head"))), 0) << "heads do not walk";
+TEST(ProfileViolations, WhatALibraryDoesNotKnowIsSomebodyElsesError) {
+  EXPECT_EQ(profile_violations_of(spec_of_one(use_of("walk", "head"))), 0) << "heads do not walk";
   Spec nobody = spec_of_one(slow_walk());
   nobody.character.name = "nobody";
-  EXPECT_EQ(departures_of(nobody), 0);
+  EXPECT_EQ(profile_violations_of(nobody), 0);
 }
 
 // A look to the side that comes in within 3 frames. Without its profile shrinking leaves no
 // blend at all, which pops whatever else is wrong.
-TEST(Departures, AShrunkCaseHasNoMoreThanItsOriginal) {
+TEST(ProfileViolations, AShrunkCaseHasNoMoreThanItsOriginal) {
   ActionUse look = use_of("look_at", "head");
   look.params["target_m"] = Vec3(2.0, 1.5, 0.5);
   look.blend_in_frames = 3, look.duration_frames = 41;
@@ -133,11 +133,11 @@ TEST(Departures, AShrunkCaseHasNoMoreThanItsOriginal) {
     "rules": [{"param": "blend_in_frames", "low": [2], "high": [4]}]})");
   ShrinkConfig config;
   const Shrunk free = shrink(original, stock_generator(), config);
-  EXPECT_GT(departures(free.minimal.spec, quick, stock_generator()), 0);
+  EXPECT_GT(profile_violations(free.minimal.spec, quick, stock_generator()), 0);
   config.allowed = within(quick, spec, stock_generator());
   const Shrunk kept = shrink(original, stock_generator(), config);
-  EXPECT_EQ(departures(kept.minimal.spec, quick, stock_generator()), 0) << pretty_spec(kept.minimal.spec);
-  EXPECT_EQ(departures(kept.worst.spec, quick, stock_generator()), 0) << pretty_spec(kept.worst.spec);
+  EXPECT_EQ(profile_violations(kept.minimal.spec, quick, stock_generator()), 0) << pretty_spec(kept.minimal.spec);
+  EXPECT_EQ(profile_violations(kept.worst.spec, quick, stock_generator()), 0) << pretty_spec(kept.worst.spec);
   EXPECT_EQ(kept.stopped, "fixpoint");
   const Shrunk again = shrink(kept.minimal, stock_generator(), config);
   EXPECT_EQ(again.minimal.spec, kept.minimal.spec);

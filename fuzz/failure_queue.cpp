@@ -1,4 +1,4 @@
-#include "fuzz/settling.h"
+#include "fuzz/failure_queue.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -32,34 +32,34 @@ Task task_of(const FailureJob& job) {
   return std::visit([](const auto& one) { return Task(one.task); }, job);
 }
 
-void Settling::go_on() {
+void FailureQueue::go_on() {
   wanted_.clear();
   for (const SettleTask& task : state_.wanted) wanted_.push_back({task});
 }
 
-void Settling::find_waiting() {
+void FailureQueue::find_waiting() {
   std::vector<Issue> damaged;
   for (const Lead& lead : leads_of(corpus_, damaged))
     if (waits(lead))
       waiting_.push_back({{lead_path(corpus_, lead), false}, lead.run, lead.original.provenance.index});
 }
 
-void Settling::want(const SettleTask& task) {
+void FailureQueue::want(const SettleTask& task) {
   state_.wanted.push_back(task);
   wanted_.push_back({task});
 }
 
-void Settling::only_keep() {
+void FailureQueue::only_keep() {
   for (WantedFailure& job : wanted_) job.task.shrinks = false;
 }
 
-Settling::CaseId Settling::case_of(const FailureJob& job) const {
+FailureQueue::CaseId FailureQueue::case_of(const FailureJob& job) const {
   if (const auto* waiting = std::get_if<WaitingLead>(&job)) return {waiting->run, waiting->index};
   return {state_.record.name, std::get<WantedFailure>(job).task.lineage.back()};
 }
 
 // Of one case one failure at a time: what a minimal spec shows too is not settled any more.
-std::optional<FailureJob> Settling::next(bool with_waiting) {
+std::optional<FailureJob> FailureQueue::next(bool with_waiting) {
   const auto is_free = [&](const WantedFailure& job) {
     return std::ranges::find(in_hand_, case_of(job)) == in_hand_.end();
   };
@@ -75,13 +75,13 @@ std::optional<FailureJob> Settling::next(bool with_waiting) {
   return job;
 }
 
-void Settling::take(const FailureJob& job, const WorkerEvent& event) {
+void FailureQueue::take(const FailureJob& job, const WorkerEvent& event) {
   in_hand_.erase(std::ranges::find(in_hand_, case_of(job)));
   if (const auto* waiting = std::get_if<WaitingLead>(&job)) return take_waiting(*waiting, event);
   take_wanted(std::get<WantedFailure>(job), event);
 }
 
-void Settling::take_wanted(const WantedFailure& job, const WorkerEvent& event) {
+void FailureQueue::take_wanted(const WantedFailure& job, const WorkerEvent& event) {
   const SettleTask& task = job.task;
   if (event.end != WorkerEnd::replied && !task.guarded) return shrink_guarded(job, event);
   settle_no_more(task, {task.family});
@@ -102,7 +102,7 @@ void Settling::take_wanted(const WantedFailure& job, const WorkerEvent& event) {
 
 // It may have been another process that did it, or this one under another name before. What ended its worker waits for
 // a run with a guard: it is tried once more, like any other.
-void Settling::take_waiting(WaitingLead job, const WorkerEvent& event) {
+void FailureQueue::take_waiting(WaitingLead job, const WorkerEvent& event) {
   if (event.end == WorkerEnd::replied) {
     const ShrinkReport report = parse_report<ShrinkReport>(event.text);
     if (!report.issue.empty()) return fail({"file.unwritable", "", report.issue});
@@ -118,7 +118,7 @@ void Settling::take_waiting(WaitingLead job, const WorkerEvent& event) {
 }
 
 // Its worker has kept all of it as leads. Those of a shard `merge` files.
-void Settling::take_settled(const SettledLead& settled) {
+void FailureQueue::take_settled(const SettledLead& settled) {
   const auto note = [&](const Lead& lead) { add_once(state_.unconfirmed, lead_path(corpus_, lead)); };
   settled.confirmed ? file(settled.lead) : note(settled.lead);
   for (const Lead& lead : settled.incidental) file(lead);
@@ -126,7 +126,7 @@ void Settling::take_settled(const SettledLead& settled) {
 }
 
 // Which families of the case need no bucket of their own, a shard leaves to `merge`: it shrinks more than a whole run.
-void Settling::settle_no_more(const SettleTask& of_case, const std::set<Family>& families) {
+void FailureQueue::settle_no_more(const SettleTask& of_case, const std::set<Family>& families) {
   const auto is_settled = [&](const SettleTask& task) {
     return task.lineage == of_case.lineage && families.contains(task.family);
   };
@@ -136,7 +136,7 @@ void Settling::settle_no_more(const SettleTask& of_case, const std::set<Family>&
 
 // A candidate of its shrinking ended the process: a failure of its own, kept at once. The guarded worker meets it
 // again, or else it is not confirmed. It still comes before the later failures of its case.
-void Settling::shrink_guarded(WantedFailure job, const WorkerEvent& event) {
+void FailureQueue::shrink_guarded(WantedFailure job, const WorkerEvent& event) {
   const SettleTask& task = job.task;
   const Spec given = spec_of(config_, generator_, task.lineage);
   Lead lead = lead_of(case_of_ending(event, given, config_.limits), task.lineage, 0);
@@ -146,7 +146,7 @@ void Settling::shrink_guarded(WantedFailure job, const WorkerEvent& event) {
   wanted_.push_front(std::move(job));
 }
 
-void Settling::file(const Lead& lead) {
+void FailureQueue::file(const Lead& lead) {
   if (config_.shard.count > 1) return;
   const Result<Corpus::Added> added = file_lead(corpus_, lead);
   if (!added) return fail(added.issue());
@@ -155,36 +155,36 @@ void Settling::file(const Lead& lead) {
   add_once(added->is_new ? state_.new_buckets : state_.known_buckets, name);
 }
 
-void Settling::keep(const Lead& lead) {
+void FailureQueue::keep(const Lead& lead) {
   if (const Result<std::string> kept = keep_lead(corpus_, lead); !kept) fail(kept.issue());
 }
 
 // A failure that was seen once and did not come again. Whoever looks for it begins with its spec.
-void Settling::keep_unsteady(Lead lead) {
+void FailureQueue::keep_unsteady(Lead lead) {
   lead.original.provenance.shrink_stopped = kUnsteady;
   keep(lead);
   add_once(state_.unconfirmed, lead_path(corpus_, lead));
 }
 
 // A failure of a case of this run, as it was seen.
-Lead Settling::lead_of(const Case& seen, const Lineage& lineage, int rank) const {
+Lead FailureQueue::lead_of(const Case& seen, const Lineage& lineage, int rank) const {
   Lead lead{state_.record.name, seen, {}};
   lead.original.provenance = provenance_in(config_, lineage.back());
   lead.original.provenance.rank = rank;
   return lead;
 }
 
-void Settling::keep_ending_of_once(const Case& ended, const Lineage& lineage) {
+void FailureQueue::keep_ending_of_once(const Case& ended, const Lineage& lineage) {
   keep_unsteady(lead_of(ended, lineage, 0));
 }
 
-std::vector<std::string> Settling::waiting() const {
+std::vector<std::string> FailureQueue::waiting() const {
   std::vector<std::string> paths = kept_;
   for (const WaitingLead& job : waiting_) paths.push_back(job.task.lead);
   return paths;
 }
 
-void Settling::fail(const Issue& issue) {
+void FailureQueue::fail(const Issue& issue) {
   if (issue_.code.empty()) issue_ = issue;
 }
 

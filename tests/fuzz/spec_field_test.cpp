@@ -1,5 +1,5 @@
 // Places of a spec that have defaults: all of them, where they say, and each by itself.
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -21,27 +21,27 @@ Spec drawn_at_random() {
   return draw_spec({{"human", "mech"}}, stock_generator(), *rc::gen::inRange(0, 100), *rc::gen::inRange(0, 1000));
 }
 
-std::vector<SpecPlace> places(const Spec& spec) {
+std::vector<SpecField> places(const Spec& spec) {
   const Result<Character> character = build_character(spec.character, stock_library());
-  return places_of(spec, stock_generator(), character ? &*character : nullptr);
+  return spec_fields_of(spec, stock_generator(), character ? &*character : nullptr);
 }
 
-RC_GTEST_PROP(Places, PointersLeadToTheirValuesInTheFile, ()) {
+RC_GTEST_PROP(SpecFields, PointersLeadToTheirValuesInTheFile, ()) {
   const Spec spec = drawn_at_random();
   const Json file = Json::parse(print_spec(spec));
-  for (const SpecPlace& place : places(spec)) {
+  for (const SpecField& place : places(spec)) {
     const Json& value = file.at(Json::json_pointer(place.pointer));
     if (value.is_number()) RC_ASSERT(place.is_number && value.get<double>() == place.value);
   }
 }
 
-RC_GTEST_PROP(Places, EveryNumberIsSetAlone, ()) {
+RC_GTEST_PROP(SpecFields, EveryNumberIsSetAlone, ()) {
   const Spec spec = drawn_at_random();
-  const std::vector<SpecPlace> all = places(spec);
-  for (const SpecPlace& place : all) {
+  const std::vector<SpecField> all = places(spec);
+  for (const SpecField& place : all) {
     if (!place.is_number || place.low == place.high) continue;
     Spec changed = spec;
-    set_place(changed, place, place.value + 1.0);
+    set_spec_field(changed, place, place.value + 1.0);
     Json before = Json::parse(print_spec(spec)), after = Json::parse(print_spec(changed));
     // A number that is at its default now is not in the file; all others are as they were.
     const Json::json_pointer at(place.pointer);
@@ -52,45 +52,45 @@ RC_GTEST_PROP(Places, EveryNumberIsSetAlone, ()) {
   }
 }
 
-RC_GTEST_PROP(Places, AfterAResetOfAllThereIsNoneLeft, ()) {
+RC_GTEST_PROP(SpecFields, AfterAResetOfAllThereIsNoneLeft, ()) {
   Spec spec = drawn_at_random();
   spec.rate_hz = 30;
   spec.recording.from_s = 2.0;
   spec.start.position_m = Vec3(1.0, 0.0, 2.0);
   spec.sequences[0].name = spec.sequences[0].clips[0].name = "named";
   const std::size_t actions = spec.sequences[0].clips[0].actions.size();
-  reset_places(spec, places(spec));
-  for (const SpecPlace& place : places(spec))  // a vector stays, with three defaults in it
+  reset_spec_fields(spec, places(spec));
+  for (const SpecField& place : places(spec))  // a vector stays, with three defaults in it
     ADD_FAILURE() << place.pointer;
   RC_ASSERT(spec.rate_hz == 60.0 && spec.start == StartDesc{} && spec.recording == RecordingDesc{});
   RC_ASSERT(std::holds_alternative<PlaneGround>(spec.environment.ground));
   RC_ASSERT(spec.sequences[0].clips[0].actions.size() == actions);
 }
 
-RC_GTEST_PROP(Places, ResettingOneByOneIsResettingAtOnce, ()) {
+RC_GTEST_PROP(SpecFields, ResettingOneByOneIsResettingAtOnce, ()) {
   const Spec spec = drawn_at_random();
   Spec at_once = spec, one_by_one = spec;
-  const std::vector<SpecPlace> all = places(spec);
-  reset_places(at_once, all);
-  for (const SpecPlace& place : all) reset_places(one_by_one, std::span(&place, 1));
+  const std::vector<SpecField> all = places(spec);
+  reset_spec_fields(at_once, all);
+  for (const SpecField& place : all) reset_spec_fields(one_by_one, std::span(&place, 1));
   RC_ASSERT(at_once == one_by_one);
 }
 
-const SpecPlace& place_at(const std::vector<SpecPlace>& all, const std::string& end) {
-  for (const SpecPlace& place : all)
+const SpecField& place_at(const std::vector<SpecField>& all, const std::string& end) {
+  for (const SpecField& place : all)
     if (place.pointer.ends_with(end)) return place;
   ADD_FAILURE() << "no place " << end;
-  static const SpecPlace none;
+  static const SpecField none;
   return none;
 }
 
-TEST(Places, NumbersHaveTheLimitsAndLatticesOfTheirDeclarations) {
+TEST(SpecFields, NumbersHaveTheLimitsAndLatticesOfTheirDeclarations) {
   Spec spec = spec_of({pose_use("arm_right", {{"elbow_deg", 80.0}, {"shoulder_deg", Vec3(1, 2, 3)}}, 90)});
   spec.dynamics.mode = Mode::dynamic;
   spec.dynamics.loads = {{"torso", "back", {}, {0.3, 0.4, 0.15}, 7.0}};
   spec.dynamics.impacts = {{3, "head", "", {}, {0, 20, 0}}};
-  const std::vector<SpecPlace> all = places(spec);
-  const SpecPlace& elbow = place_at(all, "/params/elbow_deg");
+  const std::vector<SpecField> all = places(spec);
+  const SpecField& elbow = place_at(all, "/params/elbow_deg");
   EXPECT_EQ(elbow.value, 80.0);
   EXPECT_EQ(elbow.low, -360.0);
   EXPECT_EQ(elbow.high, 360.0);
@@ -103,21 +103,21 @@ TEST(Places, NumbersHaveTheLimitsAndLatticesOfTheirDeclarations) {
   EXPECT_EQ(place_at(all, "/dynamics/mode").value, 2.0);
 }
 
-TEST(Places, AModeIsLoweredByOne) {
+TEST(SpecFields, AModeIsLoweredByOne) {
   Spec spec = bent_elbow(90);
   spec.dynamics.mode = Mode::dynamic;
-  set_place(spec, place_at(places(spec), "/dynamics/mode"), 1.0);
+  set_spec_field(spec, place_at(places(spec), "/dynamics/mode"), 1.0);
   EXPECT_EQ(spec.dynamics.mode, Mode::tracking);
 }
 
-TEST(Places, WithoutTheCharacterParametersHaveNoLimits) {
+TEST(SpecFields, WithoutTheCharacterParametersHaveNoLimits) {
   const Spec spec = bent_elbow(90);
-  const SpecPlace elbow = place_at(places_of(spec, stock_generator(), nullptr), "/params/elbow_deg");
+  const SpecField elbow = place_at(spec_fields_of(spec, stock_generator(), nullptr), "/params/elbow_deg");
   EXPECT_EQ(elbow.preset, 0.0);
   EXPECT_TRUE(std::isinf(elbow.low) && std::isinf(elbow.high));
 }
 
-TEST(Places, ASpecAsItIsByDefaultHasNone) { EXPECT_TRUE(places_of(Spec{}, stock_generator(), nullptr).empty()); }
+TEST(SpecFields, ASpecAsItIsByDefaultHasNone) { EXPECT_TRUE(spec_fields_of(Spec{}, stock_generator(), nullptr).empty()); }
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-#include "fuzz/places.h"
+#include "fuzz/spec_field.h"
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@ using json_fields::Rule;
 
 // A place of one spec in memory. The closures hold references into it.
 struct Leaf {
-  SpecPlace place;
+  SpecField place;
   bool is_default = false;
   std::function<void()> reset;  // empty for a parameter's part, whose default is the action's to say
   std::function<void(double)> set_number;
@@ -33,9 +33,9 @@ double lattice_of(const std::string& name) {
   return name.ends_with("_kg") || name == "impulse_N_s" ? 2.0 : steps_per_unit(name);
 }
 
-SpecPlace number_place(const std::string& pointer, const std::string& name, double value, double preset, double low,
+SpecField number_place(const std::string& pointer, const std::string& name, double value, double preset, double low,
                        double high) {
-  SpecPlace place{pointer, true, value, preset, low, high, lattice_of(name), {}};
+  SpecField place{pointer, true, value, preset, low, high, lattice_of(name), {}};
   if (!is_open_ended(name)) return place;
   const double reach = 2.0 * std::max({value, -value, preset});
   place.low = std::max(low, -reach), place.high = std::min(high, reach);
@@ -55,7 +55,7 @@ void add_number(Leaves& out, const std::string& pointer, const std::string& name
 // Anything else that has a default: a flag, a name, a kind of ground.
 template <class T>
 void add_other(Leaves& out, const std::string& pointer, T& at, const T& preset) {
-  SpecPlace place;
+  SpecField place;
   place.pointer = pointer;
   out.push_back({place, at == preset, [&at, preset] { at = preset; }, {}, {}});
 }
@@ -89,7 +89,7 @@ void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const st
       out.back().reset = {};
     }
   } else {
-    SpecPlace place;
+    SpecField place;
     place.pointer = pointer;
     place.words = declared.choices;
     out.push_back({place,
@@ -148,7 +148,7 @@ class PlaceWalker {
   // A mode is less than the next one, so it can be moved towards its default by steps; but no range makes sense of it.
   template <class E>
   void add_enum(const std::string& at, E& value, E preset) {
-    SpecPlace place{at, true, static_cast<double>(value), static_cast<double>(preset), 0.0, 0.0, 1.0, {}};
+    SpecField place{at, true, static_cast<double>(value), static_cast<double>(preset), 0.0, 0.0, 1.0, {}};
     place.low = place.high = place.value;
     out_.push_back({place,
                     value == preset,
@@ -194,25 +194,25 @@ Leaves leaves_of(Spec& spec, const Actor& actor) {
 }
 
 template <class Change>
-void change(Spec& spec, const SpecPlace& place, const Change& how) {
+void change(Spec& spec, const SpecField& place, const Change& how) {
   for (const Leaf& leaf : leaves_of(spec, {}))
     if (leaf.place.pointer == place.pointer) return how(leaf);
 }
 
 }  // namespace
 
-std::vector<SpecPlace> places_of(const Spec& spec, Generator& generator, const Character* character) {
+std::vector<SpecField> spec_fields_of(const Spec& spec, Generator& generator, const Character* character) {
   Spec copy = spec;
   const Actor actor{character, character != nullptr ? &generator.offers(*character) : nullptr};
-  std::vector<SpecPlace> places;
+  std::vector<SpecField> places;
   for (Leaf& leaf : leaves_of(copy, actor))
     if (!leaf.is_default) places.push_back(std::move(leaf.place));
   return places;
 }
 
-void reset_places(Spec& spec, std::span<const SpecPlace> places) {
+void reset_spec_fields(Spec& spec, std::span<const SpecField> places) {
   std::map<std::string_view, double> presets;
-  for (const SpecPlace& place : places) presets[place.pointer] = place.preset;
+  for (const SpecField& place : places) presets[place.pointer] = place.preset;
   for (const Leaf& leaf : leaves_of(spec, {})) {
     const auto wanted = presets.find(leaf.place.pointer);
     if (wanted == presets.end()) continue;
@@ -223,11 +223,11 @@ void reset_places(Spec& spec, std::span<const SpecPlace> places) {
   }
 }
 
-void set_place(Spec& spec, const SpecPlace& place, double value) {
+void set_spec_field(Spec& spec, const SpecField& place, double value) {
   change(spec, place, [value](const Leaf& leaf) { leaf.set_number(value); });
 }
 
-void set_place(Spec& spec, const SpecPlace& place, const std::string& word) {
+void set_spec_field(Spec& spec, const SpecField& place, const std::string& word) {
   change(spec, place, [&word](const Leaf& leaf) { leaf.set_word(word); });
 }
 

@@ -11,7 +11,7 @@
 
 namespace contort {
 
-struct SpecPlace {
+struct SpecField {
   std::string pointer;  // into the spec
   bool is_number = false;
   // Where it is a number: present value, default, and the range in which other values make sense. Whole motions of
@@ -22,17 +22,17 @@ struct SpecPlace {
   double high = 0.0;
   double steps_per_unit = 1.0;     // of the lattice to stay on
   std::vector<std::string> words;  // where it is a choice: all that are allowed
-  bool operator==(const SpecPlace&) const = default;
+  bool operator==(const SpecField&) const = default;
 };
 
 // Those that are not at their defaults, in the spec's order. The generator says the limits and defaults of parameters.
 // Without the character they are not known: then parameters have no limits, and 0 stands for the default.
-std::vector<SpecPlace> places_of(const Spec& spec, Generator& generator, const Character* character);
+std::vector<SpecField> spec_fields_of(const Spec& spec, Generator& generator, const Character* character);
 
 // Back to their defaults.
-void reset_places(Spec& spec, std::span<const SpecPlace> places);
+void reset_spec_fields(Spec& spec, std::span<const SpecField> places);
 
-void set_place(Spec& spec, const SpecPlace& place, double value);
-void set_place(Spec& spec, const SpecPlace& place, const std::string& word);
+void set_spec_field(Spec& spec, const SpecField& place, double value);
+void set_spec_field(Spec& spec, const SpecField& place, const std::string& word);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-#include "generator/happened.h"
+#include "generator/condition.h"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ bool is_steep(const PlannedInterrupt& interrupt, const Vec3& normal) {
 
 }  // namespace
 
-bool happened(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
+bool condition_holds(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
               const Rigid& root) {
   const auto told = [&](bool Feedback::*what) { return feedback[static_cast<std::size_t>(interrupt.part)].*what; };
   switch (interrupt.when.event) {

@@ -9,7 +9,7 @@
 namespace contort {
 
 // `feedback` is what the actions told, by part; `root` is where the figure is.
-bool happened(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
+bool condition_holds(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
               const Rigid& root);
 
 }  // namespace contort

@@ -35,10 +35,10 @@ using FailureJob = std::variant<WantedFailure, WaitingLead>;
 
 Task task_of(const FailureJob& job);
 
-class Settling {
+class FailureQueue {
  public:
   // `state` is the run's; what is wanted and what was filed is written there.
-  Settling(const RunConfig& config, Generator& generator, const Corpus& corpus, RunState& state)
+  FailureQueue(const RunConfig& config, Generator& generator, const Corpus& corpus, RunState& state)
       : config_(config), generator_(generator), corpus_(corpus), state_(state) {}
 
   // With what the state of an interrupted run wants.
