@@ -65,26 +65,61 @@ Result<Done> take_cases(std::vector<std::string>& inputs, int& unreadable) {
   return Done{};
 }
 
+struct PictureRequest {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::vector<std::string> labels;
+  std::string frames;
+  std::string azimuth_deg;
+  std::string clip;
+  std::string compared;
+  std::string tolerance_mm;
+  bool json = false;
+  int tiles = 8;
+  bool colliders = false;
+  bool rows = false;
+  bool sheet = false;
+  bool allow_unreadable = false;
+};
+
+// What contort-render is asked for, without its files.
+std::vector<std::string> arguments_of(const PictureRequest& options) {
+  std::vector<std::string> call = {"-o", options.output, "--tiles", std::to_string(options.tiles)};
+  for (const auto& [name, value] : {std::pair("--compare", &options.compared), {"--tolerance", &options.tolerance_mm},
+                                    {"--frames", &options.frames}, {"--azimuth", &options.azimuth_deg},
+                                    {"--clip", &options.clip}})
+    if (!value->empty()) call.insert(call.end(), {name, *value});
+  for (const auto& [name, is_set] : {std::pair("--json", options.json), {"--colliders", options.colliders},
+                                     {"--rows", options.rows}, {"--sheet", options.sheet},
+                                     {"--allow-unreadable", options.allow_unreadable}})
+    if (is_set) call.emplace_back(name);
+  for (const std::string& label : options.labels) call.insert(call.end(), {"--label", label});
+  return call;
+}
+
+void render(PictureRequest options, Context& context) {
+  if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
+  int unreadable = 0;
+  if (options.sheet)
+    if (const Result<Done> found = take_cases(options.inputs, unreadable); !found) return context.fail(found.issue());
+  std::vector<std::string> call = renderer_call(context);
+  const std::vector<std::string> arguments = arguments_of(options);
+  call.insert(call.end(), arguments.begin(), arguments.end());
+  call.push_back("--");  // A file may be called --rows.
+  call.insert(call.end(), options.inputs.begin(), options.inputs.end());
+  const Result<int> code = run_in_foreground(call);
+  if (!code) return context.fail(code.issue(), kInternal);
+  context.exit_code = *code;
+  if (*code == kClean && unreadable > 0 && !options.allow_unreadable)
+    context.fail({"render.left_out", "",
+                  "buckets that cannot be read and are not on the sheet: " + std::to_string(unreadable) +
+                      "; --allow-unreadable makes that no error"});
+}
+
 }  // namespace
 
 void add_render(CLI::App& app, Context& context) {
-  struct Options {
-    std::vector<std::string> inputs;
-    std::string output;
-    std::vector<std::string> labels;
-    std::string frames;
-    std::string azimuth_deg;
-    std::string clip;
-    std::string compared;
-    std::string tolerance_mm;
-    bool json = false;
-    int tiles = 8;
-    bool colliders = false;
-    bool rows = false;
-    bool sheet = false;
-    bool allow_unreadable = false;
-  };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PictureRequest>();
   CLI::App* command = app.add_subcommand("render", "Draw a case or spec as a film strip (PNG)");
   command->add_option("FILE", options->inputs, "Case or spec file; several with --rows or --sheet")->required();
   command->add_option("-o,--output", options->output, "The picture")->required();
@@ -111,36 +146,7 @@ void add_render(CLI::App& app, Context& context) {
   command->footer(
       "Example: contort render docs/examples/reach_hand.json -o strip.png\n"
       "         contort render before.json --compare after.json -o difference.png");
-  command->callback([options, &context] {
-    if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
-    std::vector<std::string> call = renderer_call(context);
-    call.insert(call.end(), {"-o", options->output, "--tiles", std::to_string(options->tiles)});
-    if (!options->compared.empty()) call.insert(call.end(), {"--compare", options->compared});
-    if (!options->tolerance_mm.empty()) call.insert(call.end(), {"--tolerance", options->tolerance_mm});
-    if (options->json) call.push_back("--json");
-    if (options->colliders) call.push_back("--colliders");
-    if (options->rows) call.push_back("--rows");
-    if (options->allow_unreadable) call.push_back("--allow-unreadable");
-    int unreadable = 0;
-    if (options->sheet) {
-      call.push_back("--sheet");
-      const Result<Done> found = take_cases(options->inputs, unreadable);
-      if (!found) return context.fail(found.issue());
-    }
-    if (!options->frames.empty()) call.insert(call.end(), {"--frames", options->frames});
-    if (!options->azimuth_deg.empty()) call.insert(call.end(), {"--azimuth", options->azimuth_deg});
-    for (const std::string& label : options->labels) call.insert(call.end(), {"--label", label});
-    if (!options->clip.empty()) call.insert(call.end(), {"--clip", options->clip});
-    call.push_back("--");  // A file may be called --rows.
-    call.insert(call.end(), options->inputs.begin(), options->inputs.end());
-    const Result<int> code = run_in_foreground(call);
-    if (!code) return context.fail(code.issue(), kInternal);
-    context.exit_code = *code;
-    if (*code == kClean && unreadable > 0 && !options->allow_unreadable)
-      context.fail({"render.left_out", "",
-                    "buckets that cannot be read and are not on the sheet: " + std::to_string(unreadable) +
-                        "; --allow-unreadable makes that no error"});
-  });
+  command->callback([options, &context] { render(*options, context); });
 }
 
 }  // namespace contort::cli
