@@ -19,7 +19,7 @@
 
 namespace contort {
 
-// What a check needs beside a character and a motion of it. Where that is missing it cannot judge, and says so.
+// A check may need more than a character and a motion of it. Where that is missing it cannot judge, and says so.
 enum class Needs : std::uint8_t {
   motion,            // nothing else
   height,            // how high the root is above the ground
@@ -62,7 +62,7 @@ struct CheckDef {
   Needs needs;
   std::string_view nothing;  // what is missing where what it needs is there and it still judged nothing
   std::string_view help;
-  // What is judged, numbered from 0. Checks of clips have no such subjects, and measure nothing.
+  // The subjects that are judged, numbered from 0. Checks of clips have no such subjects, and measure nothing.
   int (*subject_count)(const Character&);
   Subject (*subject)(const Character&, int);
   // Reports every subject in every frame that it judges; it may leave out margins that change nothing (fold.h).

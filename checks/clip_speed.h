@@ -42,7 +42,8 @@ struct ClipSpeeds {
 
 ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const SpeedLimits& limits);
 
-// Of each clip. With `name` empty, all clips. Nothing fails: a clip without rotations has a peak of 0.
+// Measures each clip of that name; with `name` empty, all clips. Nothing fails: a clip without rotations has a peak of
+// 0.
 std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name = "");
 
 }  // namespace contort

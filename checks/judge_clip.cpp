@@ -36,7 +36,7 @@ int subjects_of(const std::vector<JudgedCheck>& judged, std::string_view check) 
   return found == judged.end() ? 0 : found->subjects;
 }
 
-// Of the motion's joints those whose speeds or accelerations the check is not to judge.
+// The joints of the motion whose speeds or accelerations the check is not to judge.
 std::set<std::string> left_to_others(std::string_view check, const SpeedsElsewhere& elsewhere) {
   std::set<std::string> joints;
   if (is_speed(check) || check == "angular_acceleration") joints = elsewhere.not_followed;

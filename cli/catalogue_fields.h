@@ -1,4 +1,4 @@
-// What there is, from the manifests, as JSON. Included from .cpp files only.
+// Lists of what the manifests have, as JSON. Included from .cpp files only.
 #pragma once
 
 #include "model/generator.h"

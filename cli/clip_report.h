@@ -53,7 +53,7 @@ bool is_worse(const ClipReport& a, const ClipReport& b);
 void print_clip(const ClipReport& clip);       // a line, and one for each finding
 void print_clip_line(const ClipReport& clip);  // one line, with the file
 
-// What was judged in all of them, and what could not be.
+// Checks that judged in all of them, and checks that could not.
 void print_judged(const std::vector<ClipReport>& clips);
 
 // "OK …" or "FAILED …", and the line for scripts with `more` at its end. `missing` says what could not be judged: where

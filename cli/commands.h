@@ -40,7 +40,7 @@ struct Context {
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();
 
-  // What is under test, over that library; nothing where load_library gives nothing.
+  // The generator under test, over that library; nothing where load_library gives nothing.
   Generator* load_generator();
 
   // What checks are to do; the defaults without --settings.

@@ -1,4 +1,4 @@
-// What a verdict rests on: the checks that judged, and those that could not, with their reasons.
+// A verdict rests on the checks that judged; those that could not are listed with their reasons.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace contort::cli {
 
-// Of one check over several motions.
+// One check over several motions.
 struct JudgedTally {
   int motions = 0;                          // in which it judged
   int subjects = 0;                         // the most in one of them

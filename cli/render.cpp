@@ -82,7 +82,7 @@ struct PictureRequest {
   bool allow_unreadable = false;
 };
 
-// What contort-render is asked for, without its files.
+// The arguments for contort-render, without its files.
 std::vector<std::string> arguments_of(const PictureRequest& options) {
   std::vector<std::string> call = {"-o", options.output, "--tiles", std::to_string(options.tiles)};
   for (const auto& [name, value] : {std::pair("--compare", &options.compared), {"--tolerance", &options.tolerance_mm},

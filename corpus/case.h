@@ -69,7 +69,7 @@ Result<Case> parse_case(std::string_view json);
 std::string print_case(const Case& stored);  // indented, sorted keys
 std::string case_schema();
 
-// What an evaluation of this execution shows of one finding. No phase where the generator does not say its intent.
+// One finding as an evaluation of this execution shows it. No phase where the generator does not say its intent.
 Expectation expectation_of(const Execution& execution, const Evaluation& evaluation, const Finding& finding);
 
 }  // namespace contort

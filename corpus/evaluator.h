@@ -21,7 +21,7 @@ class Evaluator {
   // Generates and judges. With `only_check`, that check alone. The issue is the generator's, where it refuses the spec.
   Result<Evaluation> run(const Spec& spec, std::string_view only_check = {});
 
-  // What all checks find in the motion of the last run; what waivers hide is among it.
+  // The findings of all checks in the motion of the last run; waived findings are among them.
   std::vector<Finding> judge_by_all_checks() {
     return judge_.judge(*execution_.character, execution_.motion, {}, execution_.environment, execution_.said());
   }

@@ -34,7 +34,7 @@ inline constexpr char kWaits[] = "time", kUnsteady[] = "flaky";
 bool waits(const Lead& lead);
 bool is_unsteady(const Lead& lead);
 
-// What its minimal spec shows: of the same case, these need no bucket of their own. None before it was shrunk.
+// Families that its minimal spec shows: of the same case, these need no bucket of their own. None before it was shrunk.
 std::set<Family> families_told_by(const Lead& lead);
 
 // Writes what it has; the path of the original.
@@ -43,7 +43,7 @@ Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 // `path` is the original's.
 Result<Lead> read_lead(const std::string& path);
 
-// Where the original of a lead is.
+// The path of a lead's original.
 std::string lead_path(const Corpus& corpus, const Lead& lead);
 
 // By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.

@@ -58,7 +58,7 @@ FailureQueue::CaseId FailureQueue::case_of(const FailureJob& job) const {
   return {state_.record.name, std::get<WantedFailure>(job).task.lineage.back()};
 }
 
-// Of one case one failure at a time: what a minimal spec shows too is not settled any more.
+// Settles one failure of a case at a time: what a minimal spec shows too is not settled any more.
 std::optional<FailureJob> FailureQueue::next(bool with_waiting) {
   const auto is_free = [&](const WantedFailure& job) {
     return std::ranges::find(in_hand_, case_of(job)) == in_hand_.end();

@@ -52,11 +52,11 @@ class FailureQueue {
   // Time is up: what is left is only kept, and another run on this corpus shrinks it.
   void only_keep();
 
-  // What a worker shall do next. `with_waiting`: there is time for what runs before left.
+  // The next task for a worker. `with_waiting`: there is time for what earlier runs left.
   std::optional<FailureJob> next(bool with_waiting);
   bool is_done(bool with_waiting) const { return wanted_.empty() && (!with_waiting || waiting_.empty()); }
 
-  // What became of a job that next() gave.
+  // Records the outcome of a job that next() gave.
   void take(const FailureJob& job, const WorkerEvent& event);
 
   // It ended its process and, tried again, did not.

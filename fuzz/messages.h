@@ -1,4 +1,4 @@
-// What a run asks of its workers, and what they answer: one type for each, as JSON, so that it can be read in a
+// The tasks that a run gives its workers, and their answers: one type for each, as JSON, so that it can be read in a
 // debugger and is checked on arrival.
 #pragma once
 
@@ -76,7 +76,7 @@ using Task = std::variant<EvaluateTask, SettleTask, ShrinkTask>;
 std::string print_task(const Task& task);
 Task parse_task(const std::string& text);
 
-// Of the report that belongs to the task: EvaluateReport, SettleReport or ShrinkReport.
+// Prints the report that belongs to the task: EvaluateReport, SettleReport or ShrinkReport.
 template <class Report>
 std::string print_report(const Report& report);
 template <class Report>

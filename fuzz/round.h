@@ -27,7 +27,8 @@ class Round {
 
   void take_report(int place, EvaluateReport report);
 
-  // What ended its process is tried again, as it may have been ended from outside: by people, or for want of memory.
+  // A task that ended its process is tried again, as it may have been ended from outside: by people, or for want of
+  // memory.
   // `is_known`: this failure was met before, and needs no second witness.
   void take_ending(int place, const Case& ended, bool is_known);
 

@@ -170,7 +170,7 @@ class Run {
     pace_.kept(now_s, steady_s());
   }
 
-  // What is kept is from before a round that was cut.
+  // The state that is kept is from before a round that was cut.
   void keep_state_now() {
     if (!ok() || is_cut_) return;
     if (const Result<Done> kept = keep_state(corpus_, state_); !kept) fail(kept.issue());

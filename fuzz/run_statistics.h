@@ -1,4 +1,4 @@
-// What a run counts of its cases and learns from them, and which of their failures it wants to be settled.
+// Counts the cases of a run, learns from them, and decides which of their failures are to be settled.
 #pragma once
 
 #include <string>

@@ -4,8 +4,8 @@ namespace contort {
 
 namespace {
 
-// Of the actions that move a part now, the one that began last, if that was after what had the layer before. One that
-// begins in this very frame has to wait for the next one where another has moved already.
+// Among the actions that move a part now, the one that began last, if that was after what had the layer before. One
+// that begins in this very frame has to wait for the next one where another has moved already.
 LayerHold next_hold(const Playback& playback, const LayerHold& held, Layer layer, std::size_t part) {
   LayerHold best;
   double best_began = 0.0;

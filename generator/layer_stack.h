@@ -36,7 +36,7 @@ bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t pa
 
 class LayerStack {
  public:
-  // What postures must do in this frame, in this order.
+  // The steps of a frame, in this order.
   struct Change {
     bool settles = false;           // what ik showed becomes the base, and an overwrite beneath goes on from there
     bool overwrite_begins = false;  // from the base

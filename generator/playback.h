@@ -1,4 +1,4 @@
-// What the queue plays in one frame of the motion: runs of sequences, and the actions in them.
+// The queue's play in one frame of the motion: runs of sequences, and the actions in them.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where legs have carried the character, and where they have put its feet.
+// The place to which legs have carried the character, and where they have put its feet.
 #pragma once
 
 #include <array>

@@ -27,7 +27,7 @@ class RuleRunner {
   // The world transforms of a part's own joints in a posture; its carrier must be placed.
   void place(std::size_t part, const Posture& posture);
 
-  // What a rule makes of the part's posture `beneath` it; `from` is the posture that the action found, and `stands_at`
+  // The posture of the part after its rule was applied to the one `beneath` it; `from` is the posture that the action found, and `stands_at`
   // where legs have carried the character. Only the part's own entries of the answer mean anything, until the next run.
   const Posture& run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
                      const Posture& beneath, const Rigid& stands_at);

@@ -51,7 +51,7 @@ void find_velocities(const Multibody& body, const DynamicsScratch& d, std::span<
   }
 }
 
-// Of a symmetric matrix of six rows, as factorise_symmetric.
+// Factorises a symmetric matrix of six rows, as factorise_symmetric does.
 using RootFactors = std::array<double, 36>;
 
 // The inertia that everything together has about the root's origin: (moment, force) from (angular, linear).

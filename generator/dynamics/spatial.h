@@ -74,7 +74,7 @@ inline double dot(const SpatialMotion& m, const SpatialForce& f) {
   return glm::dot(m.angular.narrow(), f.moment.narrow()) + glm::dot(m.linear.narrow(), f.force.narrow());
 }
 
-// Of a point of the moved body, at a place from the origin, m/s.
+// The velocity of a point of the moved body, at a place from the origin, m/s.
 inline Vec3 point_velocity(const SpatialMotion& motion, const Vec3& from_origin_m) {
   return motion.linear + glm::cross(motion.angular, from_origin_m);
 }

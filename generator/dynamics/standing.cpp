@@ -83,7 +83,7 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
   give_way(equation, contacts, actuation);
 }
 
-// Where even holding still is too much for a joint, joints give what they have and the rest follows.
+// If even holding still is too much for a joint, joints give what they have and the rest follows.
 void Standing::give_way(EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation) {
   clamp_to_strength(*equation.figure, actuation.efforts);
   equation.find_factors();

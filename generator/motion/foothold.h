@@ -32,7 +32,7 @@ inline Vec3 home_of(const Leg& leg, const Rigid& world_from_start) {
   return world_from_start * Vec3(leg.home_m.x, 0.0, leg.home_m.z);
 }
 
-// Where a foot stands at first under a character that starts here: where its sole is seen, put down on the ground; at
+// The first foothold under a character that starts here: where its sole is seen, put down on the ground; at
 // home, if that is too far away or the sole is not seen (null).
 Rigid first_sole(const Environment& environment, const Leg& leg, const Rigid& world_from_start, const Rigid* seen);
 

@@ -8,14 +8,14 @@
 
 namespace contort {
 
-// Where a foot is in its cycle: steps are numbered by their stances, from the beginning.
+// The place of a foot in its cycle: steps are numbered by their stances, from the beginning.
 struct FootCycle {
   int step = 0;
   double stance = 0.0;  // how much of it is over, [0, 1]
   double swing = 0.0;   // 0: stands; else how much of the swing is over, (0, 1)
 };
 
-// Of one course with these parameters and legs, which must outlive it. Times are in seconds since its begin.
+// The timing of one course with these parameters and legs, which must outlive it. Times are in seconds since its begin.
 class GaitTiming {
  public:
   GaitTiming(const GaitParams& params, std::span<const Leg> legs, double duration_s);

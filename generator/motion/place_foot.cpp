@@ -68,7 +68,7 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
     const Joint& flex = character.joint(leg.ankles[0]);
     swivel_rad = turn_across(unit_or(ankle - hip, -up), world_from_ankle(flex, world) * flex.axis, toes);
   }
-  // What the leveled foot turns about the vertical when the leg turns about itself is 1 / this: -1 where it stands
+  // The leveled foot turns about the vertical by 1 / this when the leg turns about itself: -1 where it stands
   // upright below its hip, and without bounds where it lies level.
   const double steepness = glm::dot(unit_or(ankle - hip, -up), up);
   for (int pass = 0; pass < kPasses; ++pass) {
