@@ -21,7 +21,7 @@ struct Family {
 // "joint_range|human|arm_left/elbow max" for files and people; "" of the empty one.
 std::string print_family(const Family& family);
 
-// Nothing where one of the three is missing. Only the subject may hold the separator itself.
+// Returns nothing if a part is missing. Only the subject may hold the separator itself.
 std::optional<Family> parse_family(std::string_view text);
 
 }  // namespace contort

@@ -53,7 +53,8 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   const Execution& made = evaluator.execution();
   std::vector<Circumstances> at_worst;
   for (const Finding& finding : evaluation.findings)
-    at_worst.push_back(circumstances_of(*made.intent, *made.character, made.motion, finding.worst_frame));
+    at_worst.push_back(made.intent ? circumstances_of(*made.intent, *made.character, made.motion, finding.worst_frame)
+                                   : Circumstances{});
   if (as_json) {
     const Json out = spec_json(file, made, *settings, evaluation, at_worst);
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

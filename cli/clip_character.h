@@ -14,7 +14,7 @@ namespace contort::cli {
 struct ClipCharacter {
   std::shared_ptr<const Character> character;  // null: clips are judged without one
   JointMap map;
-  std::string map_file;  // "" where there is none
+  std::string map_file;  // "" if the character has no map
 };
 
 // `name` "" for none; `map` "" for the map that `import` left beside the character, if there is one. Codes of

@@ -13,8 +13,8 @@
 
 namespace contort {
 
-// Ways of making a case. All but the even ones have other draws laid over them, or come of one that had. Files call
-// `overlaid` "crowded".
+// Ways of making a case. All but the even ones have other draws laid over them, or come of one that had. In files
+// the strategy `overlaid` has the name "crowded".
 enum class Strategy { uniform, overlaid, corners, swarm, corners_and_swarm, guided };
 std::string_view strategy_name(Strategy strategy);
 inline constexpr int kStrategies = 6;

@@ -41,11 +41,12 @@ void brace(std::span<const double> velocity, std::span<const double> stiff, std:
   for (std::size_t k = 0; k < change.size(); ++k) change[k] = stiff[k] + share * (change[k] - stiff[k]);
 }
 
-void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& blow, std::span<double> impulse) {
-  const Placement& link = dynamics.world[static_cast<std::size_t>(blow.link)];
-  const Vec3 arm = link.origin_m + link.rotation * blow.point_m - dynamics.world[0].origin_m;
-  const SpatialForce force{glm::cross(arm, blow.impulse_N_s), blow.impulse_N_s};
-  const Link& last = body.links()[static_cast<std::size_t>(blow.link)];
+void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& impact,
+                 std::span<double> impulse) {
+  const Placement& link = dynamics.world[static_cast<std::size_t>(impact.link)];
+  const Vec3 arm = link.origin_m + link.rotation * impact.point_m - dynamics.world[0].origin_m;
+  const SpatialForce force{glm::cross(arm, impact.impulse_N_s), impact.impulse_N_s};
+  const Link& last = body.links()[static_cast<std::size_t>(impact.link)];
   for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[static_cast<std::size_t>(k)])
     impulse[static_cast<std::size_t>(k)] += dot(dynamics.freedoms[static_cast<std::size_t>(k)], force);
 }

@@ -1,4 +1,4 @@
-// What rigid bodies do by themselves: accelerations under given forces, and velocities after a blow, with soles that
+// Rigid bodies left to themselves: accelerations under given forces, and velocities after an impact, with soles that
 // hold on to the ground. Both are M x + J^T lambda = right, J x = wanted.
 #pragma once
 
@@ -21,7 +21,7 @@ struct ResponseScratch {
 void respond(const Multibody& body, std::span<const double> factors, const SupportRows& support,
              std::span<const double> wanted, ResponseScratch& scratch, std::span<double> x);
 
-// A blow in no time.
+// An impulse on a point of a link, which takes no time.
 struct Impact {
   int frame = 0;
   int link = 0;
@@ -29,11 +29,12 @@ struct Impact {
   Vec3 impulse_N_s{0.0};  // in the world
 };
 
-// Adds what a blow is as a generalised impulse, at the placed pose.
-void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& blow, std::span<double> impulse);
+// Adds an impact as a generalised impulse, at the placed pose.
+void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const Impact& impact,
+                 std::span<double> impulse);
 
 // Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than it can be
-// (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the blow, and so does what
+// (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the impact, and so does what
 // lies between them.
 void brace(std::span<const double> velocity, std::span<const double> stiff, std::span<const double> fastest,
            std::span<double> change);

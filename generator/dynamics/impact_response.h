@@ -1,4 +1,4 @@
-// A blow on a figure: the change of all velocities in no time.
+// An impact on a figure: the change of all velocities in no time.
 #pragma once
 
 #include "generator/dynamics/foot_contacts.h"
@@ -10,16 +10,16 @@ namespace contort {
 class ImpactResponse {
  public:
   // The change with joints that do not resist and soles that stay.
-  void find(EquationOfMotion& equation, FootContacts& contacts, const Impact& blow);
+  void find(EquationOfMotion& equation, FootContacts& contacts, const Impact& impact);
 
   // Whether a sole would have to be pulled down by more than its share of the weight presses on it meanwhile.
   bool pulls_a_foot(const EquationOfMotion& equation, const FootContacts& contacts) const;
 
   // Adds the change to the velocities, taken back as far as a joint would be faster than it can be (brace).
-  void apply(EquationOfMotion& equation, const FootContacts& contacts, const Impact& blow);
+  void apply(EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact);
 
  private:
-  void find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Impact& blow);
+  void find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact);
 
   std::vector<double> change_;
   std::vector<double> stiff_;  // with joints that do not move: none at all on soles
