@@ -178,15 +178,15 @@ std::string states_of(const FamilyCard& card) {
 }
 
 std::string parts_of(const ReportRow& row) {
-  constexpr std::string_view kBetween = " ~ ";
+  constexpr std::string_view kPairSeparator = " ~ ";
   std::string_view rest = row.subject;
   if (const std::string prefix = row.character + ": "; rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
   std::set<std::string> parts;
   while (!rest.empty()) {
-    const std::size_t cut = std::min(rest.find(kBetween), rest.size());
+    const std::size_t cut = std::min(rest.find(kPairSeparator), rest.size());
     const std::string_view name = rest.substr(0, cut);
     parts.emplace(name.substr(0, name.find_first_of("/ ")));
-    rest.remove_prefix(std::min(cut + kBetween.size(), rest.size()));
+    rest.remove_prefix(std::min(cut + kPairSeparator.size(), rest.size()));
   }
   return joined(parts);
 }

@@ -8,13 +8,6 @@
 #include "renders/raster/find_symbol.h"
 #include "renders/raster/gl_backend.h"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define CONTORT_ASAN
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CONTORT_ASAN
-#endif
-#endif
 #ifdef CONTORT_ASAN
 // Mesa 22.3 leaks 160 bytes with every context, whatever the order of calls; LeakSanitizer would fail the process.
 extern "C" const char* __lsan_default_suppressions();

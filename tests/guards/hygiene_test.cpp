@@ -117,6 +117,16 @@ TEST(Hygiene, HeadersDefineEachTypeOnce) {
   EXPECT_GT(home.size(), 100U);
 }
 
+TEST(Hygiene, HeadersMayBeIncludedTwice) {
+  int headers = 0;
+  for (const SourceFile& file : project_files()) {
+    if (!file.path.ends_with(".h")) continue;
+    ++headers;
+    EXPECT_TRUE(("\n" + file.text).find("\n#pragma once\n") != std::string::npos) << file.path;
+  }
+  EXPECT_GT(headers, 300);
+}
+
 TEST(Hygiene, ShellScriptsParse) {
   const std::string root = CONTORT_SOURCE_DIR;
   const bool has_shellcheck = !output_of("command -v shellcheck").empty();

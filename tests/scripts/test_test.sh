@@ -59,7 +59,7 @@ echo "10/30 Test #10: Scripts.Slurm ......................***Skipped   0.01 sec"
   for preset in release golden-clang golden-O0; do
     fake "$scratch/project/build/$preset/tests/contort_golden" 'echo "stairs 0123"; echo "recoil 4567"'
   done
-  local fuzzers=$scratch/project/build/libfuzzer/tests/libfuzzer name
+  local fuzzers=$scratch/project/build/dev/tests/libfuzzer name
   # shellcheck disable=SC2016  # the variables are the stand-ins'
   fake "$fuzzers/contort_seeds" 'mkdir -p "$1"'
   for name in spec case description gltf bvh asf_amc aim_table; do
@@ -91,7 +91,8 @@ last_line_is '4 passed, 0 failed, 2 skipped'
 expect 0 'Done 12 runs' --all
 last_line_is '18 passed, 0 failed, 3 skipped'
 [[ "$output" != *--label-exclude* ]]
-grep -q -- '-max_total_time=30 .*-rss_limit_mb=2048' "$scratch/project/build/libfuzzer/bvh.log"
+[[ "$output" == *'--exclude-regex ^Page\.Small$'* ]]
+grep -q -- '-max_total_time=30 .*-rss_limit_mb=2048' "$scratch/project/build/dev/libfuzzer/bvh.log"
 
 expect 0 'Fold' 'Fold.*'
 last_line_is '1 passed, 0 failed, 1 skipped'
@@ -141,7 +142,7 @@ expect 1 'the program itself failed'
 all_is_well
 rm "$scratch/project/build/golden-O0/tests/contort_golden"
 expect 1 'failed: golden-O0' --all
-fake "$scratch/project/build/libfuzzer/tests/libfuzzer/fuzz_case" 'echo "ERROR: AddressSanitizer: stack-overflow" >&2; exit 77'
+fake "$scratch/project/build/dev/tests/libfuzzer/fuzz_case" 'echo "ERROR: AddressSanitizer: stack-overflow" >&2; exit 77'
 expect 1 'failed: libfuzzer: case (exit code 77' --all
 
 all_is_well

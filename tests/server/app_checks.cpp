@@ -119,7 +119,7 @@ TEST(Sessions, TheNextTakeBeginsWhereTheFigureStands) {
   limits.take_s = 2.0;
   Server server(limits);
   Json spec = standing();
-  spec["sequences"] = {sequence("walk", "waist", 50, {{"speed_m_s", 1.0}})};
+  spec["sequences"] = Json::array({sequence("walk", "waist", 50, {{"speed_m_s", 1.0}})});
   const std::string session = open(server, spec);
   server.post(session + "/clock", {{"play", true}});
   const Answer stream = server.call("GET", session + "/stream");
@@ -222,7 +222,7 @@ TEST(Cpu, OfWhatEndedBadlyCountsToo) {
   limits.cpu_s_per_minute = 0.06, limits.cpu_minutes_at_once = 1;
   Server server(limits, false, false, workers);
   Json long_one = standing("mech", "dynamic", 240);
-  long_one["sequences"] = {sequence("crouch", "waist", 14000)};
+  long_one["sequences"] = Json::array({sequence("crouch", "waist", 14000)});
   const Answer too_long = server.post("/api/evaluate", {{"spec", long_one}});
   EXPECT_EQ(code_of(too_long), "work.timeout") << too_long.body;
   EXPECT_EQ(code_of(server.post("/api/evaluate", {{"spec", standing("human")}})), "limit.cpu");
@@ -261,7 +261,7 @@ TEST(Calls, ARegisteredLibraryCanBeUsed) {
 // A pose beyond the limits of a joint.
 Json broken() {
   Json spec = standing("human");
-  spec["sequences"] = {sequence("pose", "arm_left", 20, {{"elbow_deg", -40}})};
+  spec["sequences"] = Json::array({sequence("pose", "arm_left", 20, {{"elbow_deg", -40}})});
   return spec;
 }
 
