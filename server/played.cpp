@@ -25,6 +25,12 @@ int PlayClock::frame(double rate_hz, Time at) const {
   return frame_ + static_cast<int>(std::clamp(frames, 0.0, 1e6));
 }
 
+std::string Played::frames_from(int from, int count) const {
+  if (from < 0 || from >= frame_count || count <= 0) return "";
+  const auto each = static_cast<std::size_t>(frame_bytes());
+  return frames.substr(static_cast<std::size_t>(from) * each, static_cast<std::size_t>(count) * each);
+}
+
 int Played::first_difference(const Played& other) const {
   const std::size_t each = static_cast<std::size_t>(std::max(1, frame_bytes()));
   const std::size_t common = std::min(frames.size(), other.frames.size());

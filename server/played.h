@@ -1,7 +1,8 @@
-// A motion as a session has it, and the clock by which it is shown.
+// A motion as a session has it, the take that it belongs to, and the clock by which it is shown.
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ inline double seconds_since(Time since) { return std::chrono::duration<double>(n
 // Frames that go by while it plays.
 class PlayClock {
  public:
-  void set(int frame, bool playing, Time now) { frame_ = frame, playing_ = playing, since_ = now; }
+  void set(int frame, bool playing, Time now) { frame_ = frame, playing_ = playing, since_ = now, ++version_; }
   bool playing() const { return playing_; }
+  std::int64_t version() const { return version_; }  // another one after each call of set
   // Without an end; 0 is the first frame.
   int frame(double rate_hz, Time now) const;
 
@@ -28,6 +30,7 @@ class PlayClock {
   int frame_ = 0;
   bool playing_ = false;
   Time since_{};
+  std::int64_t version_ = 0;
 };
 
 // A motion of the take, in one mode.
@@ -41,6 +44,8 @@ struct Played {
   std::string spans;  // fields of the event, without take, revision and mode
 
   int frame_bytes() const { return joint_count * kJointBytes; }
+  // `count` frames at the most, as they are sent; "" beyond the end.
+  std::string frames_from(int from, int count) const;
   // Of two motions of one take the first frame that differs, in bits of what is sent.
   int first_difference(const Played& other) const;
   // Where the root is in the world; a whole rotation, unless the motion is not finite.
@@ -49,5 +54,12 @@ struct Played {
 
 // Of a worker's reply to TaskKind::play. Code work.damaged.
 Result<std::shared_ptr<const Played>> played_of(const Reply& reply);
+
+// One spec in the modes in which it is played. Takes of a session are numbered from 1.
+struct PlayedTake {
+  int number = 1;
+  Spec spec;
+  std::map<Mode, std::shared_ptr<const Played>> played;
+};
 
 }  // namespace contort::server

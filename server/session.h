@@ -1,9 +1,9 @@
 // A terminal's session: a spec that grows, the motions that it makes, and a clock (docs/server.md). Safe from any
-// thread.
+// thread: one mutex guards what is shown, and workers run while nobody holds it.
 #pragma once
 
 #include <condition_variable>
-#include <map>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,38 +12,12 @@
 
 #include "model/spec/dynamics_desc.h"
 #include "server/engine.h"
-#include "server/played.h"
+#include "server/playback.h"
+#include "server/stream.h"
 #include "server/take.h"
+#include "server/take_maker.h"
 
 namespace contort::server {
-
-struct PlayedTake {
-  int number = 1;
-  Spec spec;
-  std::map<Mode, std::shared_ptr<const Played>> played;
-};
-
-// What a stream has sent so far.
-struct StreamState {
-  struct Frames {
-    int first = 0;
-    int next = 0;
-  };
-  int take = 0;
-  std::int64_t revision = -1;
-  std::int64_t clock = -1;
-  std::int64_t problem = 0;
-  std::map<Mode, Frames> sent;
-  std::map<Mode, std::int64_t> judged;  // revision
-  Time clock_sent{};
-};
-
-// "event: <name>\ndata: <data>\n\n"
-struct Event {
-  std::string name;
-  std::string data;
-};
-std::string print_event(const Event& event);
 
 struct SessionDesc {
   std::string id;
@@ -88,59 +62,32 @@ class Session : public std::enable_shared_from_this<Session> {
   void touch();
   double idle_s(Time now) const;
   std::size_t bytes() const;
-  double cpu_s() const;
+  double cpu_s() const { return maker_.cpu_s(); }
   void close();  // streams end
   bool closed() const;
 
  private:
-  Session(const SessionDesc& desc, Engine& engine) : desc_(desc), engine_(engine) {}
+  Session(const SessionDesc& desc, Engine& engine)
+      : desc_(desc), engine_(engine), maker_(engine, desc.client, desc.library) {}
 
-  Result<PlayedTake> made(int number, const Spec& spec, const std::vector<Mode>& modes);
-  Result<std::string> made_model(const Spec& spec);
-  void install(PlayedTake take, std::vector<Mode> modes);
-  void begin_take(PlayedTake take, std::vector<Mode> modes);
-  void amend_take(PlayedTake take);  // another spec of the same take
+  // The spec of what is shown has changed: streams are woken and it is judged soon. With mutex_ held.
+  void tell();
   void judge_soon();
   void judge();
-  int frame_now() const;
-  int last_frame() const;
-  Spec standing_spec(const Spec& base, int frame) const;
+  void move_clock(const std::function<void(Playback&)>& move);
+  bool has_ended() const;
+  bool ends_soon() const;
   void prepare_next();
   void roll();
-  bool ends_soon() const;
-  bool has_ended() const;
-  void add_events(StreamState& stream, std::vector<Event>& events, Time now) const;
-  void add_take(StreamState& stream, std::vector<Event>& events) const;
-  void add_frames(StreamState& stream, std::vector<Event>& events) const;
-  void add_frames(Mode mode, StreamState::Frames& sent, std::vector<Event>& events) const;
-  Event frames_event(Mode mode, int from, int count) const;
-  void add_margins(StreamState& stream, std::vector<Event>& events) const;
-  std::string mark(Mode mode) const;
 
-  SessionDesc desc_;
+  const SessionDesc desc_;
   Engine& engine_;
+  TakeMaker maker_;
   std::mutex commands_;  // one change of the take at a time; taken before mutex_
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-
-  PlayedTake take_;
-  std::vector<Mode> modes_;
-  std::int64_t revision_ = 0;  // of the take's spec; never falls
-  std::vector<std::pair<std::int64_t, std::map<Mode, int>>>
-      changes_;  // of this take: revision, first frames that differ
-  std::optional<PlayedTake> before_;
-  std::optional<PlayedTake> next_;
-  std::int64_t next_for_ = -1;  // the revision that it follows
-  std::string model_;
-  Quat rest_ = kNoRotation;
-  int model_number_ = 0;
-  PlayClock clock_;
-  std::int64_t clock_version_ = 0;
-  std::map<Mode, std::pair<std::int64_t, std::string>> judged_;  // revision, fields of the event
-  std::string problem_;
-  std::int64_t problem_number_ = 0;
+  Playback shown_;
   Time used_{};
-  double cpu_s_ = 0.0;
   bool closed_ = false;
 };
 

@@ -12,8 +12,12 @@
 #include "renders/camera.h"
 #include "renders/draw_list.h"
 #include "renders/image.h"
+#include "renders/raster/backdrop.h"
+#include "renders/raster/brush.h"
+#include "renders/raster/eye.h"
 #include "renders/raster/gl.h"
 #include "renders/raster/gl_backend.h"
+#include "renders/raster/mesh_buffer.h"
 #include "renders/raster/shadow_map.h"
 #include "renders/raster/target.h"
 
@@ -42,54 +46,35 @@ class Renderer {
   Result<std::vector<int>> count_visible(const DrawList& list, const Camera& camera, int width, int height);
 
  private:
-  struct Range {
-    int first = 0;
-    int count = 0;
-  };
-  // A program that draws triangles, and where its uniforms are.
-  struct Solid {
-    unsigned program = 0;
-    int place = -1, color = -1, rim = -1;
-  };
-  struct Paint;
-  struct Eye;
-
   explicit Renderer(std::unique_ptr<GlBackend> backend)
-      : backend_(std::move(backend)), target_(gl_), shadow_map_(gl_) {}
+      : backend_(std::move(backend)),
+        target_(gl_),
+        shadow_map_(gl_),
+        meshes_(gl_),
+        brush_(gl_, meshes_),
+        backdrop_(gl_, meshes_, shadow_map_) {}
   Result<Done> set_up();
   Result<Done> draw_test_pixel();
   Result<Done> gl_errors() const;
 
-  void draw_background();
   Result<Done> draw_shadow_map(const DrawList& list, const Eye& eye);
-  void draw_level_ground(const DrawList& list, const Eye& eye, bool show);
-  void draw_shaped_ground(const DrawList& list, const Eye& eye, bool show);
   void draw_ground(const DrawList& list, const Eye& eye);
-  void begin_ground(unsigned program, const DrawList& list, const Eye& eye, bool show);
   void draw_shadows(const DrawList& list, const Eye& eye);
   void draw_obstacles(const DrawList& list, const Eye& eye);
+  void draw_groups(const DrawList& list, const Eye& eye);
   void draw_hiding(const DrawList& list, const Eye& eye);
   void draw_translucent(const DrawList& list, const Eye& eye);
   void draw_ghost_figure(const DrawList& list, const Eye& eye);
   void draw_on_top(const DrawList& list, const Eye& eye);
-  void begin_solid(const Eye& eye);                   // Instances are shaded from now on,
-  void begin_flat(const glm::mat4& clip_from_world);  // or have their colour as it is.
-  void begin(const Solid& solid, const glm::mat4& clip_from_world);
-  void draw_instance(const DrawInstance& instance, const Eye& eye, const Paint& paint);
-  void draw_range(const DrawInstance& instance);
-  void set_matrix(unsigned program, const char* name, const glm::mat4& matrix);
-  void set3(unsigned program, const char* name, const Vec3& v);
-  void set_color(int location, const Vec3& color, float alpha);
+  void draw_blended(const DrawList& list, const Eye& eye);
 
   std::unique_ptr<GlBackend> backend_;
   Gl gl_;
-  Solid solid_, flat_;
-  const Solid* begun_ = nullptr;                              // one of the two
-  unsigned background_ = 0, ground_ = 0, shaped_ground_ = 0;  // programs
-  unsigned vertex_array_ = 0, no_vertices_ = 0, buffer_ = 0;
-  std::vector<Range> ranges_;
   Target target_;
   ShadowMap shadow_map_;
+  MeshBuffer meshes_;
+  Brush brush_;
+  Backdrop backdrop_;
 };
 
 }  // namespace contort

@@ -1,0 +1,93 @@
+#include "import/metres.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/core/number_text.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kMostMetres = 90.0;  // of a figure, and of a joint from the root
+
+double largest_side(const Vec3& size) { return std::max({size.x, size.y, size.z}); }
+
+// From the figure's right to its left, level; 0 where no names tell.
+Vec3 to_left(const RiggedFigure& figure) {
+  Vec3 sum(0.0);
+  int left = 0, right = 0;
+  for (const Bone& bone : figure.bones) {
+    left += bone.side == Side::left, right += bone.side == Side::right;
+    if (bone.side != Side::center) sum += (bone.side == Side::left ? 1.0 : -1.0) * bone.position_m;
+  }
+  return left == right && left > 0 ? Vec3(sum.x, 0.0, sum.z) : Vec3(0.0);
+}
+
+// A multiple of a quarter turn: models stand along the axes.
+Quat facing(RiggedFigure& figure, double size) {
+  const Vec3 left = to_left(figure);
+  if (length(left) < 1e-3 * size) {
+    figure.notes.push_back("No names tell left from right: taken to face +Z, as glTF has it.");
+    return kNoRotation;
+  }
+  if (std::fabs(left.x) >= std::fabs(left.z)) {
+    if (left.x > 0.0) return kNoRotation;
+    figure.notes.push_back("The model faces -Z: turned by half a turn.");
+    return {0.0, 0.0, 1.0, 0.0};
+  }
+  figure.notes.push_back("The model stands sideways: turned by a quarter.");
+  const double half = std::sqrt(0.5);
+  return {half, 0.0, left.z > 0.0 ? half : -half, 0.0};
+}
+
+// 1 for sizes that figures may have in metres; else the power of ten that brings them there.
+double guessed_scale(RiggedFigure& figure, double largest) {
+  double scale = 1.0;
+  if (largest >= 0.2 && largest <= 30.0) return scale;
+  while (largest * scale > 5.0) scale /= 10.0;
+  while (largest * scale < 0.5) scale *= 10.0;
+  figure.notes.push_back("The model's largest side is " + number_text(largest) +
+                         " units, which are hardly metres: scaled by " + number_text(scale) +
+                         ". --scale or --height-m says it better.");
+  return scale;
+}
+
+double scale_of(RiggedFigure& figure, const Vec3& size, const ImportOptions& options) {
+  const double largest = largest_side(size);
+  if (options.metres_per_unit > 0.0) return options.metres_per_unit;
+  if (options.height_m > 0.0) return options.height_m / std::max(size.y, 1e-6 * largest);
+  return guessed_scale(figure, largest);
+}
+
+Result<Done> round_to_lattice(Bone& bone) {
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::fabs(bone.position_m[i]) <= kMostMetres))
+      return Issue{"import.too_large", "/nodes/" + std::to_string(bone.node), "the joint lies 90 m from the root"};
+    bone.position_m[i] = on_lattice(bone.position_m[i], 1e5);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Done> to_metres(RiggedFigure& figure, const ModelBox& box, const ImportOptions& options) {
+  const double largest = largest_side(box.size());
+  if (!(largest > 1e-9)) return Issue{"import.flat", "/meshes", "all vertices lie in one point"};
+  const double scale = scale_of(figure, box.size(), options);
+  if (!(scale * largest <= kMostMetres))
+    return Issue{"import.too_large", "", "the figure would be larger than 90 m; --scale and --height-m change that"};
+  const Vec3 origin = figure.bones.front().position_m;
+  figure.metres_per_unit = scale;
+  figure.world_from_model = facing(figure, largest);
+  figure.height_m = scale * box.size().y;
+  figure.ground_m = scale * (box.low.y - origin.y);
+  for (Bone& bone : figure.bones) {
+    for (Vec3& p : bone.points_m) p = figure.world_from_model * (scale * (p - bone.position_m));
+    bone.position_m = figure.world_from_model * (scale * (bone.position_m - origin));
+    if (const Result<Done> fits = round_to_lattice(bone); !fits) return fits.issue();
+  }
+  return Done{};
+}
+
+}  // namespace contort

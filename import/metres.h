@@ -1,0 +1,15 @@
+// From a model's units and heading to metres, facing +Z.
+#pragma once
+
+#include "import/figure.h"
+#include "import/owned_surface.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+// Scales the figure as the options say, or by a guess, turns it by quarters until its left is on +X, and puts places
+// relative to its root and points relative to their bones. `box` has all vertices, in the file's units. Codes
+// import.flat, import.too_large.
+Result<Done> to_metres(RiggedFigure& figure, const ModelBox& box, const ImportOptions& options);
+
+}  // namespace contort

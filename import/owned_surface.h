@@ -1,0 +1,33 @@
+// The surface of one skeleton, shared out among the nodes that move it.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "import/figure.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+inline constexpr double kMaxModelCoordinate = 1e6;  // of vertices and joints, in the file's units
+
+// The box around points; empty at first.
+struct ModelBox {
+  Vec3 low{std::numeric_limits<double>::infinity()};
+  Vec3 high{-std::numeric_limits<double>::infinity()};
+  void add(const Vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+  Vec3 size() const { return high - low; }
+};
+
+// In the file's units, where the rest pose puts it.
+struct OwnedSurface {
+  std::vector<std::vector<Vec3>> points;  // by node, those that hang on it most
+  ModelBox box;                           // of all vertices
+  int vertex_count = 0;
+};
+
+// `skeletons`: by skin the skeleton that it belongs to. Codes import.too_large, import.no_vertices.
+Result<OwnedSurface> surface_of(const SkinnedAsset& asset, const std::vector<int>& skeletons, int skeleton,
+                                const std::vector<Mat4>& world);
+
+}  // namespace contort

@@ -1,0 +1,57 @@
+// Draws instances of meshes with one of two programs: shaded, or in one flat colour.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+
+#include "model/core/result.h"
+#include "renders/draw_list.h"
+#include "renders/raster/eye.h"
+#include "renders/raster/mesh_buffer.h"
+
+namespace contort {
+
+// An instance may look otherwise than its colour says.
+struct Paint {
+  float alpha = 1.0f;
+  float rim = 1.0f;
+  const glm::mat4* flatten = nullptr;  // For shadows.
+  const Vec3* color = nullptr;         // Instead of the instance's own.
+};
+
+class Brush {
+ public:
+  Brush(const Gl& gl, const MeshBuffer& meshes) : gl_(gl), meshes_(meshes) {}
+  Brush(const Brush&) = delete;
+  Brush& operator=(const Brush&) = delete;
+
+  // With the context current, once. Code: render.shader.
+  Result<Done> create();
+  void destroy();
+
+  void begin_shaded(const Eye& eye);                  // Instances are shaded from now on,
+  void begin_flat(const glm::mat4& clip_from_world);  // or have their colour as it is.
+  void draw(const DrawInstance& instance, const Eye& eye, const Paint& paint = {}) const;
+
+  // Draws those of the instances that `is_meant` picks, all with one paint.
+  template <class Pick>
+  void draw_all(std::span<const DrawInstance> instances, const Eye& eye, const Paint& paint, Pick is_meant) const {
+    for (const DrawInstance& instance : instances)
+      if (is_meant(instance)) draw(instance, eye, paint);
+  }
+
+ private:
+  // A program that draws triangles, and where its uniforms are.
+  struct Program {
+    unsigned id = 0;
+    int place = -1, color = -1, rim = -1;
+  };
+  Result<Program> make(const char* vertex, const char* fragment) const;
+  void begin(const Program& program, const glm::mat4& clip_from_world);
+
+  const Gl& gl_;
+  const MeshBuffer& meshes_;
+  Program shaded_, flat_;
+  const Program* begun_ = nullptr;  // one of the two
+};
+
+}  // namespace contort

@@ -1,0 +1,103 @@
+// The state that a session shows: its take, the clock by which that is shown, the takes before and after it, and what
+// was judged. Plain values without threads, locks or workers; times are arguments. A Session guards one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/played.h"
+
+namespace contort::server {
+
+// The character with what is around it, as TaskKind::model prints it.
+struct PlayedModel {
+  std::string json;
+  Quat rest = kNoRotation;  // the root's rotation in the rest pose
+};
+
+// Findings and curves of one mode.
+struct Judged {
+  std::int64_t revision = 0;  // of the spec that was judged
+  std::string fields;         // of the event, without take, revision and mode
+  bool operator==(const Judged&) const = default;
+};
+
+class Playback {
+ public:
+  // Begins the first take or the one after the present one, in its frame 0. `modes` is not empty, and the take was
+  // played in each of them; the first one is whose figure goes on in the next take.
+  void begin_take(PlayedTake take, std::vector<Mode> modes, Time now);
+  // Another spec of the same take in the same modes; the clock goes on.
+  void amend_take(PlayedTake take);
+  void set_model(PlayedModel model);
+
+  const PlayedTake& take() const { return take_; }
+  const std::vector<Mode>& modes() const { return modes_; }
+  const Played& main() const { return *take_.played.at(modes_.front()); }
+  const std::string& model() const { return model_.json; }
+  int model_number() const { return model_number_; }
+  std::int64_t revision() const { return revision_; }  // of the take's spec; never falls
+  // The first frame of a mode that is not as it was in that revision of this take; `unchanged` where there is none.
+  int first_change(Mode mode, std::int64_t since, int unchanged) const;
+  // The spec of this take or the one before in a mode that it was played in; nothing for others.
+  std::optional<Spec> spec_of(int take, Mode mode) const;
+  std::size_t bytes() const;  // of all frames and the model
+
+  void play(bool playing, Time now);     // from the present frame
+  void stop_at(int frame, Time now);     // in the nearest frame that the take has
+  void restart(Time now);                // in frame 0, playing or not as before
+  const PlayClock& clock() const { return clock_; }
+  int frame(Time now) const;  // the present one
+  int last_frame() const { return main().frame_count - 1; }
+  bool has_ended(Time now) const;
+
+  // The take's spec with nothing to do, for a figure that stands where this one does in `frame`; where that place is
+  // not finite, where the take started.
+  Spec standing_spec(int frame) const;
+
+  // The take after this one is made before the clock needs it. It follows one revision; an edit makes it worthless.
+  bool needs_next(Time now) const;  // The end is near, and nobody has tried to make it.
+  bool has_tried_next() const { return next_for_ == revision_; }
+  void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // nothing: it cannot be made
+  // Begins the take after this one. Where there is none the clock stops in the last frame; who plays again has it tried
+  // again.
+  void roll(Time now);
+
+  void set_judged(Mode mode, Judged judged) { judged_[mode] = std::move(judged); }
+  const std::map<Mode, Judged>& judged() const { return judged_; }  // of the present revision
+
+  void set_problem(std::string text) { problem_ = std::move(text), ++problem_number_; }
+  const std::string& problem() const { return problem_; }  // the last one
+  std::int64_t problem_number() const { return problem_number_; }
+
+ private:
+  void install(PlayedTake take, std::vector<Mode> modes);
+
+  // An edit of the take, and by mode the first frame that it changed.
+  struct Change {
+    std::int64_t revision = 0;
+    std::map<Mode, int> first_frames;
+  };
+
+  PlayedTake take_;
+  std::vector<Mode> modes_;
+  std::int64_t revision_ = 0;
+  std::vector<Change> changes_;  // of this take
+  std::optional<PlayedTake> before_;
+  std::optional<PlayedTake> next_;
+  std::int64_t next_for_ = -1;  // the revision that it follows
+  PlayedModel model_;
+  int model_number_ = 0;
+  PlayClock clock_;
+  std::map<Mode, Judged> judged_;
+  std::string problem_;
+  std::int64_t problem_number_ = 0;
+};
+
+// The state of a session of this name as JSON (docs/server.md).
+std::string print_state(const Playback& shown, const std::string& session, double cpu_s, Time now);
+
+}  // namespace contort::server

@@ -1,0 +1,34 @@
+// Has workers make what a session shows, and adds up what they took. Safe from any thread.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "server/engine.h"
+#include "server/playback.h"
+
+namespace contort::server {
+
+class TakeMaker {
+ public:
+  // `library`: folder of a registered library; "" for none.
+  TakeMaker(Engine& engine, std::string client, std::string library);
+
+  // The spec in each of the modes. Codes of Engine::run; take.too_long where a motion has more bytes than the limit.
+  Result<PlayedTake> take(int number, const Spec& spec, const std::vector<Mode>& modes);
+  Result<PlayedModel> model(const Spec& spec);
+  // Fields of the event that says what checks find.
+  Result<std::string> judged(const Spec& spec, Mode mode);
+
+  double cpu_s() const { return cpu_s_; }
+
+ private:
+  Result<Reply> run(TaskKind kind, const Spec& spec, Urgency urgency = Urgency::now);
+
+  Engine& engine_;
+  const std::string client_, library_;
+  std::atomic<double> cpu_s_ = 0.0;
+};
+
+}  // namespace contort::server
