@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/render_options.h"
 #include "corpus/corpus.h"
 #include "process/program.h"
 
@@ -65,46 +66,18 @@ Result<Done> take_cases(std::vector<std::string>& inputs, int& unreadable) {
   return Done{};
 }
 
-struct PictureRequest {
+struct RenderRequest : PictureOptions {
   std::vector<std::string> inputs;
-  std::string output;
-  std::vector<std::string> labels;
-  std::string frames;
-  std::string azimuth_deg;
-  std::string clip;
-  std::string compared;
-  std::string tolerance_mm;
-  bool json = false;
-  int tiles = 8;
-  bool colliders = false;
-  bool rows = false;
-  bool sheet = false;
-  bool allow_unreadable = false;
 };
 
-// The arguments for contort-render, without its files.
-std::vector<std::string> arguments_of(const PictureRequest& options) {
-  std::vector<std::string> call = {"-o", options.output, "--tiles", std::to_string(options.tiles)};
-  for (const auto& [name, value] : {std::pair("--compare", &options.compared), {"--tolerance", &options.tolerance_mm},
-                                    {"--frames", &options.frames}, {"--azimuth", &options.azimuth_deg},
-                                    {"--clip", &options.clip}})
-    if (!value->empty()) call.insert(call.end(), {name, *value});
-  for (const auto& [name, is_set] : {std::pair("--json", options.json), {"--colliders", options.colliders},
-                                     {"--rows", options.rows}, {"--sheet", options.sheet},
-                                     {"--allow-unreadable", options.allow_unreadable}})
-    if (is_set) call.emplace_back(name);
-  for (const std::string& label : options.labels) call.insert(call.end(), {"--label", label});
-  return call;
-}
-
-void render(PictureRequest options, Context& context) {
+// `given`: the options for contort-render.
+void render(RenderRequest options, const std::vector<std::string>& given, Context& context) {
   if (context.gl == "none") return context.fail({"usage", "", "--gl none draws nothing"});
   int unreadable = 0;
   if (options.sheet)
     if (const Result<Done> found = take_cases(options.inputs, unreadable); !found) return context.fail(found.issue());
   std::vector<std::string> call = renderer_call(context);
-  const std::vector<std::string> arguments = arguments_of(options);
-  call.insert(call.end(), arguments.begin(), arguments.end());
+  call.insert(call.end(), given.begin(), given.end());
   call.push_back("--");  // A file may be called --rows.
   call.insert(call.end(), options.inputs.begin(), options.inputs.end());
   const Result<int> code = run_in_foreground(call);
@@ -119,34 +92,15 @@ void render(PictureRequest options, Context& context) {
 }  // namespace
 
 void add_render(CLI::App& app, Context& context) {
-  auto options = std::make_shared<PictureRequest>();
+  auto options = std::make_shared<RenderRequest>();
   CLI::App* command = app.add_subcommand("render", "Draw a case or spec as a film strip (PNG)");
   command->add_option("FILE", options->inputs, "Case or spec file; several with --rows or --sheet")->required();
-  command->add_option("-o,--output", options->output, "The picture")->required();
-  command->add_option("--tiles", options->tiles, "Frames on the strip")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  command->add_option("--frames", options->frames, "Which frames, instead of a choice: 0,4,8")->type_name("LIST");
-  command->add_option("--azimuth", options->azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
-      ->type_name("DEGREES");
-  command->add_option("--clip", options->clip, "The failing half second as a moving picture, too (WebP)")
-      ->type_name("FILE");
-  command->add_option("--compare", options->compared, "Another case or spec, in a row below: says where the two part")
-      ->type_name("FILE");
-  command->add_option("--tolerance", options->tolerance_mm, "What is no farther apart is the same [1]")
-      ->type_name("MM");
-  command->add_flag("--json", options->json, "Print what --compare found as JSON");
-  command->add_flag("--colliders", options->colliders, "The shapes that checks judge, as wires around the figure");
-  command->add_flag("--rows", options->rows, "A row for each FILE, the same frames and camera in all of them");
-  command->add_flag("--sheet", options->sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
-  command->add_flag("--allow-unreadable", options->allow_unreadable,
-                    "With --sheet, files that cannot be shown are no error");
-  command->add_option("--label", options->labels, "Title of the strip, or of the rows in turn: one for each FILE")
-      ->allow_extra_args(false);
+  add_picture_options(*command, *options);
+  command->get_option("--output")->required();
   command->footer(
       "Example: contort render docs/examples/reach_hand.json -o strip.png\n"
       "         contort render before.json --compare after.json -o difference.png");
-  command->callback([options, &context] { render(*options, context); });
+  command->callback([options, command, &context] { render(*options, given_options(*command), context); });
 }
 
 }  // namespace contort::cli

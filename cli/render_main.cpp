@@ -308,27 +308,13 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app("Draws film strips of cases and specs; see contort render.", "contort-render");
   RenderOptions options;
   app.add_option("FILE", options.files, "Case or spec; with --many: FILE PNG pairs")->required();
-  app.add_option("-o,--output", options.output, "The picture");
+  add_picture_options(app, options);
   app.add_option("--library", options.libraries, "Folder with parts, objects, characters and actions; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--tiles", options.tiles, "Frames on the strip")->check(CLI::Range(1, 64));
-  app.add_option("--frames", options.frames, "Which frames: 0,4,8")->delimiter(',')->allow_extra_args(false);
-  app.add_option("--azimuth", options.azimuth_deg, "Look from here")
-      ->check(CLI::Range(-360.0, 360.0))
-      ->check(refuse_nan);
-  app.add_option("--label", options.labels, "Title of the strip, or of the rows in turn")->allow_extra_args(false);
-  app.add_option("--clip", options.clip, "A moving picture, too");
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
   app.add_flag("--views", options.views, "With --many, beside each strip a script that says from where it is seen");
   app.add_option("--settings", options.settings_file, "Limits that are not the default ones");
   app.add_option("--gl", options.gl, "Where OpenGL comes from")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
-  app.add_option("--compare", options.compared, "Another motion, below the first one");
-  app.add_option("--tolerance", options.tolerance_mm, "Millimetres")->check(CLI::Range(0.0, 1e6))->check(refuse_nan);
-  app.add_flag("--json", options.json, "Print what --compare found as JSON");
-  app.add_flag("--colliders", options.colliders, "Show the shapes that are judged");
-  app.add_flag("--rows", options.rows, "A row for each FILE");
-  app.add_flag("--sheet", options.sheet, "A tile for each FILE");
-  app.add_flag("--allow-unreadable", options.allow_unreadable, "With --sheet, files that cannot be shown are no error");
   app.add_flag("--many", options.many, "Draw many with one OpenGL context");
   app.set_version_flag("--version", std::string("contort-render ") + CONTORT_VERSION);
   try {

@@ -1,12 +1,70 @@
 #include "cli/render_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
+
+#include "cli/input.h"
 
 namespace contort::cli {
 
-std::optional<double> RenderOptions::azimuth_rad() const {
+namespace {
+
+// A range that the help does not list after the name of the unit.
+CLI::Validator range(double least, double most) { return CLI::Range(least, most).description(""); }
+
+// The parser takes nothing as the number 0.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "found \"\", expected a number" : "";
+}
+
+}  // namespace
+
+std::optional<double> PictureOptions::azimuth_rad() const {
   if (azimuth_deg.empty()) return std::nullopt;
   return std::strtod(azimuth_deg.c_str(), nullptr) * kRadPerDeg;
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+  command.add_option("-o,--output", options.output, "The picture");
+  command.add_option("--tiles", options.tiles, "Frames on the strip")->check(CLI::Range(1, 64))->capture_default_str();
+  command.add_option("--frames", options.frames, "Which frames, instead of a choice: 0,4,8")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->check(refuse_empty)
+      ->allow_extra_args(false);
+  command.add_option("--azimuth", options.azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
+      ->type_name("DEGREES")
+      ->check(range(-360.0, 360.0))
+      ->check(refuse_nan);
+  command.add_option("--clip", options.clip, "The failing half second as a moving picture, too (WebP)")
+      ->type_name("FILE");
+  command.add_option("--compare", options.compared, "Another case or spec, in a row below: says where the two part")
+      ->type_name("FILE");
+  command.add_option("--tolerance", options.tolerance_mm, "What is no farther apart is the same [1]")
+      ->type_name("MM")
+      ->check(range(0.0, 1e6))
+      ->check(refuse_nan);
+  command.add_flag("--json", options.json, "Print what --compare found as JSON");
+  command.add_flag("--colliders", options.colliders, "The shapes that checks judge, as wires around the figure");
+  command.add_flag("--rows", options.rows, "A row for each FILE, the same frames and camera in all of them");
+  command.add_flag("--sheet", options.sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
+  command.add_flag("--allow-unreadable", options.allow_unreadable,
+                   "With --sheet, files that cannot be shown are no error");
+  command.add_option("--label", options.labels, "Title of the strip, or of the rows in turn: one for each FILE")
+      ->allow_extra_args(false);
+}
+
+std::vector<std::string> given_options(const CLI::App& command) {
+  std::vector<std::string> call;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_lnames().empty() || option->count() == 0) continue;  // FILE, or none was given
+    const std::string name = "--" + option->get_lnames().front();
+    const bool is_flag = option->get_items_expected_max() == 0;
+    if (is_flag) call.push_back(name);
+    for (const std::string& value : is_flag ? CLI::results_t{} : option->results())
+      call.insert(call.end(), {name, value});
+  }
+  return call;
 }
 
 std::string misfit(const RenderOptions& options) {

@@ -1,4 +1,4 @@
-// The options of contort-render.
+// The options of `contort render` and of contort-render, the program that it starts.
 #pragma once
 
 #include <optional>
@@ -8,31 +8,47 @@
 #include "checks/settings.h"
 #include "renders/divergence.h"
 
+namespace CLI {
+class App;
+}
+
 namespace contort::cli {
 
-struct RenderOptions {
-  std::vector<std::string> files;
+// Options that both programs have. What is added here has to be declared once, in add_picture_options.
+struct PictureOptions {
   std::string output;
-  std::vector<std::string> libraries;
-  std::vector<std::string> labels;
+  int tiles = 8;
   std::vector<int> frames;
   std::string azimuth_deg;  // as it was written; "": none is given
   std::string clip;         // where the moving picture of one file goes; "": there is none
-  std::string gl = "auto";
-  std::string settings_file;
-  std::string compared;  // with the one file; "": with nothing
+  std::string compared;     // with the one file; "": with nothing
   double tolerance_mm = 1000.0 * kSamePlace_m;
   bool json = false;
-  CheckSettings settings{};
   bool colliders = false;
-  bool clips = false;  // with `many`: beside each strip
-  bool views = false;  // the same
-  bool many = false;
   bool rows = false;
   bool sheet = false;
   bool allow_unreadable = false;  // with `sheet`
-  int tiles = 8;
+  std::vector<std::string> labels;
+
   std::optional<double> azimuth_rad() const;
+  bool operator==(const PictureOptions&) const = default;
+};
+
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
+// The options, without files, that the parsed command line has, for a program that declares the same ones.
+std::vector<std::string> given_options(const CLI::App& command);
+
+// Those of contort-render.
+struct RenderOptions : PictureOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> libraries;
+  std::string gl = "auto";
+  std::string settings_file;
+  CheckSettings settings{};
+  bool clips = false;  // with `many`: beside each strip
+  bool views = false;  // the same
+  bool many = false;
 };
 
 // Why the arguments do not fit together, "" where they do.
