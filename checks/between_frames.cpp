@@ -84,7 +84,7 @@ void BetweenFrames::set(const Frame& before, const Frame& now) {
   add_paths();
 }
 
-// Where the root has no place, nothing has.
+// If the root has no place, no body has one.
 void BetweenFrames::add_paths() {
   const Rigid &from = before_.world[0], &to = now_.world[0];
   const Vec3 places = from.p_m + to.p_m;
@@ -161,15 +161,15 @@ BetweenFrames::Moment BetweenFrames::moment(const Search& search, double time, c
   return {time, moved(places.a, own_[at(a)]), moved(places.b, own_[at(b)]), 0.0, Vec3(0.0)};
 }
 
-// What is farther apart than the paths are long cannot meet: how much farther does not matter.
+// Bodies that are farther apart than their paths are long cannot meet; how much farther does not matter.
 void BetweenFrames::Search::measure(Moment& moment) const {
   moment.distance_m = signed_distance(moment.a, moment.b, path_m(), moment.way);
 }
 
-// What is less deep than this is not looked for.
+// The search looks for nothing that is less deep than this.
 double BetweenFrames::Search::enough_m() const { return std::min(least_m, 0.0) - kMissed_m; }
 
-// How far paths bend from straight ones between two moments.
+// The distance by which paths bend from straight ones between two moments.
 double BetweenFrames::Search::sag_m(const Moment& from, const Moment& to) const {
   const double share = to.time - from.time;
   return 0.125 * (a.curve_m + b.curve_m) * share * share;

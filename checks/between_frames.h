@@ -1,5 +1,5 @@
-// What two bodies do between two frames, where joints turn and travel evenly from the one to the other. docs/checks.md
-// has the formula behind it.
+// Finds how near two bodies come between two frames, where joints turn and travel evenly from the one to the other.
+// docs/checks.md has the formula behind it.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class BetweenFrames {
     std::span<const double> coords;
     std::span<const Rigid> world;  // world_from_joint
   };
-  // What the frames point to has to stay where it is.
+  // The data that the frames point to has to stay where it is.
   void set(const Frame& before, const Frame& now);
 
   // No point of one body of a judged pair moves farther as seen from the other; NaN where that is unknown.
@@ -42,12 +42,12 @@ class BetweenFrames {
     bool slides;
     double path_m(double farthest_out_m) const { return slides ? 1.0 : reach_m + farthest_out_m; }  // of a step of 1
   };
-  // What is between a judged pair's bodies: the joint that carries both, and the links below it.
+  // The chain between a judged pair's bodies: the joint that carries both, and the links below it.
   struct Chains {
     int trunk;
     std::size_t a, b;  // of paths_m_: what the links up to the trunk add up to
   };
-  // How the points of a body move against a joint that carries it, all between two frames.
+  // The points of a body move against a joint that carries it, all between two frames.
   struct Travel {
     double path_m = 0.0;   // no longer
     double curve_m = 0.0;  // second derivative, no greater
@@ -110,7 +110,7 @@ class BetweenFrames {
   std::vector<double> steps_;  // of joints, between the frames: rad or m
   double farthest_out_m_ = 0.0;
   std::vector<Vec3> directions_;  // of judged colliders, as seen from a's body: what parted b from a when last measured
-  // Of body after body: no point of it moves farther against the joint that carries its first 0, 1, 2 … links.
+  // One body after another: no point of it moves farther against the joint that carries its first 0, 1, 2 … links.
   std::vector<double> paths_m_;
 };
 

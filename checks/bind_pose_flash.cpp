@@ -15,7 +15,7 @@ constexpr double kAtRest_rad = 1.0 * kRadPerDeg;
 constexpr double kAway_rad = 10.0 * kRadPerDeg;
 constexpr int kLongest = 2;  // frames
 
-// Of two poses, by the joint that differs most; stops where that is more than `enough`.
+// The difference of two poses by the joint that differs most; stops where that is more than `enough`.
 double difference_rad(const Character& character, const double* a, const double* b, double enough) {
   double most = 0.0;
   for (const Joint& joint : character.joints().subspan(1)) {

@@ -78,7 +78,7 @@ bool Clearances::are_apart(const ColliderPair& pair, double enough_m) const {
   return reach <= 0.0 || apart(a.center_m, b.center_m, reach);  // no overlap is deeper than that of the balls
 }
 
-// How far a body reaches along n, from its joint and in its frame.
+// The extent of a body along n, from its joint and in its frame.
 double Clearances::extent_of(std::size_t body, const Vec3& n) const {
   const auto& [name, joint, first, count] = character_.bodies()[body];
   double extent_m = -kUnbounded;

@@ -32,9 +32,9 @@ class Clearances {
   // they were last measured (distance.h). NaN where they never were.
   double gap_m(std::size_t judged) const;
 
-  // Of this frame.
+  // Measures the pairs that are due in this frame.
   void measure(std::span<const DuePair> due);
-  // Of a pair that was measured: its distance where that is below what matters; otherwise one that is no greater than
+  // The distance of a pair that was measured, where that is below what matters; otherwise one that is no greater than
   // its distance and no less than what matters. NaN where a body has no place.
   double distance_m(const DuePair& due);
 

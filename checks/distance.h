@@ -31,10 +31,10 @@ Solid moved(const Rigid& to_from_own, const Solid& solid);
 // The same into `placed`, a copy of `solid` that was moved before: only what moves is written.
 void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 
-// How far it reaches from its centre along the unit vector n.
+// The extent of a solid from its centre along the unit vector n.
 double extent_along(const Solid& solid, const Vec3& n);
 
-// How far b is beyond a along the unit vector n: no more than their signed distance, whatever n.
+// The gap from a to b along the unit vector n: no more than their signed distance, whatever n.
 double gap_along(const Solid& a, const Solid& b, const Vec3& n);
 
 // The direction in which b must move to get away from a fastest, about: of their nearest points, or of the shortest way

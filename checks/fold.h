@@ -45,7 +45,7 @@ class MarginFold {
 
   // Keeps the margins themselves, too: frame_count of each subject.
   void record(int frame_count);
-  // Of a subject that was recorded, by frame; +infinity where it was not judged.
+  // The margins of a subject that was recorded, by frame; +infinity where it was not judged.
   std::span<const double> recorded(int subject) const;
 
   void report(int subject, int frame, double margin) {

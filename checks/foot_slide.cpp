@@ -64,7 +64,7 @@ std::vector<SolePoint> points_of_feet(const Character& character) {
   return all;
 }
 
-// How far the point has slid, or a negative number while it does not touch.
+// The distance that the point has slid, or a negative number while it does not touch.
 double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& ground) {
   const Vec3 core = world_from_joint * p.core_m;
   if (!p.touches) {

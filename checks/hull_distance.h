@@ -5,7 +5,7 @@
 
 namespace contort {
 
-// Of cores, radii left out; a.core is hull. With a band as in signed_distance.
+// The distance of the cores, radii left out; a.core is hull. With a band as in signed_distance.
 double hull_distance(const Solid& a, const Solid& b, double band_m);
 
 }  // namespace contort

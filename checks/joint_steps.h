@@ -1,4 +1,4 @@
-// How far a joint is between two poses. Shared by the checks that judge motion of joints.
+// The distance of a joint between two poses. Shared by the checks that judge motion of joints.
 #pragma once
 
 #include "checks/check.h"
@@ -14,7 +14,7 @@ double joint_step(const Joint& joint, const double* before, const double* now);
 // ball.
 Vec3 joint_step_vector(const Joint& joint, const double* before, const double* now);
 
-// Of joints of all kinds together: metres count ten times, as 1 cm is about as plain to see as 0.1 rad.
+// Makes joints of all kinds comparable: metres count ten times, as 1 cm is about as plain to see as 0.1 rad.
 double likeness_rad(const Joint& joint, const double* before, const double* now);
 
 // "rad/s" or "m/s", and so on: the unit of a joint's coordinate with this ending.

@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-// How much of the strength in the effort's direction is left, in shares of it. No strength at all: what is needed, N m.
+// The share of the strength in the effort's direction that is left. No strength at all: what is needed, N m.
 double margin_of(const Joint& joint, double effort) {
   const double limit = effort > 0.0 ? joint.strength_high : joint.strength_low;
   return limit != 0.0 ? 1.0 - effort / limit : -(effort > 0.0 ? effort : -effort);

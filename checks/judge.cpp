@@ -129,7 +129,7 @@ struct Candidate {
   int subject = 0;
 };
 
-// What was judged, nearest to its limit first; what is not a number is nearest of all.
+// The subjects that were judged, nearest to their limit first; a margin that is no number is nearest of all.
 std::vector<Candidate> by_nearness(const std::vector<SmallestMargins>& smallest) {
   std::vector<Candidate> all;
   for (std::size_t row = 0; row < smallest.size(); ++row)

@@ -29,7 +29,7 @@ struct Evaluation {
   bool operator==(const Evaluation&) const = default;
 };
 
-// How near a motion came to the limits of one check: the smallest margin of each subject, in the subject's unit;
+// A motion came so near to the limits of one check: the smallest margin of each subject, in the subject's unit;
 // +infinity where it was not judged.
 struct SmallestMargins {
   const CheckDef* check = nullptr;

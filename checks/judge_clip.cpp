@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kNoCharacter = "no character is given (--character)";
 constexpr std::string_view kNotFollowed = "no joint can follow its node";
 
-// How many subjects a check judged in a clip, or why it could not.
+// The number of subjects that a check judged in a clip, or the reason why it could not.
 struct Verdict {
   int subjects = 0;
   std::string_view reason;

@@ -73,7 +73,7 @@ Pair nearest_of(const Segment& a, const Segment& b) {
   return {a.center + at.s * a.axis, b.center + at.t * b.axis};
 }
 
-// Of edges side by side every point is as near: their ends say how far that goes.
+// All points of edges side by side are as near: their ends say how far that goes.
 bool cross(const Segment& a, const Segment& b) {
   const Vec3 across = glm::cross(a.axis, b.axis);
   return a.half_length > 0.0 && b.half_length > 0.0 && glm::dot(across, across) > kNearlyParallel;

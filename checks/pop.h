@@ -27,7 +27,7 @@ inline constexpr double kPopLongest_s = 0.1;
 // The speed up to which the motion around interval i explains it, rad/s; infinite where nothing can be said.
 double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t i);
 
-// Of a joint in a motion: its speed from the frame before into `frame` >= 1, and what the motion around that step
+// The speed of a joint in a motion from the frame before into `frame` >= 1, and what the motion around that step
 // explains; rad/s, or m/s for prismatic joints.
 double speed_into(const Motion& motion, const Joint& joint, int frame);
 double explained_speed(const Motion& motion, const Joint& joint, int frame);

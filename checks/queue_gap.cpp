@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGap_s = 0.001;  // frames are whole: less than one of any film
 
-// Of its own, from 0 on: the first where it never ran before.
+// The frame of the sequence's own content that comes next, from 0 on; the first where it never ran before.
 int next_content(const Motion& motion, std::size_t span) {
   int next = 0;
   for (const QueueSpan& before : std::span(motion.queue).first(span))
@@ -26,7 +26,7 @@ int queue_gap_subject_count(const Character&) { return 1; }
 
 Subject queue_gap_subject(const Character&, int) { return {"queue", "s"}; }
 
-// Of several that begin in one frame, as sequences without length do, the worst counts.
+// If several begin in one frame, as sequences without length do, the worst counts.
 void queue_gap_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<QueueSpan>& queue = in.motion.queue;
   for (std::size_t i = 0; i < queue.size() && queue[i].first_frame < in.motion.frame_count;) {

@@ -1,4 +1,4 @@
-// What the checks are to do, as a file says it: limits that are moved or switched off, and findings that somebody has
+// Settings of the checks, as a file has them: limits that are moved or switched off, and findings that somebody has
 // agreed to live with for a time. A moved limit is how the check judges; a waiver judges nothing: the check runs as
 // ever, and the waiver hides what it found, until its day has come or until it hides nothing any more. Both are
 // reported.
@@ -58,7 +58,7 @@ std::string settings_schema();
 // Infinite where the rule ignores.
 double tolerance_of(const LimitRule& rule);
 
-// What the rules without a phase add to the margins of a subject: 0 where none is meant, infinite where it is ignored.
+// The sum that rules without a phase add to a subject's margins: 0 where none is meant, infinite where it is ignored.
 double tolerance_of(const CheckSettings& settings, std::string_view check, std::string_view subject);
 
 // Whether a text is a day of the calendar, YYYY-MM-DD.

@@ -14,7 +14,7 @@ class CaseLog {
   // Without a path it keeps nothing. A run that goes on adds to what is there. Code file.unwritable.
   static Result<CaseLog> open(const std::string& path, bool goes_on);
 
-  // Who writes them; nobody, where nothing is kept. The log has to stay where it is.
+  // The listener that writes them; empty where nothing is kept. The log has to stay where it is.
   std::function<void(const FailingCase&)> listener();
 
   // Whether all of it was written.

@@ -56,7 +56,7 @@ std::string stamp_of(const CasePage& page, const std::string& surroundings) {
   return content_id(made_of).substr(0, 16);
 }
 
-// What says why it cannot be shown has no stamp: it is tried again.
+// A page that says why a case cannot be shown has no stamp: it is tried again.
 bool is_there(const std::string& folder, const CasePage& page, const std::string& stamp) {
   const Result<std::string> text = read_file(folder + "/cases/" + page.key + ".js");
   return text && stamp_of_page_call(text->substr(0, text->find('\n') + 1)) == stamp;
@@ -73,7 +73,7 @@ void warn(const std::string& what, const Issue& issue) {
   std::fprintf(stderr, "contort: %s: %s\n", what.c_str(), to_line(issue).c_str());
 }
 
-// What cannot be shown says why, here and in its file.
+// A case that cannot be shown says why, here and in its file.
 void write_problem(const std::string& folder, const std::string& key, const Issue& issue) {
   warn("the report cannot show " + key, issue);
   if (const Result<Done> written = write_case(folder, key, case_problem(key, issue.text), ""); !written)

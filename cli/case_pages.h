@@ -1,4 +1,4 @@
-// What the report's viewer needs beside the page.
+// The files that the report's viewer needs beside the page.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct CasePage {
   std::string strip{};                   // path of the film strip from the page; "" where there is none
 };
 
-// Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that was made of the same by the same program
-// stays. What cannot be made is a warning: the page says so where somebody looks for it.
+// Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that was made of the same by the same
+// program stays. What cannot be made is a warning: the page says so where somebody looks for it.
 void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, Generator& generator,
                       Context& context);
 

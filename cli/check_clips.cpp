@@ -171,7 +171,7 @@ void print_all(const ClipCheckOptions& options, const CheckSettings& settings, c
                    " unreadable=" + std::to_string(checked.unreadable.size()));
 }
 
-// What stops the command before anything is printed: nothing to judge, or a map that does not fit.
+// Mistakes that stop the command before anything is printed: nothing to judge, or a map that does not fit.
 Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked) {
   const auto matches_nothing = [](const Unreadable& file) { return file.issue.code == "check.nothing_matches"; };
   const bool was_read = !checked.clips.empty() || std::ranges::any_of(checked.unreadable, matches_nothing);

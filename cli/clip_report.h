@@ -1,4 +1,4 @@
-// What was found in clips, as text and as JSON.
+// The findings in clips, as text and as JSON.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ ClipMotion motion_of_clip(const Asset& asset, const AssetClip& clip, const Conve
 
 std::size_t count_findings(const std::vector<ClipReport>& clips);
 
-// How bad, in the scales of the checks: the least margin of all, then the greatest speed.
+// Compares in the scales of the checks: by the least margin of all, then by the greatest speed.
 bool is_worse(const ClipReport& a, const ClipReport& b);
 
 void print_clip(const ClipReport& clip);       // a line, and one for each finding

@@ -43,7 +43,7 @@ struct Context {
   // The generator under test, over that library; nothing where load_library gives nothing.
   Generator* load_generator();
 
-  // What checks are to do; the defaults without --settings.
+  // The settings of checks; the defaults without --settings.
   Result<CheckSettings> load_settings() const;
 
   // The same for cases that a user names: what is waived is still there.

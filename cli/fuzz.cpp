@@ -105,7 +105,7 @@ Result<DrawConfig> choose_what_is_drawn(const FuzzOptions& options, Generator& g
 // 0: no limit.
 Result<double> time_of(const std::string& text) { return text.empty() ? Result<double>(0.0) : parse_time_s(text); }
 
-// What the command line says, else the profile.
+// The command line decides, else the profile.
 Result<Done> choose_how_long(const FuzzOptions& options, RunConfig& config) {
   const Profile& profile = config.draw.profile;
   const Result<double> wanted_s = time_of(options.time), profile_s = time_of(profile.time);

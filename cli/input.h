@@ -42,7 +42,7 @@ Result<double> parse_time_s(const std::string& text);
 // Why a number on the command line is none, "" where it is one: CLI::Range lets NaN pass.
 std::string refuse_nan(const std::string& text);
 
-// How to see a case again, quoted for a shell, with the libraries it needs.
+// The command that shows a case again, quoted for a shell, with the libraries it needs.
 std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders);
 std::string shell_quoted(const std::string& text);
 

@@ -1,4 +1,4 @@
-// What one case may take before that is a finding of its own.
+// The most that one case may take before that is a finding of its own.
 #pragma once
 
 #include <cstdint>

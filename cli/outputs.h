@@ -1,4 +1,4 @@
-// What CI reads of a corpus, and the baseline that decides what gates there. `report` and `fuzz` share it.
+// The files of a corpus that CI reads, and the baseline that decides what gates there. `report` and `fuzz` share it.
 #pragma once
 
 #include <cstdio>

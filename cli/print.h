@@ -20,14 +20,15 @@ std::string finding_line(const Finding& finding, double rate_hz, const Circumsta
 std::string findings_json(const std::vector<Finding>& findings, double rate_hz,
                           const std::vector<Circumstances>& at_worst);
 
-// What waivers did: one line for each that has expired or hides nothing any more, and one for each that hid something.
+// The effects of waivers: one line for each that has expired or hides nothing any more, and one for each that hid
+// something.
 std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 std::string waivers_json(const CheckSettings& settings, const std::vector<WaiverUse>& uses);
 
 // Names from files may hold line ends and escape sequences: shown as "?".
 std::string printable(const std::string& text);
 
-// What people know about a bucket: "ana, ticket 12, until 2027-03-01: soft stop"; what there is of it.
+// The notes of people about a bucket: "ana, ticket 12, until 2027-03-01: soft stop"; as much as there is.
 std::string known_text(const Bucket& bucket, const std::string& today);
 
 // On standard error, where a corpus has buckets that were named by other rules than this version's.

@@ -28,7 +28,7 @@ std::vector<std::string> renderer_call(const Context& context) {
 
 namespace {
 
-// Of a folder that is a corpus, the minimal cases, deepest first; those without a motion are left out.
+// The minimal cases of a folder that is a corpus, deepest first; those without a motion are left out.
 Result<std::vector<std::string>> cases_of(const std::string& folder, int& unreadable) {
   const Result<Corpus> corpus = Corpus::open(folder);
   if (!corpus) return corpus.issue();

@@ -31,7 +31,7 @@ std::string clip_of(const RenderOptions& options, const std::string& png) {
   return options.clips ? std::filesystem::path(png).replace_extension(".webp").string() : options.clip;
 }
 
-// What all pictures of a call share.
+// Shared by all pictures of a call.
 struct Studio {
   StripRenderer renderer;
   Generator& generator;
@@ -51,7 +51,7 @@ struct Studio {
   }
 };
 
-// What a file shows, and what has to live as long as its pictures are drawn.
+// The contents of a file, with all that has to live as long as its pictures are drawn.
 struct Shown {
   SpecInput input;
   Evaluator evaluator;

@@ -42,7 +42,7 @@ struct Picture {
   std::string png;
 };
 
-// What lies beside the page.
+// The files beside the page.
 struct Media {
   std::vector<Picture> pictures;
   std::vector<CasePage> cases;
@@ -67,7 +67,7 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
   return "strips/" + row.key + "-" + content_id(shown).substr(0, 8);
 }
 
-// What rows are made with.
+// The context in which rows are made.
 struct RowContext {
   const Corpus& corpus;
   const Baseline& known;
@@ -75,7 +75,7 @@ struct RowContext {
   const Context& context;
 };
 
-// What the case says by itself. `key` names the files of the row.
+// A row with what the case says by itself. `key` names the files of the row.
 ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
   ReportRow row;
   row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
@@ -110,7 +110,7 @@ ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& wit
   return row;
 }
 
-// Of what is found and in no bucket. One that did not come again gates nothing: the run has said so.
+// A row for a failure that is in no bucket. One that did not come again gates nothing: the run has said so.
 ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowContext& with) {
   const std::string path = lead_path(with.corpus, lead);
   const std::string name = std::filesystem::path(path).stem().string();
@@ -199,7 +199,7 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
   return seen;
 }
 
-// What the characters that were tried could have been made to do, and never were: with 0.
+// Adds the actions that the characters which were tried could have done, and never did: with 0.
 void add_never_tested(Generator& generator, ReportModel& model) {
   std::map<std::string, std::int64_t> tested(model.tested.begin(), model.tested.end());
   for_variants(*generator.manifest().library, [&](const Character& character) {

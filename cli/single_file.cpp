@@ -13,7 +13,7 @@ namespace contort::cli {
 
 namespace {
 
-// What mail takes: attachments above 25 MB are refused by most, and base64 adds a third on the way.
+// The size that mail takes: attachments above 25 MB are refused by most, and base64 adds a third on the way.
 constexpr std::size_t kMostBytes = 18'000'000;
 
 }  // namespace

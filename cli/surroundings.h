@@ -1,4 +1,4 @@
-// What all cases depend on beside their own spec.
+// The surroundings that all cases depend on beside their own spec.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace contort::cli {
 
-// Of this program's own bytes, as a version says nothing while the program is worked on; of the text of --settings; and
-// of every file of the library folders, which a motion or a table may come from, wherever these lie.
+// A hash of this program's own bytes, as a version says nothing while the program is worked on; of the text of
+// --settings; and of every file of the library folders, which a motion or a table may come from, wherever these lie.
 std::string surroundings_id(const Context& context);
 
 }  // namespace contort::cli

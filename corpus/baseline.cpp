@@ -31,7 +31,7 @@ std::string text_in(const Json& entry, const char* name) {
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-// Of a replay: "joint_range-0123456789ab" and what became of it. Of a list: the id and the state.
+// A replay has "joint_range-0123456789ab" and what became of it; a list has the id and the state.
 Result<Done> add_entry(const Json& entry, const std::string& pointer, Baseline& known) {
   if (!entry.is_object()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
   const std::string id = text_in(entry, "id"), folder = text_in(entry, "bucket"), verdict = text_in(entry, "verdict");

@@ -1,4 +1,4 @@
-// What is known already on the branch that a change is compared with: such failures do not gate.
+// The failures that are known on the branch that a change is compared with: these do not gate.
 #pragma once
 
 #include <optional>

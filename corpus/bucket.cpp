@@ -48,7 +48,7 @@ int count_clips(const Spec& spec) {
 
 std::string up_to_three(int count) { return count < 3 ? std::to_string(count) : "3+"; }
 
-// Of the queue and of what interrupts it, sorted.
+// The names of all actions in the queue and in its interrupts, sorted.
 std::set<std::string> actions_of(const Spec& spec) {
   std::set<std::string> names;
   const auto add = [&](const SequenceDesc& sequence) {
@@ -205,7 +205,7 @@ bool is_untrusted(const Issue& issue) {
 
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket) {
   const std::string text = print_bucket(bucket);
-  // What nobody can read again would be lost: a name of 300 letters, say.
+  // A bucket that nobody can read again would be lost: one with a name of 300 letters, say.
   if (const Result<Bucket> again = json_fields::read_document<Bucket>(text, "bucket"); !again) return again.issue();
   return write_inside(folder, "bucket.json", text);
 }

@@ -68,7 +68,7 @@ Result<Bucket> read_bucket(const std::string& folder);
 // cases are no links that lead out of it (code file.outside).
 Result<Bucket> read_own_bucket(const std::string& folder);
 
-// What bucket.json says apart from the names that are not of their form: these are empty. For fsck, which mends them.
+// Reads bucket.json; names that are not of their form are empty. For fsck, which mends them.
 Result<Bucket> read_bucket_without_bad_names(const std::string& folder);
 
 // Whether a bucket was refused for where its names or links lead, and not because it cannot be read.

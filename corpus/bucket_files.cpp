@@ -77,7 +77,7 @@ Result<Done> BucketFiles::put(std::string_view role, const Case& next, std::stri
 
 namespace {
 
-// What a bucket has in a folder; of one that is not there yet its name, with the state of `source`.
+// Reads the bucket of a folder; one that is not there yet has its name alone, with the state of `source`.
 Result<Bucket> present_bucket(const Bucket& source, const std::string& folder) {
   if (std::error_code error; std::filesystem::exists(folder + "/bucket.json", error)) return read_bucket(folder);
   Bucket bucket = source;

@@ -12,8 +12,8 @@ class BucketFiles {
  public:
   explicit BucketFiles(std::string folder) : folder_(std::move(folder)) {}
 
-  // Keeps a minimal case and the one that it was shrunk from (nullptr: it was pruned) where they are cheaper than what is
-  // there. They stay together.
+  // Keeps a minimal case and the one that it was shrunk from (nullptr: it was pruned) where they are cheaper than what
+  // is there. They stay together.
   Result<Done> put_pair(const Case& minimal, const Case* original, Bucket& bucket);
   // Keeps the case where it is deeper than what is there.
   Result<Done> put_worst(const Case& shown, Bucket& bucket);
@@ -32,7 +32,7 @@ class BucketFiles {
 // state that was changed more often, all runs.
 Result<Done> merge_bucket(const std::string& from, const Bucket& source, const std::string& to);
 
-// What min, worst and orig name, as far as they name something.
+// The files that min, worst and orig name, as far as they name something.
 std::vector<std::string> files_of(const Bucket& bucket);
 
 }  // namespace contort

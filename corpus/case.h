@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// What running the spec is expected to show.
+// A run of the spec is expected to show this.
 struct Expectation {
   std::string check;    // "self_collision"; with the subject and the character's name, the family
   std::string subject;  // "arm_left/forearm ~ torso/trunk"
@@ -32,7 +32,7 @@ struct Expectation {
   bool operator==(const Expectation&) const = default;
 };
 
-// How the case came to be. Not part of its identity.
+// The origin of the case. Not part of its identity.
 struct Provenance {
   std::string tool;         // version that found it
   std::int64_t seed = -1;   // of the run; -1: written by a person
@@ -58,7 +58,7 @@ struct Case {
 
 Family family_of(const Case& stored);
 
-// How deep it is in its check's scale. Nothing finite is as deep as NaN.
+// The depth of the failure in its check's scale. Nothing finite is as deep as NaN.
 double depth_of(const Expectation& expect);
 
 // The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.

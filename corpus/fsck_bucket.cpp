@@ -1,4 +1,4 @@
-// What fsck looks at in one bucket's folder.
+// The part of fsck that looks at one bucket's folder.
 #include <algorithm>
 #include <filesystem>
 

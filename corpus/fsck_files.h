@@ -1,4 +1,4 @@
-// What the parts of fsck share: the list of faults, and moving things aside.
+// Shared by the parts of fsck: the list of faults, and moving things aside.
 #pragma once
 
 #include <functional>

@@ -20,7 +20,7 @@ Case parsed_case(const std::string& text) {
   return std::move(read).value();
 }
 
-// What is shown now travels as a case; where nothing is, there is a hash alone.
+// The failure that shows now travels as a case; if none does, there is a hash alone.
 std::string print_replay(const Case& stored, const Replay& shown) {
   Json out = {{"verdict", static_cast<int>(shown.verdict)},
               {"first_difference", shown.first_difference},

@@ -14,7 +14,7 @@ class GuardedReplay {
  public:
   GuardedReplay(RunCase replay, const WorkerLimits& limits);
 
-  // What ends the worker is `different` from what any check has found; `now` says how it ended.
+  // A case that ends the worker is `different` from what any check has found; `now` says how it ended.
   Replay operator()(const Case& stored);
 
  private:

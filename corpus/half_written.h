@@ -1,4 +1,4 @@
-// What a process that was killed between writing a file and renaming it (files.h) leaves behind.
+// A process that was killed between writing a file and renaming it (files.h) leaves such files behind.
 #pragma once
 
 #include "corpus/corpus.h"

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a lead has beside its original. The minimal case is written last: where it is, all is.
+// The files that a lead has beside its original. The minimal case is written last: where it is, all are.
 struct Beside {
   std::string_view ending;
   std::optional<Case> Lead::*stored;

@@ -1,4 +1,4 @@
-// What becomes of a bucket: the table of docs/corpus.md as pure functions. No clock: days are handed in.
+// The states of a bucket: the table of docs/corpus.md as pure functions. No clock: days are handed in.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// What a replay of all cases of a bucket showed.
+// The outcome of a replay of all cases of a bucket.
 enum class Shown {
   fails,     // one of them at least still fails in the bucket's family
   gone,      // none does
@@ -39,7 +39,7 @@ bool is_expired(const Bucket& bucket, const std::string& today);
 // Quarantined, and passes all the time.
 bool is_stale(const Bucket& bucket);
 
-// What people do. Codes bucket.is_fixed, bucket.no_owner, bucket.no_ticket, bucket.no_reason, bucket.no_day,
+// Changes that people make. Codes bucket.is_fixed, bucket.no_owner, bucket.no_ticket, bucket.no_reason, bucket.no_day,
 // bucket.too_long.
 Result<Bucket> acknowledge(const Bucket& bucket, const std::string& owner, const std::string& ticket);
 Result<Bucket> quarantine(const Bucket& bucket, const std::string& owner, const std::string& reason,
@@ -48,8 +48,8 @@ Result<Bucket> quarantine(const Bucket& bucket, const std::string& owner, const 
 // "" takes the note away.
 Bucket annotate(const Bucket& bucket, const std::string& note);
 
-// Of two copies of one bucket, the state of the one that was changed more often and all that belongs to it go into
-// `into`. Commutative, associative, idempotent.
+// If there are two copies of a bucket, the state of the one that was changed more often, with what belongs to it, goes
+// to `into`. Commutative, associative, idempotent.
 void merge_state(Bucket& into, const Bucket& other);
 
 }  // namespace contort

@@ -21,7 +21,7 @@ Result<Done> take_bucket(const Corpus& from, const Bucket& bucket, const Corpus&
   return Done{};
 }
 
-// Where both have a lead, the one that was shrunk stays.
+// If both have a lead, the one that was shrunk stays.
 Result<Done> take_leads(const Corpus& from, const Corpus& into, Merged& merged) {
   for (const Lead& lead : leads_of(from, merged.damaged)) {
     const Result<Lead> present = read_lead(lead_path(into, lead));
@@ -64,8 +64,8 @@ bool came_too_late(const RunRecord& run, const Lead& lead) {
   return std::ssize(first) >= run.shrinks_per_family && lead.original.provenance.index > first.back();
 }
 
-// What one run would not have shrunk: a failure that the minimal spec of an earlier one of the same case shows as well
-// or is named by, and what was met while that was shrunk. In the order of cases, and of the failures of each.
+// Knows the failures that one run would not have shrunk: those that the minimal spec of an earlier one of the same case
+// shows or is named by, and those met while that was shrunk. In the order of cases, and of the failures of each.
 class ToldAlready {
  public:
   bool operator()(const Lead& lead) {

@@ -30,13 +30,13 @@ struct Replay {
 
 using RunCase = std::function<Replay(const Case&)>;
 
-// In a scope below the whole the motion is another by nature: `same_family` is the best that it can be. A case that ended
-// its process (is_abnormal_exit) is run in a child process first, within the limits that it says, else those of
+// In a scope below the whole the motion is another by nature: `same_family` is the best that it can be. A case that
+// ended its process (is_abnormal_exit) is run in a child process first, within the limits that it says, else those of
 // `isolation`: the caller has one thread then.
 Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope = {},
               const Isolation& isolation = {});
 
-// What the stored ending comes to when `work`, which may end its process, is done in a child: `same` where it ends as
+// Does `work`, which may end its process, in a child, and compares that with the stored ending: `same` where it ends as
 // stored, `different` where it ends otherwise. Where it finishes, what it returns here once more.
 Replay replay_ending(const Case& stored, const std::function<Replay()>& work, const Isolation& isolation);
 

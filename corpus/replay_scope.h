@@ -1,4 +1,4 @@
-// How much of a stored spec is played again (seed P11): the whole, one of its sequences, one of its clips, or one part's
+// The share of a stored spec that is played again: the whole, one of its sequences, one of its clips, or one part's
 // animation alone.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a run did, and which failures it met: DIR/runs/<run>.json. Counts add up over the shards of a run.
+// The record of a run, with the failures that it met: DIR/runs/<run>.json. Counts add up over the shards of a run.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace contort {
 
-// How often a family was seen, and where first. The first of all families together are the discovery curve.
+// The cases of one family: how many, and the first ones. The first of all families together are the discovery curve.
 struct FamilyCount {
   std::int64_t cases = 0;
   std::int64_t first_index = 0;  // of the first of them
-  // Of the first in which it was one of the earliest failures (RunConfig::shrinks_per_case), ascending; at most
-  // shrinks_per_family of the run.
+  // Indices of the first cases in which it was one of the earliest failures (RunConfig::shrinks_per_case), ascending;
+  // at most shrinks_per_family of the run.
   std::vector<std::int64_t> first_indices;
   std::string first_arm;  // "guided": how the case of first_index was drawn
   bool operator==(const FamilyCount&) const = default;
 };
 
-// What one way of drawing cases found.
+// The results of one way of drawing cases.
 struct StrategyCount {
   std::int64_t cases = 0;
   std::int64_t failing = 0;

@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-// Of one run, in whatever order its shards come.
+// The shards of one run, in whatever order they come.
 struct Shards {
   std::vector<RunRecord> records;
 

@@ -1,4 +1,4 @@
-// How far a search got, and what it leaves unseen: from the records of its runs.
+// The progress of a search, and what it leaves unseen: from the records of its runs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// What one way of drawing cases found.
+// The results of one way of drawing cases.
 struct ArmProgress {
   std::string name;            // "uniform", "guided"
   std::int64_t cases = 0;      // that it drew
@@ -34,9 +34,9 @@ SearchProgress progress_of(std::span<const RunRecord> runs);
 
 // The share of further cases that would show a family not met so far, [0, 1]: lone_cases / cases, as the chance that a
 // case shows what all others do not is about the same for the next one (Good, "The population frequencies of species",
-// Biometrika 40, 1953; for fuzzers Böhme, "STADS", TOSEM 27, 2018). Where there is no such case, and above all where none
-// failed, 3 / cases: more would have shown something with 95 % confidence (Hanley and Lippman-Hand, JAMA 249, 1983).
-// Both are for cases that are drawn independently; guided ones are not, which makes it an estimate.
+// Biometrika 40, 1953; for fuzzers Böhme, "STADS", TOSEM 27, 2018). Where there is no such case, and above all where
+// none failed, 3 / cases: more would have shown something with 95 % confidence (Hanley and Lippman-Hand, JAMA 249,
+// 1983). Both are for cases that are drawn independently; guided ones are not, which makes it an estimate.
 double unseen_share(const SearchProgress& progress);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// What is done to a whole corpus now and then. Each takes the corpus' lock and gives what it changed, one line each.
-// What left_alone lists is not touched.
+// Upkeep of a whole corpus, for now and then. Each function takes the corpus' lock and gives what it changed, one line
+// each. What left_alone lists is not touched.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ using Changes = std::vector<std::string>;
 // Names buckets anew, by today's rules, from their minimal cases, and moves them. Two that become one are merged.
 Result<Changes> rekey(const Corpus& corpus);
 
-// How many buckets are named by other rules than today's: what comes back of them gets a bucket of its own until
+// Counts buckets that are named by other rules than today's: a failure that comes back gets another bucket until
 // `rekey`. Those that cannot be read are not counted.
 int named_by_other_rules(const Corpus& corpus);
 

@@ -87,7 +87,7 @@ EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   return report;
 }
 
-// Of the subjects of `group`, those that came within reach of their limit and did not break it.
+// Lists the subjects of `group` that came within reach of their limit and did not break it.
 std::vector<NearMiss> CaseWork::near_misses(const Character& character, int group) {
   std::vector<NearMiss> near;
   for (const SmallestMargins& margins : evaluator_.smallest_margins()) {
@@ -103,7 +103,7 @@ std::vector<NearMiss> CaseWork::near_misses(const Character& character, int grou
 
 namespace {
 
-// How the process ended, of whose family it is; nothing for a family of a check.
+// The ending of the process that this family stands for; nothing for a family of a check.
 std::optional<Ending> ending_of(const Family& family) {
   if (family.check == "crash") return Ending{Ending::Kind::crash, family.subject, {}};
   if (family.check == "timeout") return Ending{Ending::Kind::timeout, {}, {}};
@@ -158,7 +158,8 @@ SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
   return report;
 }
 
-// Of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is nothing to do.
+// The lead is of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is
+// nothing to do.
 ShrinkReport CaseWork::shrink_waiting(const ShrinkTask& task, WorkerSlot& slot) {
   ShrinkReport report;
   Result<Lead> read = read_lead(task.lead);
@@ -181,7 +182,7 @@ void take_shrunk(const Shrunk& shrunk, Lead& lead) {
 
 }  // namespace
 
-// What shrank in this process at first is shrunk with a guard once a candidate has ended that.
+// A lead is shrunk in this process at first, and with a guard once a candidate has ended that.
 Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const {
   Lead& lead = settled.lead;
   const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {

@@ -1,4 +1,4 @@
-// How a worker does the tasks of messages.h.
+// A worker does the tasks of messages.h with this.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace contort {
 
-// What is known of a failure that did not show again. How deep it was, nobody wrote down: no number.
+// The case of a failure that did not show again. Nobody wrote down its depth, so that is no number.
 Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
 
 // Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each

@@ -33,7 +33,7 @@ int blend_of(int raw, const Features& features, const DrawRule* rule) {
   return features.omits("blend") ? 0 : std::max(0, between(raw, -20, 20));
 }
 
-// What may be moved, and by what.
+// The parts that may be moved, and the actions that may move them.
 struct Stock {
   using Actions = std::vector<const OfferedAction*>;
   const Character& character;

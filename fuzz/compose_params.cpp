@@ -109,7 +109,7 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
   return draw_uniform(def, values);
 }
 
-// What the rule and the parameter both allow; off the lattice where no step of it lies there.
+// Draws a value that the rule and the parameter both allow; off the lattice where no step of it lies there.
 ParamValue draw_by_rule(const DrawRule& rule, const ParamDef& def, Values& values) {
   const double steps = steps_per_unit(def.name);
   const auto one = [&](std::size_t i) {
@@ -130,7 +130,7 @@ void draw_params(const Character& character, const Part& part, const OfferedActi
   Values values(raw, profile.range);
   const std::vector<ParamDef>& defs = action.params;
   for (std::size_t i = 0; i < defs.size(); ++i) {
-    // What makes an action of a file that action is changed in one of four.
+    // A parameter that makes an action of a file that action is changed in one case of four.
     if (defs[i].is_characteristic && values.next() < 0.75) continue;
     if (defs[i].optional && values.next() < 0.4) continue;
     const DrawRule* rule = profile.rule_for(part.slot, action.name, defs[i].name);

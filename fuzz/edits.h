@@ -1,4 +1,4 @@
-// What shrinking may take out of a spec: units of one kind, in all lists together.
+// Shrinking may take these out of a spec: units of one kind, in all lists together.
 #pragma once
 
 #include <span>

@@ -29,7 +29,7 @@ inline int group_of(std::int64_t index) { return island_of(index) % kTargetGroup
 
 int group_of_target(const Family& family);
 
-// How near a case came.
+// A case came so near to the limit of this family without breaking it.
 struct NearMiss {
   Family family;
   double margin = 0.0;  // in the check's scale; >= 0
@@ -42,13 +42,14 @@ struct PoolEntry {
   bool operator==(const PoolEntry&) const = default;
 };
 
-// What an island knows of one subject.
+// An island's knowledge of one subject.
 struct TargetPool {
   std::vector<PoolEntry> nearest;  // nearest first, no two as near: what a mutation leaves as it was is no news
   double farthest = 0.0;           // margin seen
   bool operator==(const TargetPool&) const = default;
 
-  // How far the limit is, in what the margin was seen to vary by; infinite where nothing moves it. Small is promising.
+  // The distance to the limit over the variation of the margin so far; infinite where nothing moves it. Small is
+  // promising.
   double relative_distance() const;
 };
 
@@ -57,7 +58,7 @@ class Island {
   // The ancestry of case `index`: a mutation of one of a promising pool, where there is any and the case wants it.
   Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
-  // What a case showed, in the order of cases.
+  // Takes in the results of a case. To be called in the order of cases.
   void learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<Family>& broken);
 
   bool operator==(const Island&) const = default;

@@ -64,7 +64,7 @@ bool overlap(const IntendedAction& x, const IntendedAction& y) {
   return x.sequence == y.sequence && x.part == y.part && x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
-// Of actions that are planned for one part at the same time.
+// Labels of actions that are planned for one part at the same time.
 std::set<std::string> pairs_of(const Intent& intent, const Character& character) {
   std::set<std::string> pairs;
   for (auto x = intent.actions.begin(); x != intent.actions.end(); ++x)

@@ -14,7 +14,7 @@ enum Stream : std::uint64_t { kChoice, kChange };
 
 constexpr int kThrows = 8;  // of one mutation
 
-// What these are worth: docs/fuzzing.md
+// docs/fuzzing.md measures what these are worth.
 constexpr std::uint64_t kMates = 4;    // that are laid over a case
 constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a case that is on level ground
 

@@ -1,4 +1,4 @@
-// Where cases come from. A case is its ancestry: the indices of the cases that it was mutated from, oldest first, its
+// The origin of cases. A case is its ancestry: the indices of the cases that it was mutated from, oldest first, its
 // own index last. The oldest was drawn; every other is a mutation of the one before, thrown with dice keyed by its own
 // index. So nothing but indices has to be kept, sent or stored to make any case of a run again.
 #pragma once
@@ -21,7 +21,7 @@ inline constexpr int kStrategies = 6;
 
 using Lineage = std::vector<std::int64_t>;  // never empty
 
-// Of which run a case is, as far as its making goes.
+// The settings of a run that decide how its cases are made.
 struct Odds {
   std::int64_t seed = 1;
   double guided = Profile{}.guided;
@@ -29,7 +29,7 @@ struct Odds {
 };
 inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, profile.guided, profile.uniform}; }
 
-// How case `index` is made. Guidance comes into its share little by little: what few cases have come near to is no
+// Decides how case `index` is made. Guidance reaches its share little by little: what few cases have come near to is no
 // nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm
 // instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);

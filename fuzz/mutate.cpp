@@ -16,7 +16,7 @@ int& one_number(List& numbers, Dice& dice) {
   return numbers[static_cast<std::size_t>(dice.below(static_cast<int>(numbers.size())))];
 }
 
-// Of a sequence, or now and then of one that interrupts.
+// Picks a clip of a sequence, or now and then of one that interrupts.
 RawClip* one_clip(RawSpec& raw, Dice& dice) {
   const bool interrupts = !raw.interrupts.empty() && dice.one_in(5);
   if (!interrupts && raw.sequences.empty()) return nullptr;

@@ -9,13 +9,13 @@
 
 namespace contort {
 
-// How long lists get; even draws are shorter.
+// Lists get no longer than this; those of draws are shorter still.
 inline constexpr std::size_t kMostSequences = 3;
 inline constexpr std::size_t kMostClips = 4;    // of a sequence
 inline constexpr std::size_t kMostActions = 6;  // of a clip
 inline constexpr std::size_t kMostInterrupts = 6;
 
-// What another draw has comes along, behind what is there: its actions into the clips, its clips, sequences and
+// Adds all that another draw has behind what is there: its actions into the clips, its clips, sequences and
 // interrupts after the others, as far as there is room. It is interrupted if one of them is, and has as many loads and
 // blows as the one that has most. So more of it meets.
 void overlay(RawSpec& raw, const RawSpec& mate);

@@ -1,4 +1,4 @@
-// What names a failure that does not come alone.
+// Chooses the name of a failure that does not come alone.
 //
 // One fault mostly breaks several limits at one time: a knee that snaps straight is too fast, and so is its hip, which
 // pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows them together.
@@ -20,9 +20,9 @@ namespace contort {
 // apart is another matter: with any time, three of 36 faults had no bucket left but those of known ones.
 inline constexpr double kOneTime_s = 0.2;
 
-// Of the other families of one motion: the earliest that is of one time with `shown` and at least as deep (in each
-// check's scale), of equally early ones the deepest; none of those that were left. Null where `shown` itself is that
-// one.
+// Chooses from the other families of one motion the earliest that is of one time with `shown` and at least as deep (in
+// each check's scale), of equally early ones the deepest; none of those that were left. Null where `shown` itself is
+// that one.
 const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
 using ShrinkStep = std::function<Shrunk(const Case& original, const PrimarySearch& search)>;

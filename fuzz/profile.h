@@ -1,4 +1,4 @@
-// What a fuzzing run draws from: characters, slots, actions, grounds, odds and ranges. A JSON file,
+// The choices that a fuzzing run draws from: characters, slots, actions, grounds, odds and ranges. A JSON file,
 // contort.profile/1, or one of the built-in ones.
 #pragma once
 
@@ -56,7 +56,7 @@ struct Profile {
   bool operator==(const Profile&) const = default;
 
   bool never(std::string_view slot, std::string_view action) const;
-  // How often an action of a slot is drawn, where others are once: that of the last rule which says so, or 1.
+  // An action of a slot is drawn so often, where others are once: as the last rule about it says, or 1.
   int weight(std::string_view slot, std::string_view action) const;
   // The last rule for this parameter, or null.
   const DrawRule* rule_for(std::string_view slot, std::string_view action, std::string_view param) const;
@@ -66,14 +66,14 @@ std::span<const Profile> built_in_profiles();
 
 // A built-in profile by name, or a file. Codes profile.* and json.*.
 Result<Profile> load_profile(const std::string& name_or_path);
-// Where the text names a base, that one's fields count for those that it does not have, and its own rules come last.
+// If the text names a base, that one's fields count for those that it does not have, and its own rules come last.
 Result<Profile> parse_profile(std::string_view json);
 std::string print_profile(const Profile& profile);
 std::string profile_schema();
 
-// What would test nothing, and look clean, is refused: names that the library does not have, a character that nothing
-// moves (profile.nothing_moves), rules for what is no number or vector, and ranges that a parameter does not have
-// (profile.bad_rule, .no_range). `characters` are those that will be drawn.
+// Refuses a profile that would test nothing, and look clean: names that the library does not have, a character that
+// nothing moves (profile.nothing_moves), rules for what is no number or vector, and ranges that a parameter does not
+// have (profile.bad_rule, .no_range). `characters` are those that will be drawn.
 Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, Generator& generator);
 
 }  // namespace contort

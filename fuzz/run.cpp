@@ -181,7 +181,7 @@ class Run {
     fail(failures_.issue());
     if (const Result<Done> dropped = drop_half_written(corpus_, state_.record); !dropped) fail(dropped.issue());
     tidy_leads(corpus_, state_.record.name);
-    // Of a shard that was stopped there is no record: merging it would take what it did so far for all that it has to
+    // A shard that was stopped has no record: merging it would take what it did so far for all that it has to
     // say.
     if (ok() && !(result_.interrupted && config_.shard.count > 1))
       if (const Result<Done> kept = keep_run(corpus_, state_.record); !kept) fail(kept.issue());

@@ -1,9 +1,10 @@
 // A fuzzing run: draw, evaluate, confirm, shrink, store.
 //
-// Cases run in rounds of kRound, in processes of their own (worker_pool.h): what crashes, hangs or eats memory there is a
-// finding. A round is folded in the order of its cases; failures of families that are new are settled: run again, shrunk
-// and stored. So a run of N cases leaves the same corpus, byte for byte, for any number of workers, and one that was
-// killed and resumed the same as one that was not. Shards leave leads; merging all of them files these (corpus/merge.h).
+// Cases run in rounds of kRound, in processes of their own (worker_pool.h): what crashes, hangs or eats memory there is
+// a finding. A round is folded in the order of its cases; failures of families that are new are settled: run again,
+// shrunk and stored. So a run of N cases leaves the same corpus, byte for byte, for any number of workers, and one that
+// was killed and resumed the same as one that was not. Shards leave leads; merging all of them files these
+// (corpus/merge.h).
 #pragma once
 
 #include <cstdint>
@@ -79,7 +80,7 @@ struct RunResult {
 // "seed_7_0123abcd". Another seed, profile or generator, other characters, seeds or limits are another run.
 std::string run_name(const RunConfig& config);
 
-// Of a case that the run drew.
+// The provenance of a case that the run drew.
 Provenance provenance_in(const RunConfig& config, std::int64_t index);
 
 // A case of the run, by its ancestry.

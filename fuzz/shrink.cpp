@@ -45,7 +45,7 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   return from;
 }
 
-// What there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
+// Finds what there is to say of a minimal spec: with what it comes, which fields do not matter, how deep it can be.
 void look_closer(Shrunk& shrunk, ShrinkState& state, const std::vector<Case>& others, const ShrinkConfig& config) {
   for (const Case& other : others) state.meet(other);
   const Case* precursor = precursor_of(shrunk.minimal, others, config.search.value_or(PrimarySearch{}).left);

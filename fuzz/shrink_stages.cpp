@@ -152,7 +152,7 @@ class Lowering {
     return state_.accept(std::move(candidate));
   }
 
-  // What does not hold one step nearer is taken not to hold nearer still: the default itself was tried before.
+  // A value that does not hold one step nearer is taken not to hold nearer still: the default itself was tried before.
   void lower(std::int64_t grain) {
     const std::int64_t below = (now_ - 1) / grain * grain;
     if (below <= 0 || !set_to(below)) return;

@@ -16,7 +16,7 @@ void try_stock(ShrinkState& state);
 // Delta debugging over sequences, clips, actions and so on, from coarse to fine.
 void remove_structure(ShrinkState& state);
 
-// What cuts in takes its turn in the queue, alone or last: most failures do not ask how their motion began.
+// Lets interrupts take their turn in the queue, alone or last: most failures do not ask how their motion began.
 void queue_interrupts(ShrinkState& state);
 
 // Delta debugging over all fields that are not at their defaults.
@@ -25,7 +25,7 @@ void reset_fields(ShrinkState& state);
 // Towards their defaults, by bisection over values of two digits.
 void lower_numbers(ShrinkState& state);
 
-// What only goes together: two fields, two actions, two clips made one. Ends with the first that holds.
+// Tries edits that only work together: two fields, two actions, two clips made one. Ends with the first that holds.
 void try_pairs(ShrinkState& state);
 
 }  // namespace contort

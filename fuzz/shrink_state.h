@@ -29,11 +29,11 @@ class ShrinkState {
   // Runs it, known or not; nothing once the budget is spent.
   std::optional<TrialResult> run(const Spec& candidate);
 
-  // What the smallest spec shows of other families: one more motion, whatever the budget. None of an ending. Candidates
-  // are judged by the one check alone: by all of them, shrinking takes half as long again.
+  // The other families that the smallest spec shows: one more motion, whatever the budget. None of an ending.
+  // Candidates are judged by the one check alone: by all of them, shrinking takes half as long again.
   std::vector<Case> others();
 
-  // Of another family that the original does not show: something new, to be handed back.
+  // Takes a case of a family that the original does not show: something new, to be handed back.
   void meet(const Case& other);
 
   // From here on motions may have this many frames, whatever the original has.

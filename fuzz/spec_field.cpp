@@ -157,7 +157,7 @@ class PlaceWalker {
                     {}});
   }
 
-  // What is inside comes before the whole: resetting the whole ends what is inside.
+  // Inner fields come before the whole: resetting the whole ends what is inside.
   template <class T>
   void descend(const std::string& at, T& value, const T&) {
     PlaceWalker<T>(value, at, actor_, out_);

@@ -14,7 +14,7 @@ namespace contort {
 struct SpecField {
   std::string pointer;  // into the spec
   bool is_number = false;
-  // Where it is a number: present value, default, and the range in which other values make sense. Whole motions of
+  // If the field is a number: present value, default, and the range in which other values make sense. Whole motions of
   // 36000 frames are allowed and are no use, so frames, weights and blows reach up to twice what they are.
   double value = 0.0;
   double preset = 0.0;

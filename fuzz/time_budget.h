@@ -1,4 +1,4 @@
-// How a run divides its time. All times are on the steady clock and come from the caller.
+// Divides the time of a run. All times are on the steady clock and come from the caller.
 #pragma once
 
 #include <algorithm>

@@ -60,7 +60,7 @@ GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation) : inner_(in
   isolation_.silent = true;
 }
 
-// Where no process can be had, the spec is run in this one as ever.
+// If no process can be had, the spec is run in this one as ever.
 std::optional<Case> GuardedTrial::ended(const Spec& spec, const std::function<void()>& work) const {
   const Result<Ending> ending = isolate([&] { return work(), std::string(); }, isolation_);
   if (!ending || ending->kind == Ending::Kind::finished) return std::nullopt;

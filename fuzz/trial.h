@@ -1,4 +1,4 @@
-// What running a spec shows of the family that is being shrunk.
+// Runs specs to see what they show of the family that is being shrunk.
 #pragma once
 
 #include <functional>
@@ -51,8 +51,8 @@ class CheckTrial final : public Trial {
   BeforeRun before_;
 };
 
-// Where some candidate ends the process that runs it: each is first run in another one. What ends that is met as a
-// failure of its own; all else is as the inner trial shows it.
+// For failures of which a candidate may end the process that runs it: each is first run in another one. What ends that
+// is met as a failure of its own; all else is as the inner trial shows it.
 class GuardedTrial final : public Trial {
  public:
   GuardedTrial(Trial& inner, const Isolation& isolation);

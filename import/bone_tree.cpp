@@ -66,7 +66,7 @@ void hang_feet_on_legs(RiggedFigure& figure) {
   }
 }
 
-// Of several trees the first one with the most points.
+// The root of the tree with the most points, and of equal ones the first.
 int root_of_most(const RiggedFigure& figure) {
   int root = -1;
   std::size_t most = 0;

@@ -20,7 +20,7 @@ constexpr std::size_t kMostPairs = 1000;  // of a character's file
 constexpr double kPosesPerClip = 24.0;
 constexpr int kMostContactPoses = 600;
 
-// What makes an overlap no fault: that it is in this share of the poses.
+// An overlap is no fault if it is in this share of the poses.
 struct Habit {
   double share;
   const char* reason;

@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// What words in a joint's name say; what it is in the end, its place among the others decides.
+// The meaning of words in a joint's name; what it is in the end, its place among the others decides.
 enum class BoneFamily : std::uint8_t {
   unknown,
   hips,

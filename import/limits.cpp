@@ -54,7 +54,7 @@ double twist_rad(const Quat& q, const Vec3& axis) {
   return wrap_angle(2.0 * det::atan2(glm::dot(axis, Vec3(q.x, q.y, q.z)), q.w));
 }
 
-// What is left of a rotation without its twist, as a rotation vector across the axis.
+// The rest of a rotation without its twist, as a rotation vector across the axis.
 Vec3 swing_of(const Quat& q, const Vec3& axis) {
   return to_rotation_vector(q * glm::conjugate(axis_angle(axis, twist_rad(q, axis))));
 }
@@ -132,7 +132,7 @@ BoneJoint generic_ball(const Vec3& axis) {
   return out;
 }
 
-// How far outside a ball's range a rotation is, as a share of the range; <= 1 is inside.
+// The reach of a rotation as a share of a ball's range; <= 1 is inside.
 double share_of_range(const BoneJoint& joint, const Quat& q) {
   const Quat seen = glm::conjugate(from_rotation_vector(joint.swing_center_deg * kRadPerDeg)) * q;
   const Vec3 swing = swing_of(seen, joint.axis) * kDegPerRad;
@@ -165,7 +165,7 @@ BoneJoint ball_from_table(const RiggedFigure& figure, const Bone& bone, const Ba
   for (std::size_t i = 0; i < 2; ++i) out.swing_deg[i] = outward(share * row.swing_deg[i]);
   out.low_deg = -outward(-share * row.low_deg), out.high_deg = outward(share * row.high_deg);
   const Vec3 turn = to_rotation_vector(center) * kDegPerRad;
-  // Of a spine, only its share; of a limb, all of it.
+  // A bone of the spine takes only its share, one of a limb all of it.
   for (int i = 0; i < 3; ++i)
     out.swing_center_deg[i] = on_lattice(row.shared ? share * row.center_deg[i] : turn[i], 10.0);
   out.source = LimitSource::table;

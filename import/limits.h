@@ -1,5 +1,5 @@
-// How each bone turns and how far: the kind of its joint, axes, ranges. From the table of people, from what the model's
-// own clips do, or from nothing at all.
+// The way in which each bone turns, and how far: the kind of its joint, axes, ranges. From the table of people, from
+// what the model's own clips do, or from nothing at all.
 #pragma once
 
 #include <vector>
@@ -40,7 +40,7 @@ struct BoneJoint {
   bool leaves_table = false;  // some pose of the clips is out of the table's range
 };
 
-// Of a bone of the left side or the middle; others are seen in the mirror.
+// The joint of a bone of the left side or the middle; others are seen in the mirror.
 BoneJoint joint_of(const RiggedFigure& figure, int bone, const std::vector<Quat>& poses);
 
 // The same poses as the joints can take them: what a hinge or an ankle cannot follow of its bone's turn, the bones that

@@ -1,4 +1,4 @@
-// What the names of joints say.
+// Reads the meaning of joints' names.
 #pragma once
 
 #include <set>

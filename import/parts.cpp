@@ -21,7 +21,7 @@ Vec3 rounded(const Vec3& v, double steps) {
 }
 double rounded_up(double value, double steps) { return std::ceil(value * steps) / steps; }
 
-// What joints are called by what they are, so that actions of files fit all arms; "" for others.
+// Names joints by what they are, so that actions of files fit all arms; "" for others.
 std::string role_name(BoneRole role) {
   switch (role) {
     case BoneRole::upper_arm: return "shoulder";
@@ -34,7 +34,8 @@ std::string role_name(BoneRole role) {
   }
 }
 
-// Of the figure's weight times its height: the strengths of the stock human, where 1 is 1247 N m.
+// The strength as a share of the figure's weight times its height: the strengths of the stock human, where 1 is 1247 N
+// m.
 double strength_share(BoneRole role) {
   switch (role) {
     case BoneRole::thigh: return 0.2;
@@ -193,7 +194,7 @@ class PartWriter {
     }
   }
 
-  // Where a part hangs that begins with another bone.
+  // Adds the place where a part hangs that begins with another bone.
   void add_dock(const PartPlan& plan) {
     const int first = plan.bones.front(), parent = bone(first).parent;
     out_.sockets.push_back(
@@ -238,7 +239,7 @@ class PartWriter {
     out_.facing.push_back(std::move(facing));
   }
 
-  // Where the lowest vertices of the standing end are, from the bone that carries the sole.
+  // The place of the standing end's lowest vertices, from the bone that carries the sole.
   Vec3 standing_point(int sole) const {
     const double band = lowest_below_m(figure_, sole) + 0.03 * figure_.height_m;
     Vec3 sum(0.0);

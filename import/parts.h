@@ -23,7 +23,7 @@ struct PartPlan {
 // Code import.too_many_parts.
 Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
 
-// What was decided for a bone, for the report.
+// The decisions about a bone, for the report.
 struct BoneReport {
   std::string joint;    // "arm_left/elbow"; "root" for the first one
   std::string carries;  // the last joint of several in one place, which moves the body

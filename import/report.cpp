@@ -1,4 +1,4 @@
-// What was guessed, for people.
+// Tells people what was guessed.
 #include <cstdio>
 
 #include "import/import.h"

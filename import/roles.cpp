@@ -16,7 +16,7 @@ bool is_arm_family(BoneFamily family) {
   return family == BoneFamily::upper_arm || family == BoneFamily::forearm || family == BoneFamily::arm;
 }
 
-// What the two kinds of limbs are made of.
+// The families and roles that the two kinds of limbs are made of.
 struct LimbRoles {
   bool (*in_chain)(BoneFamily);
   BoneFamily first;  // the family that is certainly the upper bone
@@ -100,7 +100,7 @@ class RoleFinder {
     return length(end_of(figure_, chain[i]) - bone(chain[i]).position_m);
   }
 
-  // Of all pairs of neighbours the longest, unless a name says which is the upper one. A chain of three or more without
+  // Chooses the longest pair of neighbours, unless a name says which is the upper one. A chain of three or more without
   // an end of its own ends in it.
   void give_limb_roles(std::vector<int> chain, const LimbRoles& limb) {
     int end = end_bone(chain.back(), limb);

@@ -11,7 +11,7 @@ void find_roles(RiggedFigure& figure);
 // The bone of that role right below, on the same side; -1 where there is none.
 int child_of_role(const RiggedFigure& figure, int bone, BoneRole role);
 
-// Where a bone ends: its child in the chain, else the middle of its other children, else the far end of its vertices.
+// The end of a bone: its child in the chain, else the middle of its other children, else the far end of its vertices.
 Vec3 end_of(const RiggedFigure& figure, int bone);
 
 // From a bone's position to its end; the direction is +Y where it has no length.

@@ -28,7 +28,7 @@ std::vector<SurfacePoint> spread_points(const SkinnedAsset& asset, const Skinned
                                         double quantum);
 double area_of(const SkinnedMesh& mesh, const PlacedMesh& placed);
 
-// What is drawn of each bone: the triangles that it owns, in its own frame. By bone.
+// The mesh that is drawn of each bone: the triangles that it owns, in its own frame. By bone.
 std::vector<TriangleMesh> bone_meshes(const SkinnedAsset& asset, const RiggedFigure& figure);
 
 }  // namespace contort

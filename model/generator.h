@@ -52,7 +52,7 @@ struct OfferedAction {
 // By part of the character; each list in the manifest's order.
 using Offers = std::vector<std::vector<OfferedAction>>;
 
-// What specs may ask for. The fuzzer draws nothing else.
+// The features that specs may ask for. The fuzzer draws nothing else.
 struct Capabilities {
   bool interrupts = true;
   bool grounds = true;  // other than level
@@ -79,7 +79,7 @@ class Generator {
 
   virtual const Manifest& manifest() const = 0;
 
-  // What the parts of a character, which was built from the manifest's library, can do. Valid until the next call.
+  // The actions of a character's parts; it was built from the manifest's library. Valid until the next call.
   virtual const Offers& offers(const Character& character) = 0;
 
   // Refuses a spec with a code and a pointer into it, or says how long its motion can be.

@@ -16,7 +16,7 @@
 
 namespace contort {
 
-// What a terminal waits for goes before what it can do without for a moment.
+// Tasks that a terminal waits for go before those that it can do without for a moment.
 enum class Urgency : std::uint8_t { now, later };
 
 struct BrokerLimits {
@@ -25,7 +25,7 @@ struct BrokerLimits {
   int most_waiting = 64;  // tasks without a worker
 };
 
-// How a task ended, and how long a worker had it.
+// The outcome of a task, and the time for which a worker had it.
 struct BrokerReply {
   Result<std::string> text = Issue{};
   double worker_s = 0.0;

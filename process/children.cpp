@@ -20,7 +20,7 @@ namespace {
 
 constexpr useconds_t kLook_us = 50'000;
 
-// What a child tells of its share, in memory that both see.
+// A child tells the state of its share here, in memory that both see.
 struct Place {
   std::atomic<int> at{0};    // the index that is worked on
   std::atomic<int> done{0};  // calls that returned

@@ -55,7 +55,7 @@ void write_all(int file, const std::string& text) {
   ::_exit(0);
 }
 
-// What the child writes, until it ends or, where it has too much memory, is ended.
+// The output of the child until it ends or, if it takes too much memory, is ended.
 struct Heard {
   std::string text;
   bool too_large = false;

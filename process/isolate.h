@@ -15,7 +15,7 @@ struct Isolation {
   bool silent = false;                                  // what it prints on stderr goes nowhere
 };
 
-// How the work came to its end.
+// The way in which the work came to its end.
 struct Ending {
   enum class Kind { finished, crash, timeout, memory };
   Kind kind = Kind::finished;

@@ -1,4 +1,4 @@
-// What the kernel says about processes.
+// The kernel's records of processes.
 #pragma once
 
 #include <cstdint>

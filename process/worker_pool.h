@@ -19,7 +19,7 @@ class WorkerSlot {
  public:
   static constexpr std::size_t kMostNote = 1 << 20;
 
-  // What is being done now; longer notes are kept empty. Written before the work begins.
+  // Notes what is being done now; longer notes are kept empty. Written before the work begins.
   void note(std::string_view text);
   // Still alive: the time limit counts from here.
   void beat() { beats_.fetch_add(1, std::memory_order_relaxed); }

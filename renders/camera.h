@@ -1,4 +1,4 @@
-// Where the picture is taken from. Plain geometry; the choice among several views is made in raster/auto_camera.
+// The view that a picture is taken from. Plain geometry; the choice among several views is made in raster/auto_camera.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// Where the two solids of a finding meet: their nearest points, or the deepest ones where they overlap, joined.
+// The marks where the two solids of a finding meet: their nearest points, or the deepest ones where they overlap,
+// joined.
 #pragma once
 
 #include <optional>
@@ -15,11 +16,11 @@ namespace contort {
 inline constexpr Vec3 kContactColor{1.0, 0.93, 0.05};
 inline constexpr Vec3 kContactRimColor{0.004, 0.004, 0.008};  // around it: it stands out from anything
 
-// Of the nearest judged colliders of a highlighted pair. None without a pair, or where it has no place.
+// The points of a highlighted pair's nearest judged colliders. None without a pair, or where it has no place.
 std::optional<NearestPoints> contact_of_pair(const Character& character, const Highlight& highlight,
                                              std::span<const Rigid> world);
 
-// Of a single highlighted solid and the obstacle that it is nearest to, or deepest in.
+// The points of a single highlighted solid and the obstacle that it is nearest to, or deepest in.
 std::optional<NearestPoints> contact_with_obstacle(const Character& character, const Environment& environment,
                                                    const Highlight& highlight, std::span<const Rigid> world);
 

@@ -1,4 +1,4 @@
-// Where two motions part: what can be seen of them, joint by joint, in frames of the same number.
+// Finds where two motions part: what can be seen of them, joint by joint, in frames of the same number.
 #pragma once
 
 #include <string>

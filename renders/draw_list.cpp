@@ -48,7 +48,7 @@ bool drawn_as_it_is(const Character& character, const Collider& collider, bool w
   });
 }
 
-// What was judged is the collider. Where the mesh differs from it, two parts that look apart may overlap.
+// Checks judge the collider. If the mesh differs from it, two parts that look apart may overlap.
 void add_judged_shapes(Figure& figure, const Character& character, const Highlight& highlight, bool wears_skin) {
   int group = 0;
   for (const std::vector<int>& solid : highlight.solids) {

@@ -1,4 +1,4 @@
-// What a picture shows, as plain values. Nothing here knows of OpenGL.
+// The contents of a picture, as plain values. Nothing here knows of OpenGL.
 //
 //   Figure figure = make_figure(character, highlighted(character, finding));   // once: triangles, colours
 //   DrawList list;
@@ -28,7 +28,7 @@ struct DrawInstance {
 // Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
 inline constexpr double kWorldReach_m = 1e4;
 
-// What stands around the figure. It does not count for framing, and nothing of it hides the figure.
+// The things around the figure. They do not count for framing, and none of them hides the figure.
 struct Scenery {
   std::vector<DrawInstance> ground;  // Empty: a level plane.
   double level_m = 0.0;              // The height of that plane.
@@ -61,7 +61,7 @@ struct Figure {
 // at each highlighted joint. Of a figure that wears a skin, which is not here, the mesh of attached objects alone.
 Figure make_figure(const Character& character, const Highlight& highlight, bool wears_skin = false);
 
-// Of a skin's piece in this highlight group.
+// The colour of a skin's piece in this highlight group.
 Vec3 skin_color(int group, bool any_highlight);
 
 // Around it, as wires: the shape of every collider, which is what checks judge.
@@ -80,7 +80,7 @@ enum class Look {
 // Appends one instance; one without a finite place is left out, and the list not complete.
 void add_instance(DrawList& list, const DrawInstance& instance);
 
-// What a piece of this colour and group looks like.
+// The colour with which a piece of this colour and group is drawn.
 Vec3 color_in(Look look, const Vec3& color, int highlight);
 
 // Appends the figure in the pose `world` (world_from_joint, one per joint).

@@ -51,7 +51,7 @@ std::vector<double> cuts(double low, double high, double first, double step, dou
   return result;
 }
 
-// How many cuts() gives at most.
+// The most cuts that cuts() gives.
 double cut_count(double low, double high, double step, double count) {
   return std::min((high - low) / step, count) + 3.0;
 }

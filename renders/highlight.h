@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// What a finding is about: solids, such as the two of a collision, each a set of colliders; or joints. Both are empty
+// The subject of a finding: solids, such as the two of a collision, each a set of colliders; or joints. Both are empty
 // where the subject is the character as a whole.
 struct Highlight {
   std::vector<std::vector<int>> solids;

@@ -34,7 +34,7 @@ void add_mark(DrawList& list, std::vector<Triangles>& meshes, Triangles triangle
 
 double radius_of(const Vec3& arm_m) { return std::clamp(kShare * glm::length(arm_m), kLeastRange_m, kMostRange_m); }
 
-// What a hinge turns, in the world.
+// A hinge and the limb that it turns, in the world.
 struct Hinge {
   Vec3 center_m, axis, across;  // across: unit, at a right angle to the axis, along the limb at the present angle
   double radius_m;

@@ -34,7 +34,7 @@ std::string missing_text(const ReportRow& row) {
                         : "no motion to show: the generator does not come to its end";
 }
 
-// Where the page finds a picture: beside it, or in itself.
+// The address under which the page finds a picture: beside it, or in itself.
 std::string picture_url(const std::string& path, const PageFiles& inside) {
   const auto file = inside.find(path);
   if (file == inside.end()) return html_url(path);

@@ -1,5 +1,5 @@
-// Cards of the report's list: what is said about a family of failures, as markup. The page holds as many as fit; what is
-// told of the rest (renders/report_rest.h) comes from here too.
+// Cards of the report's list: what is said about a family of failures, as markup. The page holds as many as fit; what
+// is told of the rest (renders/report_rest.h) comes from here too.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct FamilyCard {
 // Those that gate come first; else in the order of the model.
 std::vector<FamilyCard> cards_of(const ReportModel& model);
 
-// What the page has room for. Most of a page's bytes would be in rows that nobody reads: after the first 80 buckets they
+// The limits of a page. Most of a page's bytes would be in rows that nobody reads: after the first 80 buckets they
 // have no picture before they are opened, and specs are left to the viewer.
 struct Room {
   std::size_t buckets = 80;      // that may still be shown with everything
@@ -30,7 +30,7 @@ struct Room {
   void take(std::size_t written) { bytes -= written < bytes ? written : bytes; }
 };
 
-// What of a card is not on the page.
+// The rows of a card that are not on the page.
 struct LateCard {
   int number = 0;  // of the card
   const FamilyCard* card = nullptr;
@@ -41,7 +41,7 @@ struct LateCard {
 // The card with as many of its rows as fit; the others go into `late`. At least the first is there.
 std::string card_html(const FamilyCard& card, LateCard& late, Room& room, const PageFiles& inside);
 
-// What filters ask a card for: words with spaces between, each once.
+// The words that filters ask a card for, with spaces between, each once.
 std::string states_of(const FamilyCard& card);
 std::string phases_of(const FamilyCard& card);
 std::string parts_of(const ReportRow& row);  // "arm_left torso" of "human: arm_left/forearm ~ torso/chest"

@@ -1,5 +1,5 @@
-// The rows for which the report's first page has no room: as data that page.js puts into the page (docs/report.md), and as
-// a plain list for those who have no scripts.
+// The rows for which the report's first page has no room: as data that page.js puts into the page (docs/report.md), and
+// as a plain list for those who have no scripts.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// How many files row_scripts gives.
+// The number of files that row_scripts gives.
 std::size_t row_script_count(const std::vector<LateCard>& late);
 
 // "rows/part-1.js" and so on, each a call of contortRows with some hundred rows.

@@ -43,7 +43,7 @@ int only_child(const Character& character, int joint) {
   return child;
 }
 
-// What control adds to a joint's own freedoms.
+// The accelerations that control adds to a joint's own freedoms.
 std::span<const double> control_of(const ResponseFrame& of, int joint) {
   const Response& response = of.motion.response;
   int before = 0;

@@ -1,4 +1,4 @@
-// What dynamics did in a frame, as signs in its picture: arrows where control accelerates joints and where blows
+// The effects of dynamics in a frame, as signs in its picture: arrows where control accelerates joints and where blows
 // struck, boxes for loads, the zero moment point (ZMP) on the area that supports the figure.
 #pragma once
 
@@ -36,8 +36,8 @@ struct ResponseFrame {
   std::span<const Rigid> world;  // world_from_joint
 };
 
-// Where a joint's turning is shown: the next joint's origin, or, where none or several follow, the body's centre of
-// mass. In the world. Bodies without mass between the axes of an anatomical joint hand on to the next one.
+// The place at which a joint's turning is shown: the next joint's origin, or, where none or several follow, the body's
+// centre of mass. In the world. Bodies without mass between the axes of an anatomical joint hand on to the next one.
 Vec3 lever_point_m(const Character& character, std::span<const Rigid> world, int joint);
 
 // An arrow for each joint that control accelerates, from the lever point: where a hinge or ball turns it to, as long as

@@ -23,7 +23,7 @@ Json highlight_json(const Character& character, const Highlight& highlight);
 Json ground_json(const Environment& environment, std::span<const Rigid> path);
 Json obstacles_json(const Environment& environment);
 
-// What happened, over frames. Names of actions and interrupts are known where the generator says its intent.
+// The events of a motion, over frames. Names of actions and interrupts are known where the generator says its intent.
 Json spans_json(const Execution& execution);
 Json marks_json(const Execution& execution);
 Json balance_json(const Motion& motion);

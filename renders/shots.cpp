@@ -23,7 +23,7 @@ bool is_whole(const Character& character, const Motion& motion) {
          motion.root.size() == at(motion.frame_count);
 }
 
-// Of the root and all joints: the numbers in a row of Response::control.
+// The freedoms of the root and all joints: the numbers in a row of Response::control.
 int freedoms_of(const Character& character) {
   int count = 0;
   for (const Joint& joint : character.joints()) count += freedom_count(joint.kind);

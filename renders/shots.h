@@ -14,7 +14,7 @@
 
 namespace contort {
 
-// What there is to show. Of a motion that dynamics moved: its target as a ghost, the figure itself pale, and signs of
+// The motion to show. For one that dynamics moved: its target as a ghost, the figure itself pale, and signs of
 // what happened (renders/response_marks.h).
 struct Story {
   const Character& character;
@@ -38,15 +38,15 @@ struct Shots {
 // Codes: render.no_frames, render.wrong_motion, render.bad_frame.
 Result<Done> check_story(const Story& story, std::span<const int> frames);
 
-// Of frames that the motion has, without scenery.
+// Takes shots of frames that the motion has, without scenery.
 Shots take_shots(const Story& story, std::span<const int> frames);
 
-// What stands around, as far as a camera that frames all of these outlines sees it.
+// Adds the scenery, as far as a camera that frames all of these outlines sees it.
 void add_scenery(const Story& story, std::span<const std::vector<Vec3>> outlines, Shots& shots);
 
 Environment environment_of(const Story& story);
 
-// Of these views those from which the story's angle is seen: where a hinge left its range, along its axis, in which the
+// Keeps those views from which the story's angle is seen: where a hinge left its range, along its axis, in which the
 // sector of its range is not a line. All of them for everything else.
 std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View> views);
 

@@ -43,7 +43,7 @@ std::string md_row(const ReportRow& row) {
 
 // ---- GitHub's workflow commands
 
-// What would end a property or a line.
+// Escapes the characters that would end a property or a line.
 std::string command_text(const std::string& text, bool in_property) {
   std::string escaped;
   for (const char c : one_line(text)) {

@@ -88,7 +88,7 @@ FailureTraits traits_of(const ReportRow& row) {
 
 using Rows = std::vector<ReportRow>;  // of one family
 
-// What gates first, then by depth: the first row speaks for the family.
+// Sorts rows that gate first, then by depth: the first row speaks for the family.
 std::vector<Rows> families_of(std::vector<ReportRow>& rows) {
   std::vector<Rows> families;
   std::map<std::string, std::size_t> index;

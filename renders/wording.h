@@ -20,8 +20,8 @@ std::string count_text(std::int64_t count);
 // "1 case", "3 cases".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
 
-// What a phase (checks/circumstances.h) means: "just after an interrupt" for "interrupt"; words that are not known stay as
-// they are.
+// The meaning of a phase (checks/circumstances.h): "just after an interrupt" for "interrupt"; words that are not known
+// stay as they are.
 std::string phase_text(std::string_view phase);
 
 // One line of valid UTF-8: control characters and broken sequences become a replacement character; where there are more

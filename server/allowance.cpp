@@ -40,7 +40,7 @@ Allowance::Account& Allowance::account_of(const std::string& client, Time now) {
   return account;
 }
 
-// Who has all of it is as good as unknown.
+// A client that has all of its allowance is as good as unknown.
 void Allowance::forget_full(Time now) {
   std::erase_if(accounts_, [&](const auto& entry) {
     return entry.second.left + per_s_ * seconds_between(entry.second.since, now) >= at_once_;

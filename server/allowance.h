@@ -1,4 +1,5 @@
-// What each client may use of something: so much per second on average, and more after a pause (a bucket of tokens).
+// The share of something that each client may use: so much per second on average, and more after a pause (a bucket of
+// tokens).
 #pragma once
 
 #include <map>

@@ -32,7 +32,7 @@ struct AppConfig {
   std::function<std::string()> today;  // for what gates
 };
 
-// What everybody who listens is told of, by counters: a listener compares them with those that it saw last.
+// News for everybody who listens, as counters: a listener compares them with those that it saw last.
 class News {
  public:
   struct Seen {
@@ -75,7 +75,7 @@ class App {
   void close();
   bool closed() const { return closed_; }
 
-  // What handlers use.
+  // For handlers.
   const AppConfig& config() const { return config_; }
   Engine& engine() { return engine_; }
   const Limits& limits() const { return engine_.limits(); }

@@ -1,4 +1,4 @@
-// What the bodies of calls hold. One list of fields for each: reading, limits and the OpenAPI document come from it.
+// The bodies of calls. One list of fields for each: reading, limits and the OpenAPI document come from it.
 // Included from .cpp files only.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What sessions and calls have in common: workers, limits, and the thread that judges.
+// Shared by sessions and calls: workers, limits, and the thread that judges.
 #pragma once
 
 #include <condition_variable>
@@ -45,8 +45,8 @@ class Engine {
          const std::string& tool);
   ~Engine();
 
-  // What it takes is on the client's account. Codes of Broker::run and Worker::run; limit.cpu for what is urgent, where
-  // nothing is left (what can wait is a part of something that was begun).
+  // The time that it takes is on the client's account. Codes of Broker::run and Worker::run; limit.cpu for what is
+  // urgent, where nothing is left (what can wait is a part of something that was begun).
   Worked run(const Task& task, const std::string& client, Urgency urgency = Urgency::now);
 
   // For work elsewhere. Code limit.cpu.

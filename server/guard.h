@@ -1,4 +1,4 @@
-// Who may call. Every request passes here before anything else looks at it.
+// Decides who may call. Every request passes here before anything else looks at it.
 #pragma once
 
 #include <string>

@@ -35,7 +35,7 @@ std::string print_job(const Job& job);
 
 class Jobs {
  public:
-  // What a job has while it works: whether it is still wanted, and where it says what it took.
+  // The state of a job while it works: whether it is still wanted, and where it says what it took.
   struct Running {
     std::function<bool()> stop;
     double cpu_s = 0.0;

@@ -46,13 +46,13 @@ struct Played {
   int frame_bytes() const { return joint_count * kJointBytes; }
   // `count` frames at the most, as they are sent; "" beyond the end.
   std::string frames_from(int from, int count) const;
-  // Of two motions of one take the first frame that differs, in bits of what is sent.
+  // The first frame in which two motions of one take differ, in bits of what is sent.
   int first_difference(const Played& other) const;
-  // Where the root is in the world; a whole rotation, unless the motion is not finite.
+  // The place of the root in the world; a whole rotation, unless the motion is not finite.
   Rigid root(int frame) const;
 };
 
-// Of a worker's reply to TaskKind::play. Code work.damaged.
+// Reads a worker's reply to TaskKind::play. Code work.damaged.
 Result<std::shared_ptr<const Played>> played_of(const Reply& reply);
 
 // One spec in the modes in which it is played. Takes of a session are numbered from 1.

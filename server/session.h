@@ -56,7 +56,7 @@ class Session : public std::enable_shared_from_this<Session> {
   std::vector<Mode> modes() const;
   const SessionDesc& desc() const { return desc_; }
 
-  // What a stream must send now, in order; waits for it until `until`. Ends takes whose time is up.
+  // The events that a stream must send now, in order; waits for some until `until`. Ends takes whose time is up.
   std::vector<Event> events(StreamState& stream, Time until);
 
   void touch();

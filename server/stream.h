@@ -1,4 +1,4 @@
-// What a stream of a session sends: the events that bring a listener from what it knows to what is shown now.
+// The events that a stream of a session sends: those that bring a listener from what it knows to what is shown now.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace contort::server {
 
-// What a stream has sent so far.
+// The part that a stream has sent so far.
 struct StreamState {
   struct Frames {
     int first = 0;
@@ -32,7 +32,8 @@ struct Event {
 };
 std::string print_event(const Event& event);
 
-// In the order in which they are to be sent; none where the listener knows everything. `stream` is as if they were sent.
+// In the order in which they are to be sent; none where the listener knows everything. `stream` is as if they were
+// sent.
 std::vector<Event> events_of(const Playback& shown, StreamState& stream, Time now);
 
 }  // namespace contort::server

@@ -18,7 +18,7 @@ Quat start_turn(const Spec& spec) { return axis_angle(Vec3(0, 1, 0), spec.start.
 
 Vec3 start_place(const Spec& spec) { return {spec.start.position_m.x, 0.0, spec.start.position_m.z}; }
 
-// What runs in the frame that was shown last and in the next one too; nullptr where nothing does.
+// The span that runs in the frame that was shown last and in the next one too; nullptr where none does.
 const QueueSpan* running(const Moment& now) {
   const auto runs = [&](const QueueSpan& span) { return span.first_frame <= now.frame && now.frame < span.last_frame; };
   const auto found = std::ranges::find_if(now.queue, runs);

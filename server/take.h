@@ -11,7 +11,7 @@
 
 namespace contort::server {
 
-// How far a motion has been shown, and what ran until then.
+// The moment up to which a motion has been shown, and what ran until then.
 struct Moment {
   int frame = 0;  // the last one that was shown
   std::span<const QueueSpan> queue;

@@ -23,7 +23,7 @@ class Triage {
   Result<std::string> list(const std::string& today) const;
   Result<std::string> show(const std::string& bucket, const std::string& today) const;
 
-  // What is there afterwards, as JSON; it is on the disk by then. Codes bucket.*, file.unwritable.
+  // Returns the bucket as it is afterwards, as JSON; it is on the disk by then. Codes bucket.*, file.unwritable.
   Result<std::string> change(const std::string& bucket, const Corpus::Change& change, const std::string& today) const;
 
   // A case that a session showed: {bucket, is_new}.

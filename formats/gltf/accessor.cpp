@@ -124,7 +124,7 @@ Result<Done> check_finite(const std::vector<double>& values, std::size_t compone
                    std::to_string(position / components) + " is NaN or infinite"};
 }
 
-// Where each replacing element goes: ascending, within the accessor.
+// The index that each replacing element goes to: ascending, within the accessor.
 Result<std::vector<std::size_t>> sparse_targets(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                                                 const std::string& pointer) {
   const auto& indices = accessor.sparse.indices;

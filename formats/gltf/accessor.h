@@ -17,7 +17,7 @@ namespace contort {
 
 enum class ElementKind : std::uint8_t { scalar, vec3, vec4, mat4 };
 
-// Where an accessor stands in the file, for messages.
+// The JSON pointer of an accessor in the file, for messages.
 inline std::string accessor_pointer(int accessor) { return "/accessors/" + std::to_string(accessor); }
 
 class AccessorReader {

@@ -15,7 +15,7 @@ namespace contort {
 struct BufferSource {
   std::span<const std::byte> bin;  // Of the GLB.
   bool has_bin = false;
-  // Where external files may lie: here or below, after every symbolic link has been followed. "" allows none.
+  // External files may lie here or below, after every symbolic link has been followed. "" allows none.
   std::string folder;
 };
 

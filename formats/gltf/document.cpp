@@ -116,7 +116,7 @@ constexpr Field kRoot[] = {object("asset", kAsset, kRequired),
 
 // ---- checking against the tables
 
-// Where the checker stands. Written out only when something is wrong.
+// The place where the checker stands. Written out only when something is wrong.
 struct Place {
   const Place* parent = nullptr;
   std::string_view key;

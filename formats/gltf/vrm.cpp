@@ -11,7 +11,7 @@ using json_fields::Json;
 constexpr std::size_t kMaxBones = 200;  // VRM has 55
 constexpr std::size_t kMaxBoneName = 64;
 
-// What lies at a path of keys, or null.
+// Finds the value at a path of keys; null where there is none.
 const Json* find(const Json& root, std::initializer_list<const char*> keys) {
   const Json* at = &root;
   for (const char* key : keys) {

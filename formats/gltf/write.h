@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// Where the motion comes from. Goes into the scene's extras, which viewers show; "" is left out.
+// The origin of the motion. It goes into the scene's extras, which viewers show; "" is left out.
 struct GltfExtras {
   std::string case_id;
   std::string replay;  // The command that makes this motion again.

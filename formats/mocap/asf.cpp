@@ -14,8 +14,8 @@ namespace {
 constexpr MocapSyntax kAsfSyntax{.area = "asf", .alone = "", .blank = "()", .comment = '#'};
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// What limits and axes are multiplied with. The unit is declared before the bones in every file, but nothing says that
-// it must be: so it is applied at the end.
+// Limits and axes are multiplied with this factor. The unit is declared before the bones in every file, but nothing
+// says that it must be: so it is applied at the end.
 double to_rad(const AsfSkeleton& skeleton) { return skeleton.is_in_degrees ? kRadPerDeg : 1.0; }
 
 // A bone as written: angles in the file's unit.

@@ -113,7 +113,7 @@ Hierarchy read_hierarchy(MocapWords& words) {
 
 // ---- motion
 
-// Where a channel's numbers go: a node's rotation and translation in the clip, -1 where it has none.
+// A channel's numbers go to a node's rotation and translation in the clip; -1 where it has none.
 struct NodeTargets {
   int rotation = -1;
   int translation = -1;

@@ -1,4 +1,4 @@
-// What a motion capture file may hold. All are checked before memory is taken for what they count. The largest of the
+// No motion capture file may hold more. All limits are checked before memory is taken for them. The largest of the
 // files that the tests read has 2.1 MB, 142 nodes and 264 000 numbers.
 #pragma once
 

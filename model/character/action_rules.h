@@ -1,4 +1,5 @@
-// What the fields of an action file must satisfy together, beyond the limits of each and as far as no part is looked at.
+// The fields of an action file must satisfy these rules together, beyond the limits of each and as far as no part is
+// looked at.
 #pragma once
 
 #include <string>

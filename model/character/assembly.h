@@ -9,11 +9,11 @@
 
 namespace contort {
 
-// Of a whole character. Every pair of colliders is looked at: 523,776 at most.
+// A whole character has no more joints. Every pair of colliders is looked at: 523,776 at most.
 inline constexpr std::size_t kMaxCharacterJoints = 1024;
 inline constexpr std::size_t kMaxCharacterColliders = 1024;
 
-// Where a part docks: a joint of what is built so far, and a frame on it.
+// A part docks to a joint of the assembly that is built so far, in a frame on it.
 struct Dock {
   int joint = 0;
   Rigid joint_from_dock;
@@ -35,7 +35,7 @@ void add_part(Assembly& assembly, const SlotDesc& slot, const PartDesc& part, co
 // Adds an attached object, fixed to a dock.
 void add_object(Assembly& assembly, const ObjectDesc& object, const Dock& dock);
 
-// What the colliders of an assembly make: bodies, and the pairs of them that are judged.
+// The colliders of an assembly make bodies; the plan lists these and the pairs of them that are judged.
 struct CollisionPlan {
   std::vector<Body> bodies;
   std::vector<AllowedPair> allowed;

@@ -53,7 +53,7 @@ struct Joint {
 // 1 for hinges and prismatic joints, 4 for balls, 0 for the root.
 int coord_size(JointKind kind);
 
-// How many numbers its rate has: 6 for the root, 3 for balls, else 1.
+// The rate of such a joint has so many numbers: 6 for the root, 3 for balls, else 1.
 int freedom_count(JointKind kind);
 
 struct Collider {

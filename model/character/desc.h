@@ -154,8 +154,8 @@ struct ControlGroupDesc {
   bool operator==(const ControlGroupDesc&) const = default;
 };
 
-// Where a point of the figure must stay, or must not come: hands in front of the chest, a muzzle out of the head. The
-// shape moves with the root: its frame is the character's, on the ground under the root at rest, +Z forward.
+// A space in which a point of the figure must stay, or must not come: hands in front of the chest, a muzzle out of the
+// head. The shape moves with the root: its frame is the character's, on the ground under the root at rest, +Z forward.
 struct RegionDesc {
   std::string name;   // Unique in the character.
   std::string point;  // "arm_left/grip": a socket, or else a joint, of a slot
@@ -175,7 +175,7 @@ struct CharacterDesc {
   bool operator==(const CharacterDesc&) const = default;
 };
 
-// What a Spec says about its character: a name, and what differs from the character's defaults.
+// A Spec names its character, and lists what differs from the character's defaults.
 struct AttachmentDesc {
   std::string object;
   std::string slot;

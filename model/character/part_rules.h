@@ -1,4 +1,4 @@
-// What the fields of a part or an object must satisfy together, beyond the limits of each.
+// The fields of a part or an object must satisfy these rules together, beyond the limits of each.
 #pragma once
 
 #include "model/character/desc.h"

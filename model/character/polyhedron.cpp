@@ -93,7 +93,7 @@ std::vector<int> loop_of(std::span<const Vec3> points, const Facet& facet, doubl
     for (const std::size_t i : on) {
       if (i == here) continue;
       const Vec3 step = points[next] - points[here], other = points[i] - points[here];
-      // How far `other` is to the right of the way to `next`.
+      // The distance of `other` to the right of the way to `next`.
       const double right = next == here ? 1.0 : -glm::dot(glm::cross(step, other), facet.normal) / length(step);
       const bool farther = glm::dot(other, other) > glm::dot(step, step);
       if (next == here || right > tolerance || (right > -tolerance && farther && glm::dot(other, step) > 0.0)) next = i;
@@ -178,7 +178,7 @@ Polyhedron convex_polyhedron(std::span<const Vec3> points_m) {
   const double extent = extent_of(points_m);
   const std::vector<Vec3> points = without_repeats(points_m, 1e-12 * extent);
   if (points.size() < 4) return {};
-  // What counts as one plane must count so for every three of its points. Where it does not, a wider one may.
+  // A facet must count as one plane for every three of its points. If it does not, a wider tolerance may do.
   for (double tolerance = 1e-12; tolerance < 2e-9; tolerance *= 10.0) {
     Polyhedron out;
     const double sliver = 1e-15 / tolerance * extent * extent;  // its plane is 1e-15 extent / sine off at the far end

@@ -40,7 +40,7 @@ void add_quad(Triangles& out, const Vec3& a, const Vec3& b, const Vec3& c, const
   add_triangle(out, a, c, d);
 }
 
-// Of all rings and of all directions around: each corner of a capsule would ask for two of them.
+// Sines and cosines of all rings and of all directions around: each corner of a capsule would ask for two of them.
 struct CapsuleAngles {
   std::array<det::SinCos, 2 * kRings - 1> tilts;
   std::array<det::SinCos, kSegments> turns;

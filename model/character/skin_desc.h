@@ -1,5 +1,5 @@
-// How a character wears the model that it was imported from: skins/NAME.json beside the files of character NAME, and
-// the model next to it. Only pictures read it; a figure without it is drawn as its parts say.
+// A character may wear the model that it was imported from, as this says: skins/NAME.json beside the files of character
+// NAME, and the model next to it. Only pictures read it; a figure without it is drawn as its parts say.
 #pragma once
 
 #include <map>

@@ -32,7 +32,7 @@ bool has_only_file_names(std::string_view name) {
   }
 }
 
-// Of an entry whose own folder stays inside. Where a link ends is asked only where there is one.
+// For an entry whose own folder stays inside. Only a link is asked for its end.
 bool is_link_out(const std::string& folder, const fs::path& entry) {
   std::error_code error;
   if (!fs::is_symlink(fs::symlink_status(entry, error))) return false;

@@ -50,7 +50,7 @@ struct Rule {
   bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none
 };
 
-// Where the reader stands, and the first thing that it could not accept.
+// The place where the reader stands, and the first thing that it could not accept.
 class ReadContext {
  public:
   explicit ReadContext(std::string_view area) : area_(area) {}

@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// What is known of where the root goes.
+// An execution may know less than all of the root's path.
 enum class RootPath : std::uint8_t {
   told,         // all of it
   on_the_spot,  // how high it is; the figure walks without getting anywhere, as clips do that an engine moves

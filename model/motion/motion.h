@@ -17,7 +17,8 @@ struct Posture {
   bool operator==(const Posture&) const = default;
 };
 
-// In which frames an action had its layer of a part. Sequences of interrupts are numbered after those of the spec's queue.
+// In which frames an action had its layer of a part. Sequences of interrupts are numbered after those of the spec's
+// queue.
 struct ActionSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
@@ -46,7 +47,7 @@ struct AimSpan {
   bool operator==(const AimSpan&) const = default;
 };
 
-// How a figure that dynamics moves stands in a frame.
+// The footing of a figure that dynamics moves, in a frame.
 enum class Footing : std::uint8_t {
   standing,  // on its soles, flat
   airborne,  // on nothing
@@ -73,7 +74,7 @@ struct ImpactMark {
   bool operator==(const ImpactMark&) const = default;
 };
 
-// What dynamics did, frame by frame. Empty in kinematic motions.
+// The effects of dynamics, frame by frame. Empty in kinematic motions.
 struct Response {
   int dof_count = 0;                  // freedoms: six of the root, then those of the joints in order; see dynamics/multibody.h
   std::vector<double> target_coords;  // frames x coord_count: the motion that was followed

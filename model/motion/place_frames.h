@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// How many frames at a time, and by which instructions.
+// Places frames, several at a time, by the instructions that it is named after.
 struct PlacingKernel {
   const char* name;  // "any" or "AVX2"
   // As many of the first frames as it can do; says how many. `world` is frame * joint_count + joint.

@@ -15,7 +15,7 @@ namespace contort {
 
 namespace {
 
-// How much each node enlarges what hangs on it.
+// The factor by which each node enlarges what hangs on it.
 std::vector<Vec3> scales_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Vec3> scale(asset.nodes.size(), Vec3(1.0));
   for (const int node : asset.order) {
@@ -25,7 +25,7 @@ std::vector<Vec3> scales_of(const Asset& asset, const std::vector<Trs>& local) {
   return scale;
 }
 
-// Where every node is. Turns and places only: a bone that is scaled does not turn.
+// The place of every node. Turns and places only: a bone that is scaled does not turn.
 std::vector<Rigid> world_of(const Asset& asset, const std::vector<Trs>& local) {
   std::vector<Rigid> world(asset.nodes.size());
   const std::vector<Vec3> scale = scales_of(asset, local);
@@ -110,7 +110,7 @@ Quat facing_of(const std::vector<Vec3>& model, const std::vector<Vec3>& own) {
   return {kHalf, 0.0, across > 0.0 ? kHalf : -kHalf, 0.0};
 }
 
-// Of the two solutions of Euler angles the one nearer to the frame before, so that none jumps to the other.
+// Chooses the one of two solutions of Euler angles that is nearer to the frame before, so that none jumps to the other.
 Vec3 nearer_solution(const Vec3& one, const Vec3& before, int hinges) {
   const Vec3 other(wrap_angle(one.x + kPi), wrap_angle(kPi - one.y), wrap_angle(one.z + kPi));
   double apart[2] = {0.0, 0.0};
@@ -179,7 +179,7 @@ class Follower {
  private:
   const Joint& joint(int index) const { return character_.joints()[at(index)]; }
 
-  // How many hinges in one point, without nodes of their own, go with this one.
+  // Counts the hinges in one point that go with this one because they have no nodes of their own.
   int hinges_from(int first) const {
     int count = 1;
     while (count < 3 && joint(first).kind == JointKind::hinge && first + count < static_cast<int>(rest_.size())) {
@@ -273,7 +273,7 @@ class Follower {
     root = use_.start * Rigid{glm::normalize(q), fit_.scale * above_floor + Vec3(0, fit_.floor_m, 0)};
   }
 
-  // Where the joint should turn to, in the world.
+  // The rotation that the joint should reach, in the world.
   Quat wanted_turn(const Followed& f, const std::vector<Rigid>& nodes) const {
     return use_.start.q * turned(f.node, nodes) * f.world_aside * rest_[at(f.joint)].q;
   }

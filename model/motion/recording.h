@@ -33,7 +33,7 @@ struct RecordingUse {
   bool may_lack_root = false;  // without a node for the root, it stays where it is at rest
 };
 
-// How a joint followed its node, and the most that it left out.
+// A joint that followed a node, and the most that it left out.
 struct FollowedNode {
   int joint = 0;
   int node = 0;

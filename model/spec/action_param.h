@@ -17,7 +17,7 @@ enum class ParamType {
   own_point,     // the name of a point that the part carries: "grip", "muzzle"
 };
 
-// How the fuzzer chooses values; people may write any value within low and high.
+// The fuzzer chooses values by their domain; people may write any value within low and high.
 enum class Domain {
   uniform,       // anywhere in [low, high]
   joint_range,   // within the limits of the joint that the parameter is named after
@@ -25,8 +25,8 @@ enum class Domain {
   around,        // a point some metres around the character
 };
 
-// What becomes of a value on the other side of the character. Specs say what they mean; the files of actions are written
-// for the left side, as parts are.
+// A value may have another sign or meaning on the other side of the character. Specs say what they mean; the files of
+// actions are written for the left side, as parts are.
 enum class Mirrored {
   same,
   opposite,  // an angle to the left is one to the right

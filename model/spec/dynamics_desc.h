@@ -1,4 +1,4 @@
-// What a Spec says about dynamics: how the motion is controlled, what is carried, what strikes.
+// The dynamics that a Spec asks for: how the motion is controlled, what is carried, what strikes.
 #pragma once
 
 #include <span>

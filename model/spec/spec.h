@@ -15,7 +15,7 @@
 
 namespace contort {
 
-// Where the character stands in frame 0.
+// The place and heading of the character in frame 0.
 struct StartDesc {
   Vec3 position_m{0.0};      // its height is the ground's there
   double heading_deg = 0.0;  // about +Y; 0 faces +Z

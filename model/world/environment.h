@@ -30,7 +30,7 @@ class Environment {
   Environment() = default;  // a level plane at height 0
 
   double height_at(double x_m, double z_m) const;
-  // Of the ground; on steps that of the tread. Unit.
+  // The normal of the ground, a unit vector; on steps that of the tread.
   Vec3 normal_at(double x_m, double z_m) const;
   bool is_level() const { return level_; }
 

@@ -1,4 +1,4 @@
-// What a spec says about the surroundings. Plain values; build_environment (environment.h) checks them.
+// The surroundings that a spec describes. Plain values; build_environment (environment.h) checks them.
 #pragma once
 
 #include <string>

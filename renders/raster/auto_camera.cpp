@@ -12,7 +12,7 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 constexpr double kAroundFigure_m = 1.0;  // A few steps of a stair.
 
-// Of a pair, a chest has many more pixels than the hand in it: the sum alone would hide the hand. So the one that shows
+// In a pair, a chest has many more pixels than the hand in it: the sum alone would hide the hand. So the one that shows
 // least decides, and the sum between nearly equal views.
 int score(const std::vector<int>& visible) {
   if (visible.size() < 2) return 0;

@@ -1,4 +1,4 @@
-// Where OpenGL comes from. The renderer knows only this. Mesa has dropped OSMesa from release 25.1 on; EGL without a
+// A source of OpenGL. The renderer knows only this. Mesa has dropped OSMesa from release 25.1 on; EGL without a
 // screen takes its place, with the same bytes where both come from one release.
 #pragma once
 

@@ -24,8 +24,8 @@ struct Face {
   int fits(int width_px, int size_px) const { return static_cast<int>(width_px / (0.6021 * size_px)); }
 };
 
-// What can be written: ASCII. OpenImageIO 2.4 draws other characters as wrong ones (a degree sign as the digit 0), so
-// signs of ours are spelled out and the rest is "?". Longer text is cut, with "..." at its end.
+// The text that can be drawn: ASCII. OpenImageIO 2.4 draws other characters as wrong ones (a degree sign as the digit
+// 0), so signs of ours are spelled out and the rest is "?". Longer text is cut, with "..." at its end.
 std::string drawable_text(std::string_view text, int max_chars);
 
 // Writes drawable text with the baseline's left end at (x, y). Code: render.no_font.

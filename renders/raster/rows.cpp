@@ -78,7 +78,7 @@ void append(std::vector<Value>& all, const std::vector<Value>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// What all rows together show, for one camera.
+// The contents of all rows together, for one camera.
 struct Gathered {
   std::vector<Shots> rows;
   std::vector<std::vector<Vec3>> outlines;
