@@ -51,7 +51,7 @@ std::vector<Vec3> feature_ahead(const Solid& solid, const Vec3& n) {
 
 struct Pair {
   Vec3 on_a, on_b;
-  double length() const { return std::sqrt(glm::dot(on_b - on_a, on_b - on_a)); }
+  double length() const { return contort::length(on_b - on_a); }
 };
 
 // Whether p lies over the feature, seen along n, whose corners go counter-clockwise around `around`.

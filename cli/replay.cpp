@@ -89,9 +89,9 @@ struct Totals {
 };
 
 // One call of the command.
-class Session {
+class ReplayCommand {
  public:
-  Session(const ReplayOptions& options, RunCase replay, Context& context)
+  ReplayCommand(const ReplayOptions& options, RunCase replay, Context& context)
       : options_(options), replay_(std::move(replay), options.limits.limits()), context_(context) {}
 
   Result<Done> prepare() {
@@ -251,19 +251,19 @@ void run(const ReplayOptions& options, Context& context) {
   const auto replay_one = [&](const Case& stored) {
     return replay(stored, evaluator, *scope, isolation_of(options.limits.limits()));
   };
-  Session session(options, replay_one, context);
-  if (const Result<Done> ready = session.prepare(); !ready) return context.fail(ready.issue());
+  ReplayCommand replays(options, replay_one, context);
+  if (const Result<Done> ready = replays.prepare(); !ready) return context.fail(ready.issue());
   for (const std::string& path : options.paths) {
     std::error_code error;
     const bool is_folder = std::filesystem::is_directory(path, error);
     if (is_folder && !options.level.empty())
       return context.fail({"usage", "", "--level is for case files, and " + path + " is a folder"});
     if (is_folder)
-      session.run_corpus(path);
+      replays.run_corpus(path);
     else
-      session.run_case(path);
+      replays.run_case(path);
   }
-  session.finish();
+  replays.finish();
 }
 
 }  // namespace
