@@ -96,7 +96,7 @@ Result<Done> Session::change(const Change& change) {
   return Done{};
 }
 
-void Session::move_clock(const std::function<void(Playback&)>& move) {
+void Session::move_clock(const std::function<void(SessionState&)>& move) {
   touch();
   {
     const std::lock_guard lock(mutex_);
@@ -106,15 +106,15 @@ void Session::move_clock(const std::function<void(Playback&)>& move) {
 }
 
 void Session::play(bool playing) {
-  move_clock([playing](Playback& shown) { shown.play(playing, now()); });
+  move_clock([playing](SessionState& shown) { shown.play(playing, now()); });
 }
 
 void Session::step(int frames) {
-  move_clock([frames](Playback& shown) { shown.stop_at(shown.frame(now()) + frames, now()); });
+  move_clock([frames](SessionState& shown) { shown.stop_at(shown.frame(now()) + frames, now()); });
 }
 
 void Session::restart() {
-  move_clock([](Playback& shown) { shown.restart(now()); });
+  move_clock([](SessionState& shown) { shown.restart(now()); });
 }
 
 // ---- the next take

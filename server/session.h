@@ -12,7 +12,7 @@
 
 #include "model/spec/dynamics_desc.h"
 #include "server/engine.h"
-#include "server/playback.h"
+#include "server/session_state.h"
 #include "server/stream.h"
 #include "server/take.h"
 #include "server/take_maker.h"
@@ -74,7 +74,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void tell();
   void judge_soon();
   void judge();
-  void move_clock(const std::function<void(Playback&)>& move);
+  void move_clock(const std::function<void(SessionState&)>& move);
   bool has_ended() const;
   bool ends_soon() const;
   void prepare_next();
@@ -86,7 +86,7 @@ class Session : public std::enable_shared_from_this<Session> {
   std::mutex commands_;  // one change of the take at a time; taken before mutex_
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  Playback shown_;
+  SessionState shown_;
   Time used_{};
   bool closed_ = false;
 };

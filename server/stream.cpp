@@ -24,12 +24,12 @@ std::string quoted(std::string_view plain) { return "\"" + std::string(plain) + 
 std::string quoted_name(Mode mode) { return quoted(mode_names()[static_cast<std::size_t>(mode)]); }
 
 // The beginning of an event's data.
-std::string mark(const Playback& shown, Mode mode) {
+std::string mark(const SessionState& shown, Mode mode) {
   return "{\"take\":" + std::to_string(shown.take().number) + ",\"revision\":" + std::to_string(shown.revision()) +
          ",\"mode\":" + quoted_name(mode) + ",";
 }
 
-Event take_event(const Playback& shown) {
+Event take_event(const SessionState& shown) {
   std::string modes;
   for (const Mode mode : shown.modes()) modes += (modes.empty() ? "" : ",") + quoted_name(mode);
   char rate[40];
@@ -40,26 +40,26 @@ Event take_event(const Playback& shown) {
                       "],\"model\":" + std::to_string(shown.model_number()) + "}"};
 }
 
-Event clock_event(const Playback& shown, Time now) {
+Event clock_event(const SessionState& shown, Time now) {
   return {"clock", "{\"take\":" + std::to_string(shown.take().number) +
                        ",\"frame\":" + std::to_string(shown.frame(now)) +
                        ",\"playing\":" + (shown.clock().playing() ? "true" : "false") + "}"};
 }
 
-Event frames_event(const Playback& shown, Mode mode, int from, int count) {
+Event frames_event(const SessionState& shown, Mode mode, int from, int count) {
   const std::string part = shown.take().played.at(mode)->frames_from(from, count);
   return {"frames", mark(shown, mode) + "\"from\":" + std::to_string(from) + ",\"count\":" + std::to_string(count) +
                         ",\"data\":\"" + to_base64(std::as_bytes(std::span(part))) + "\"}"};
 }
 
 // Frames from `from` up to, without, `end`.
-void add_frames(const Playback& shown, Mode mode, int from, int end, std::vector<Event>& events) {
+void add_frames(const SessionState& shown, Mode mode, int from, int end, std::vector<Event>& events) {
   for (; from < end; from += kMostFramesAtOnce)
     events.push_back(frames_event(shown, mode, from, std::min(kMostFramesAtOnce, end - from)));
 }
 
 // Frames ahead of the clock: a lead, where less than the refill is left of it.
-void add_lead(const Playback& shown, Mode mode, Frames& sent, int frame, std::vector<Event>& events) {
+void add_lead(const SessionState& shown, Mode mode, Frames& sent, int frame, std::vector<Event>& events) {
   const Played& played = *shown.take().played.at(mode);
   const auto ahead = [&](double seconds) {
     return std::min(played.frame_count, frame + static_cast<int>(seconds * played.rate_hz) + 1);
@@ -70,7 +70,7 @@ void add_lead(const Playback& shown, Mode mode, Frames& sent, int frame, std::ve
 }
 
 // Frames that an edit changed are sent again: first those that the clock comes to, then those that were shown already.
-void add_frames_of(const Playback& shown, Mode mode, const StreamState& stream, Frames& sent, int frame,
+void add_frames_of(const SessionState& shown, Mode mode, const StreamState& stream, Frames& sent, int frame,
                    std::vector<Event>& events) {
   const bool knows_take = stream.revision >= 0;
   const int changed = knows_take ? shown.first_change(mode, stream.revision, sent.next) : sent.next;
@@ -81,7 +81,7 @@ void add_frames_of(const Playback& shown, Mode mode, const StreamState& stream, 
   add_frames(shown, mode, std::max(changed, sent.first), at_clock, events);
 }
 
-void add_take(const Playback& shown, StreamState& stream, Time now, std::vector<Event>& events) {
+void add_take(const SessionState& shown, StreamState& stream, Time now, std::vector<Event>& events) {
   if (stream.take == shown.take().number) return;
   stream.take = shown.take().number, stream.revision = -1, stream.clock = -1;
   stream.sent.clear(), stream.judged.clear();
@@ -89,14 +89,14 @@ void add_take(const Playback& shown, StreamState& stream, Time now, std::vector<
   events.push_back(take_event(shown));
 }
 
-void add_clock(const Playback& shown, StreamState& stream, Time now, std::vector<Event>& events) {
+void add_clock(const SessionState& shown, StreamState& stream, Time now, std::vector<Event>& events) {
   const bool is_due = shown.clock().playing() && now - stream.clock_sent > kClockEvery;
   if (stream.clock == shown.clock().version() && !is_due) return;
   stream.clock = shown.clock().version(), stream.clock_sent = now;
   events.push_back(clock_event(shown, now));
 }
 
-void add_motions(const Playback& shown, StreamState& stream, Time now, std::vector<Event>& events) {
+void add_motions(const SessionState& shown, StreamState& stream, Time now, std::vector<Event>& events) {
   const bool is_new = stream.revision != shown.revision();
   for (auto& [mode, sent] : stream.sent) {
     add_frames_of(shown, mode, stream, sent, shown.frame(now), events);
@@ -105,7 +105,7 @@ void add_motions(const Playback& shown, StreamState& stream, Time now, std::vect
   stream.revision = shown.revision();
 }
 
-void add_margins(const Playback& shown, StreamState& stream, std::vector<Event>& events) {
+void add_margins(const SessionState& shown, StreamState& stream, std::vector<Event>& events) {
   for (const auto& [mode, judged] : shown.judged())
     if (std::int64_t& known = stream.judged[mode]; known != judged.revision) {
       known = judged.revision;
@@ -113,7 +113,7 @@ void add_margins(const Playback& shown, StreamState& stream, std::vector<Event>&
     }
 }
 
-void add_problem(const Playback& shown, StreamState& stream, std::vector<Event>& events) {
+void add_problem(const SessionState& shown, StreamState& stream, std::vector<Event>& events) {
   if (stream.problem == shown.problem_number()) return;
   stream.problem = shown.problem_number();
   events.push_back({"problem", shown.problem()});
@@ -123,7 +123,7 @@ void add_problem(const Playback& shown, StreamState& stream, std::vector<Event>&
 
 std::string print_event(const Event& event) { return "event: " + event.name + "\ndata: " + event.data + "\n\n"; }
 
-std::vector<Event> events_of(const Playback& shown, StreamState& stream, Time now) {
+std::vector<Event> events_of(const SessionState& shown, StreamState& stream, Time now) {
   std::vector<Event> events;
   add_take(shown, stream, now, events);
   add_clock(shown, stream, now, events);

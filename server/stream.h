@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/playback.h"
+#include "server/session_state.h"
 
 namespace contort::server {
 
@@ -34,6 +34,6 @@ std::string print_event(const Event& event);
 
 // In the order in which they are to be sent; none where the listener knows everything. `stream` is as if they were
 // sent.
-std::vector<Event> events_of(const Playback& shown, StreamState& stream, Time now);
+std::vector<Event> events_of(const SessionState& shown, StreamState& stream, Time now);
 
 }  // namespace contort::server

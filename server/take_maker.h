@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "server/engine.h"
-#include "server/playback.h"
+#include "server/session_state.h"
 
 namespace contort::server {
 

@@ -30,7 +30,7 @@ std::string told(const std::vector<Event>& events) {
 }
 
 struct Stream {
-  Playback shown;
+  SessionState shown;
   StreamState state;
 
   explicit Stream(const std::string& letters) {

@@ -1,5 +1,5 @@
 // What a session shows, without workers: a clock that is told the time, and motions that are made of letters.
-#include "server/playback.h"
+#include "server/session_state.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@ using std::chrono::milliseconds;
 
 const Time kBegin = Time{} + std::chrono::hours(1);
 
-Playback showing(const std::string& letters) {
-  Playback shown;
+SessionState showing(const std::string& letters) {
+  SessionState shown;
   shown.begin_take(take_of(1, letters), {Mode::kinematic}, kBegin);
   return shown;
 }
 
-TEST(Playback, StopsInTheLastFrameAndSaysThatItEnded) {
-  Playback shown = showing("aaaaaaaaaaa");  // 10 Hz: a second
+TEST(SessionState, StopsInTheLastFrameAndSaysThatItEnded) {
+  SessionState shown = showing("aaaaaaaaaaa");  // 10 Hz: a second
   EXPECT_FALSE(shown.has_ended(kBegin + milliseconds(5000))) << "nothing plays yet";
   shown.play(true, kBegin);
   EXPECT_EQ(shown.frame(kBegin + milliseconds(450)), 4);
@@ -31,8 +31,8 @@ TEST(Playback, StopsInTheLastFrameAndSaysThatItEnded) {
   EXPECT_TRUE(shown.has_ended(kBegin + milliseconds(1050)));
 }
 
-TEST(Playback, StepsStayWithinTheTake) {
-  Playback shown = showing("aaaaa");
+TEST(SessionState, StepsStayWithinTheTake) {
+  SessionState shown = showing("aaaaa");
   shown.play(true, kBegin);
   shown.stop_at(99, kBegin);
   EXPECT_EQ(shown.frame(kBegin + milliseconds(900)), 4);
@@ -41,8 +41,8 @@ TEST(Playback, StepsStayWithinTheTake) {
   EXPECT_FALSE(shown.clock().playing());
 }
 
-TEST(Playback, KnowsTheFirstFrameThatEditsChangedSinceARevision) {
-  Playback shown = showing("aaaaaa");
+TEST(SessionState, KnowsTheFirstFrameThatEditsChangedSinceARevision) {
+  SessionState shown = showing("aaaaaa");
   shown.amend_take(take_of(1, "aaaabb"));
   shown.amend_take(take_of(1, "aabbbb"));
   shown.amend_take(take_of(1, "aabbbc"));
@@ -52,8 +52,8 @@ TEST(Playback, KnowsTheFirstFrameThatEditsChangedSinceARevision) {
   EXPECT_EQ(shown.first_change(Mode::kinematic, 4, 6), 6);
 }
 
-TEST(Playback, AnEditLeavesTheClockAloneAndForgetsWhatWasJudged) {
-  Playback shown = showing("aaaaaa");
+TEST(SessionState, AnEditLeavesTheClockAloneAndForgetsWhatWasJudged) {
+  SessionState shown = showing("aaaaaa");
   shown.play(true, kBegin);
   shown.set_judged(Mode::kinematic, {1, "\"findings\":[]}"});
   const std::int64_t clock = shown.clock().version();
@@ -63,8 +63,8 @@ TEST(Playback, AnEditLeavesTheClockAloneAndForgetsWhatWasJudged) {
   EXPECT_TRUE(shown.judged().empty());
 }
 
-TEST(Playback, KeepsTheSpecOfTheTakeBefore) {
-  Playback shown = showing("aa");
+TEST(SessionState, KeepsTheSpecOfTheTakeBefore) {
+  SessionState shown = showing("aa");
   shown.begin_take(take_of(2, "bb"), {Mode::kinematic}, kBegin);
   shown.begin_take(take_of(3, "cc"), {Mode::kinematic}, kBegin);
   EXPECT_FALSE(shown.spec_of(1, Mode::kinematic));
@@ -73,8 +73,8 @@ TEST(Playback, KeepsTheSpecOfTheTakeBefore) {
   EXPECT_FALSE(shown.spec_of(3, Mode::dynamic)) << "it was not played so";
 }
 
-TEST(Playback, WantsTheNextTakeWhenTheEndIsNear) {
-  Playback shown = showing(std::string(31, 'a'));
+TEST(SessionState, WantsTheNextTakeWhenTheEndIsNear) {
+  SessionState shown = showing(std::string(31, 'a'));
   EXPECT_FALSE(shown.needs_next(kBegin + milliseconds(2000))) << "nothing plays";
   shown.play(true, kBegin);
   EXPECT_FALSE(shown.needs_next(kBegin + milliseconds(1400)));
@@ -85,8 +85,8 @@ TEST(Playback, WantsTheNextTakeWhenTheEndIsNear) {
   EXPECT_TRUE(shown.needs_next(kBegin + milliseconds(1700))) << "the one that was made follows another spec";
 }
 
-TEST(Playback, RollsOnToTheNextTakeOrStandsStill) {
-  Playback shown = showing("aaa");
+TEST(SessionState, RollsOnToTheNextTakeOrStandsStill) {
+  SessionState shown = showing("aaa");
   shown.play(true, kBegin);
   shown.set_next(take_of(2, "bbbb"), shown.revision());
   const Time end = kBegin + milliseconds(300);
@@ -101,8 +101,8 @@ TEST(Playback, RollsOnToTheNextTakeOrStandsStill) {
   EXPECT_FALSE(shown.has_tried_next()) << "who plays again has it tried again";
 }
 
-TEST(Playback, ANewTakeStandsWhereTheFigureIsUnlessThatIsNowhere) {
-  Playback shown = showing("aaa");
+TEST(SessionState, ANewTakeStandsWhereTheFigureIsUnlessThatIsNowhere) {
+  SessionState shown = showing("aaa");
   PlayedTake take = take_of(2, "aaa");
   take.spec.start.position_m = Vec3(7.0, 0.0, 0.0);
   take.played[Mode::kinematic] = played_with_root_at({0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN()});
@@ -112,8 +112,8 @@ TEST(Playback, ANewTakeStandsWhereTheFigureIsUnlessThatIsNowhere) {
   EXPECT_EQ(shown.standing_spec(2).start.position_m.x, 7.0);
 }
 
-TEST(Playback, NumbersModelsThatDiffer) {
-  Playback shown;
+TEST(SessionState, NumbersModelsThatDiffer) {
+  SessionState shown;
   shown.set_model({"{\"a\":1}", kNoRotation});
   shown.set_model({"{\"a\":1}", kNoRotation});
   EXPECT_EQ(shown.model_number(), 1);

@@ -1,4 +1,4 @@
-#include "server/playback.h"
+#include "server/session_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,19 +36,19 @@ Json queue_json(const Played& played) {
   return queue;
 }
 
-Json modes_json(const Playback& shown) {
+Json modes_json(const SessionState& shown) {
   Json modes = Json::array();
   for (const Mode mode : shown.modes()) modes.push_back(word_of(mode));
   return modes;
 }
 
-Json hashes_json(const Playback& shown) {
+Json hashes_json(const SessionState& shown) {
   Json hashes = Json::object();
   for (const Mode mode : shown.modes()) hashes[word_of(mode)] = shown.take().played.at(mode)->motion_hash;
   return hashes;
 }
 
-Json findings_json(const Playback& shown) {
+Json findings_json(const SessionState& shown) {
   Json findings = Json::object();
   for (const Mode mode : shown.modes())
     if (const auto judged = shown.judged().find(mode); judged != shown.judged().end())
@@ -60,21 +60,21 @@ Json findings_json(const Playback& shown) {
 
 // ---- takes
 
-void Playback::install(PlayedTake take, std::vector<Mode> modes) {
+void SessionState::install(PlayedTake take, std::vector<Mode> modes) {
   ++revision_;
   take_ = std::move(take);
   modes_ = std::move(modes);
   judged_.clear();
 }
 
-void Playback::begin_take(PlayedTake take, std::vector<Mode> modes, Time now) {
+void SessionState::begin_take(PlayedTake take, std::vector<Mode> modes, Time now) {
   if (revision_ > 0) before_ = std::move(take_);
   changes_.clear();
   clock_.set(0, clock_.playing(), now);
   install(std::move(take), std::move(modes));
 }
 
-void Playback::amend_take(PlayedTake take) {
+void SessionState::amend_take(PlayedTake take) {
   Change change{revision_ + 1, {}};
   for (const auto& [mode, played] : take.played)
     change.first_frames[mode] = played->first_difference(*take_.played.at(mode));
@@ -82,19 +82,19 @@ void Playback::amend_take(PlayedTake take) {
   install(std::move(take), modes_);
 }
 
-void Playback::set_model(PlayedModel model) {
+void SessionState::set_model(PlayedModel model) {
   if (model.json != model_.json) ++model_number_;
   model_ = std::move(model);
 }
 
-int Playback::first_change(Mode mode, std::int64_t since, int unchanged) const {
+int SessionState::first_change(Mode mode, std::int64_t since, int unchanged) const {
   int first = unchanged;
   for (const Change& change : changes_)
     if (change.revision > since) first = std::min(first, change.first_frames.at(mode));
   return first;
 }
 
-std::optional<Spec> Playback::spec_of(int take, Mode mode) const {
+std::optional<Spec> SessionState::spec_of(int take, Mode mode) const {
   const PlayedTake* meant = take == take_.number ? &take_ : before_ && before_->number == take ? &*before_ : nullptr;
   if (meant == nullptr || !meant->played.contains(mode)) return std::nullopt;
   Spec spec = meant->spec;
@@ -102,25 +102,25 @@ std::optional<Spec> Playback::spec_of(int take, Mode mode) const {
   return spec;
 }
 
-std::size_t Playback::bytes() const {
+std::size_t SessionState::bytes() const {
   return model_.json.size() + frame_bytes_of(take_) + frame_bytes_of(before_) + frame_bytes_of(next_);
 }
 
 // ---- the clock
 
-void Playback::play(bool playing, Time now) { clock_.set(frame(now), playing, now); }
+void SessionState::play(bool playing, Time now) { clock_.set(frame(now), playing, now); }
 
-void Playback::stop_at(int frame, Time now) { clock_.set(std::clamp(frame, 0, last_frame()), false, now); }
+void SessionState::stop_at(int frame, Time now) { clock_.set(std::clamp(frame, 0, last_frame()), false, now); }
 
-void Playback::restart(Time now) { clock_.set(0, clock_.playing(), now); }
+void SessionState::restart(Time now) { clock_.set(0, clock_.playing(), now); }
 
-int Playback::frame(Time now) const { return std::clamp(clock_.frame(main().rate_hz, now), 0, last_frame()); }
+int SessionState::frame(Time now) const { return std::clamp(clock_.frame(main().rate_hz, now), 0, last_frame()); }
 
-bool Playback::has_ended(Time now) const { return clock_.playing() && frame(now) >= last_frame(); }
+bool SessionState::has_ended(Time now) const { return clock_.playing() && frame(now) >= last_frame(); }
 
 // ---- the next take
 
-Spec Playback::standing_spec(int frame) const {
+Spec SessionState::standing_spec(int frame) const {
   const Rigid root = main().root(frame);
   if (is_finite_place(root)) return next_take(take_.spec, root, model_.rest);
   Spec again = next_take(take_.spec, {model_.rest, take_.spec.start.position_m}, model_.rest);
@@ -128,16 +128,16 @@ Spec Playback::standing_spec(int frame) const {
   return again;
 }
 
-bool Playback::needs_next(Time now) const {
+bool SessionState::needs_next(Time now) const {
   return clock_.playing() && !has_tried_next() && frame(now) + kPrepare_s * main().rate_hz > last_frame();
 }
 
-void Playback::set_next(std::optional<PlayedTake> take, std::int64_t revision) {
+void SessionState::set_next(std::optional<PlayedTake> take, std::int64_t revision) {
   next_ = std::move(take);
   next_for_ = revision;
 }
 
-void Playback::roll(Time now) {
+void SessionState::roll(Time now) {
   if (next_ && has_tried_next()) return begin_take(*std::exchange(next_, std::nullopt), modes_, now);
   next_for_ = -1;
   stop_at(last_frame(), now);
@@ -145,7 +145,7 @@ void Playback::roll(Time now) {
 
 // ---- as JSON
 
-std::string print_state(const Playback& shown, const std::string& session, double cpu_s, Time now) {
+std::string print_state(const SessionState& shown, const std::string& session, double cpu_s, Time now) {
   return json_fields::compact_text({{"session", session},
                                     {"spec", *json_fields::parse_document(print_spec(shown.take().spec))},
                                     {"take", shown.take().number},

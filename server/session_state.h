@@ -25,7 +25,7 @@ struct Judged {
   bool operator==(const Judged&) const = default;
 };
 
-class Playback {
+class SessionState {
  public:
   // Begins the first take or the one after the present one, in its frame 0. `modes` is not empty, and the take was
   // played in each of them; the first one is whose figure goes on in the next take.
@@ -98,6 +98,6 @@ class Playback {
 };
 
 // The state of a session of this name as JSON (docs/server.md).
-std::string print_state(const Playback& shown, const std::string& session, double cpu_s, Time now);
+std::string print_state(const SessionState& shown, const std::string& session, double cpu_s, Time now);
 
 }  // namespace contort::server
