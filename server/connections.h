@@ -33,8 +33,10 @@ class Connections {
     Connections& all_;
     int socket_;
     std::string client_;
-    Doing doing_ = Doing::working;  // these two with the mutex held
-    Time since_{};
+    // These two with the mutex held. A new connection has sent no request yet, so it waits from the beginning: its
+    // thread may come late to say so.
+    Doing doing_ = Doing::waiting_for_request;
+    Time since_ = now();
   };
 
   Connections(int most, int most_of_client) : most_(most), most_of_client_(most_of_client) {}
