@@ -7,6 +7,7 @@
 #include "cli/input.h"
 #include "cli/judged_text.h"
 #include "cli/print.h"
+#include "cli/unmet_text.h"
 #include "corpus/evaluator.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
@@ -27,6 +28,7 @@ Json spec_json(const std::string& file, const Execution& made, const CheckSettin
           {"judged", Json::parse(judged_json(evaluation.judged))},
           {"not_judged", Json::parse(not_judged_json(evaluation.not_judged))},
           {"waivers", Json::parse(waivers_json(settings, evaluation.waivers))},
+          {"unmet", Json::parse(unmet_json(made))},
           {"findings", Json::parse(findings_json(evaluation.findings, made.motion.rate_hz, at_worst))}};
 }
 
@@ -63,6 +65,7 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
   for (std::size_t i = 0; i < at_worst.size(); ++i)
     std::printf("%s\n", finding_line(evaluation.findings[i], made.motion.rate_hz, at_worst[i]).c_str());
   for (const std::string& line : waiver_lines(*settings, evaluation.waivers)) std::printf("%s\n", line.c_str());
+  for (const std::string& line : unmet_lines(made)) std::printf("%s\n", line.c_str());
   print_judged(evaluation, *made.character);
   const std::size_t count = evaluation.findings.size();
   std::printf("%s\nRESULT findings=%zu", count == 0 ? "OK: nothing found." : "FAILED: limits are violated.", count);

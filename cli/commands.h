@@ -59,6 +59,7 @@ struct Context {
 void add_fuzz(CLI::App& app, Context& context);
 void add_replay(CLI::App& app, Context& context);
 void add_generate(CLI::App& app, Context& context);
+void add_audit(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_shrink(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);

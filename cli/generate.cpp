@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/unmet_text.h"
 #include "formats/gltf/write.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
@@ -64,6 +65,7 @@ void run(const GenerateOptions& options, Context& context) {
   if (!saved) return context.fail(saved.issue(), kInternal);
   std::printf("%s: %d frames at %g Hz, motion %s\n", options.output.c_str(), motion.frame_count, motion.rate_hz,
               to_hex(motion_hash(motion)).c_str());
+  for (const std::string& line : unmet_lines(*execution)) std::printf("%s\n", line.c_str());
 }
 
 }  // namespace

@@ -11,4 +11,14 @@ std::string_view layer_name(Layer layer) {
   return "";
 }
 
+std::string_view shortfall_name(Shortfall shortfall) {
+  switch (shortfall) {
+    case Shortfall::out_of_reach: return "out_of_reach";
+    case Shortfall::joint_range: return "joint_range";
+    case Shortfall::joint_speed: return "joint_speed";
+    case Shortfall::clearance: return "clearance";
+  }
+  return "";
+}
+
 }  // namespace contort

@@ -64,11 +64,31 @@ struct Goal {
   bool operator==(const Goal&) const = default;
 };
 
+// The reason for which a request cannot be met.
+enum class Shortfall : std::uint8_t {
+  out_of_reach,  // the limb is too short, or what it stands on too high, too low or too steep
+  joint_range,
+  joint_speed,
+  clearance,  // bodies would overlap
+};
+std::string_view shortfall_name(Shortfall shortfall);
+
+// A request that the generator could not meet: it came as near as it could. It is a note, not a fault.
+struct UnmetRequest {
+  int first_frame = 0;
+  int last_frame = -1;  // inclusive
+  int part = 0;         // of the character: the part that was to be moved
+  std::string action;   // the name that the spec uses
+  Shortfall why = Shortfall::out_of_reach;
+  bool operator==(const UnmetRequest&) const = default;
+};
+
 struct Intent {
   int queued = 0;  // sequences of the spec's own queue; those that follow belong to interrupts
   std::vector<IntendedSequence> sequences;
   std::vector<IntendedAction> actions;  // in the spec's order
   std::vector<Goal> goals;
+  std::vector<UnmetRequest> unmet;  // in the order of their first frames
   bool operator==(const Intent&) const = default;
 };
 

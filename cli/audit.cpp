@@ -1,0 +1,139 @@
+// contort audit: every action alone, over all that it declares.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/progress_line.h"
+#include "fuzz/audit.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+using json_fields::Json;
+
+struct AuditCommand {
+  AuditOptions audit;
+  bool json = false;
+  std::string folder;  // for the worst spec of each row; "": none
+};
+
+double percent(int count, int of) { return 100.0 * count / std::max(1, of); }
+
+// "human, mech_arm_slim, object:rifle/muzzle": what makes the row another one than those of the same slot and action.
+std::string place_of(const AuditRow& row) {
+  return row.character.name + "/" + row.slot + (row.character.parts.empty() ? "" : " (" + row.part + ")");
+}
+
+std::string findings_of(const AuditRow& row) {
+  std::string text;
+  for (const auto& [check, count] : row.findings)
+    text += (text.empty() ? "" : ", ") + check + " " + std::to_string(count);
+  return text;
+}
+
+void print_table(const std::vector<AuditRow>& rows) {
+  std::printf("%-44s %-14s %-9s %7s %7s %7s  %s\n", "part", "action", "point", "draws", "clean", "unmet", "findings");
+  for (const AuditRow& row : rows)
+    std::printf("%-44s %-14s %-9s %7d %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(), row.action.c_str(),
+                row.point.c_str(), row.draws, percent(row.clean, row.draws), percent(row.unmet, row.draws),
+                findings_of(row).c_str());
+}
+
+Json row_json(const AuditRow& row) {
+  return {{"character", row.character.name},
+          {"slot", row.slot},
+          {"part", row.part},
+          {"action", row.action},
+          {"point", row.point},
+          {"draws", row.draws},
+          {"clean", row.clean},
+          {"unmet", row.unmet},
+          {"findings", row.findings},
+          {"depth", row.depth},
+          {"worst", row.worst == Spec{} ? Json() : Json::parse(print_spec(row.worst))}};
+}
+
+Json rows_json(const std::vector<AuditRow>& rows) {
+  Json list = Json::array();
+  for (const AuditRow& row : rows) list.push_back(row_json(row));
+  return list;
+}
+
+// "human-arm_left-reach.json", with the part and the point where they make the row another one.
+std::string file_of(const AuditRow& row) {
+  std::string name = row.character.name + "-" + row.slot;
+  if (!row.character.parts.empty()) name += "-" + row.part;
+  name += "-" + row.action;
+  return row.point.empty() ? name : name + "-" + row.point;
+}
+
+Result<Done> write_worst(const std::string& folder, const std::vector<AuditRow>& rows) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Issue{"file.unwritable", "", folder + ": " + error.message()};
+  for (const AuditRow& row : rows) {
+    if (row.worst == Spec{}) continue;
+    const std::string path = folder + "/" + file_of(row) + ".json";
+    if (const Result<Done> written = write_file(path, pretty_spec(row.worst)); !written) return written.issue();
+  }
+  return Done{};
+}
+
+int clean_rows(const std::vector<AuditRow>& rows) {
+  return static_cast<int>(std::ranges::count_if(rows, [](const AuditRow& row) { return row.clean == row.draws; }));
+}
+
+void run(const AuditCommand& options, Context& context) {
+  Generator* generator = context.load_generator();
+  if (generator == nullptr) return;
+  const Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
+  Result<std::vector<AuditRow>> found = audit_rows(options.audit, *generator);
+  if (!found) return context.fail(found.issue());
+  std::vector<AuditRow> rows = std::move(found).value();
+  const ProgressLine line;
+  const auto progress = [&](int at) {
+    if (line.wanted())
+      line.show(static_cast<double>(at) / static_cast<double>(rows.size()), rows[static_cast<std::size_t>(at)].action);
+  };
+  const Result<Done> done = audit(options.audit, *settings, *generator, rows, progress);
+  line.clear();
+  if (!done) return context.fail(done.issue());
+  if (!options.folder.empty())
+    if (const Result<Done> written = write_worst(options.folder, rows); !written)
+      return context.fail(written.issue(), kInternal);
+  const int clean = clean_rows(rows);
+  context.exit_code = clean == static_cast<int>(rows.size()) ? kClean : kFindings;
+  if (options.json) return void(std::printf("%s\n", rows_json(rows).dump(2).c_str()));
+  print_table(rows);
+  std::printf("RESULT rows=%zu clean=%d\n", rows.size(), clean);
+}
+
+}  // namespace
+
+void add_audit(CLI::App& app, Context& context) {
+  auto options = std::make_shared<AuditCommand>();
+  AuditOptions& audit = options->audit;
+  audit.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  CLI::App* command = app.add_subcommand("audit", "Every action alone, over all parameter values that it declares");
+  command->add_option("--character", audit.characters, "Only this character (again for more)");
+  command->add_option("--action", audit.actions, "Only this action (again for more)");
+  command->add_option("--slot", audit.slots, "Only this slot (again for more)");
+  command->add_option("--draws", audit.draws, "Motions for each row")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", audit.seed, "Other seeds draw other motions")->capture_default_str();
+  command->add_option("--jobs", audit.jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
+  command->add_option("--worst", options->folder, "Folder for the spec of each row's worst motion");
+  command->add_flag("--json", options->json, "JSON on standard output");
+  command->footer("Example: contort audit --character human --action reach");
+  command->callback([options, &context] { run(*options, context); });
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,53 @@
+#include "cli/unmet_text.h"
+
+#include "model/core/index.h"
+#include "model/core/json_fields.h"
+
+namespace contort::cli {
+
+namespace {
+
+using json_fields::Json;
+
+const std::vector<UnmetRequest>& unmet_of(const Execution& made) {
+  static const std::vector<UnmetRequest> none;
+  return made.intent ? made.intent->unmet : none;
+}
+
+const std::string& slot_of(const Execution& made, const UnmetRequest& unmet) {
+  return made.character->parts()[at(unmet.part)].slot;
+}
+
+std::string reason_of(Shortfall why) {
+  switch (why) {
+    case Shortfall::out_of_reach: return "it is out of reach";
+    case Shortfall::joint_range: return "a joint is at the end of its range";
+    case Shortfall::joint_speed: return "there was not enough time for the speed of a joint";
+    case Shortfall::clearance: return "bodies would come too near";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> unmet_lines(const Execution& made) {
+  std::vector<std::string> lines;
+  for (const UnmetRequest& unmet : unmet_of(made))
+    lines.push_back("note: " + unmet.action + " (" + slot_of(made, unmet) + ") was not met in frames " +
+                    std::to_string(unmet.first_frame) + "-" + std::to_string(unmet.last_frame) + ": " +
+                    reason_of(unmet.why));
+  return lines;
+}
+
+std::string unmet_json(const Execution& made) {
+  Json list = Json::array();
+  for (const UnmetRequest& unmet : unmet_of(made))
+    list.push_back({{"action", unmet.action},
+                    {"slot", slot_of(made, unmet)},
+                    {"first_frame", unmet.first_frame},
+                    {"last_frame", unmet.last_frame},
+                    {"why", shortfall_name(unmet.why)}});
+  return list.dump();
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,298 @@
+#include "fuzz/audit.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "fuzz/compose_params.h"
+#include "fuzz/dice.h"
+#include "fuzz/parallel.h"
+#include "model/character/character.h"
+#include "model/core/nearest.h"
+#include "model/motion/legs.h"
+
+namespace contort {
+
+namespace {
+
+constexpr std::uint64_t kAuditStream = 0x6175646974ULL;
+constexpr int kShortestFrames = 20, kLongestFrames = 90;
+constexpr int kHoldFrames = 30;  // for the figure to come to rest
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+bool wanted(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || holds(names, name);
+}
+
+// A character with at most one change: another part in a slot, or an object at a socket.
+struct Variant {
+  CharacterChoice choice;
+  std::string slot;    // of the other part; "" for the character as it is by default
+  std::string object;  // that it carries
+};
+
+void add_parts(const CharacterDesc& desc, std::vector<Variant>& out) {
+  for (const SlotDesc& slot : desc.slots)
+    for (std::size_t i = 1; i < slot.parts.size(); ++i) {
+      Variant variant{{desc.name, {}, {}}, slot.name, ""};
+      variant.choice.parts[slot.name] = slot.parts[i];
+      out.push_back(std::move(variant));
+    }
+}
+
+void add_objects(const CharacterDesc& desc, const Library& library, std::vector<Variant>& out) {
+  const Result<Character> bare = build_character({desc.name, {}, {}}, library);
+  for (const std::string& name : desc.objects) {
+    const auto object = library.objects.find(name);
+    if (!bare || object == library.objects.end()) continue;
+    for (const Socket& socket : bare->sockets()) {
+      const std::size_t slash = socket.name.find('/');
+      if (!holds(object->second.docks, socket.name.substr(slash + 1))) continue;
+      Variant variant{{desc.name, {}, {}}, "", name};
+      variant.choice.attachments = {{name, socket.name.substr(0, slash), socket.name.substr(slash + 1)}};
+      out.push_back(std::move(variant));
+    }
+  }
+}
+
+std::vector<Variant> variants_of(const CharacterDesc& desc, const Library& library) {
+  std::vector<Variant> all = {{{desc.name, {}, {}}, "", ""}};
+  add_parts(desc, all);
+  add_objects(desc, library, all);
+  return all;
+}
+
+bool is_point(const ParamDef& def) {
+  return def.type == ParamType::object_point || def.type == ParamType::own_point;
+}
+
+// The points for which a variant has a row of its own: those of its object, and by default those that parts have.
+std::vector<std::string> points_of(const OfferedAction& action, const Character& character, const Variant& variant) {
+  const auto def = std::ranges::find_if(action.params, is_point);
+  std::vector<std::string> points;
+  if (def == action.params.end() && variant.object.empty()) points.push_back("");
+  if (def == action.params.end()) return points;
+  for (const std::string& point : def->points)
+    if ((character.find_socket("object:" + variant.object + "/" + point) >= 0) == !variant.object.empty())
+      points.push_back(point);
+  return points;
+}
+
+void add_rows(const AuditOptions& options, const Variant& variant, const Character& character, const Offers& offers,
+              std::vector<AuditRow>& rows) {
+  for (std::size_t p = 0; p < offers.size(); ++p) {
+    const Part& part = character.parts()[p];
+    if (!wanted(options.slots, part.slot) || (!variant.slot.empty() && variant.slot != part.slot)) continue;
+    for (const OfferedAction& action : offers[p])
+      for (const std::string& point : points_of(action, character, variant))
+        if (wanted(options.actions, action.name))
+          rows.push_back({variant.choice, part.slot, part.name, action.name, point, 0, 0, 0, {}, {}, 0.0});
+  }
+}
+
+// One in four is at an end of its range, or as it is where a spec does not say it.
+void take_corners(const OfferedAction& action, Dice& dice, ActionUse& use) {
+  for (const ParamDef& def : action.params) {
+    if (def.type != ParamType::number || def.domain != Domain::uniform || !dice.one_in(4)) continue;
+    const std::array<ParamValue, 3> corners{def.low, def.high, def.preset};
+    use.params[def.name] = corners[static_cast<std::size_t>(dice.below(3))];
+  }
+}
+
+// The character of a row, and the action with the part that does it.
+struct Offered {
+  Character character;
+  OfferedAction action;
+  int part = 0;
+  bool touches = false;  // what stands beside the part
+};
+
+bool touches_walls(const Generator& generator, const Character& character, const OfferedAction& action, int part) {
+  const bool is_leg = std::ranges::any_of(find_legs(character), [part](const Leg& leg) { return leg.part == part; });
+  const bool tells = std::ranges::any_of(action.tells, [part](const EventSource& source) {
+    return source.event == Event::contact && source.part == part;
+  });
+  return tells && !is_leg && generator.manifest().can.obstacles;
+}
+
+// A wall to touch, at the part's side.
+ObstacleDesc wall_beside(const Part& part, Dice& dice) {
+  const double distance_m = 0.01 * (30 + dice.below(60));
+  Box wall;
+  wall.center_m = Vec3(part.side == Side::right ? -distance_m - 0.1 : distance_m + 0.1, 1.0, 0.0);
+  wall.half_m = Vec3(0.1, 1.0, 2.0);
+  return {"wall", wall};
+}
+
+struct Outcome {
+  std::vector<std::string> checks;  // that found something
+  double depth = 0.0;
+  bool unmet = false;
+};
+
+// The figure rests in the last frames. A finding that lasts until then is one of the pose itself.
+bool is_static(const Finding& finding, const Motion& motion) {
+  const bool of_poses =
+      finding.check == "joint_range" || finding.check == "self_collision" || finding.check == "ground_penetration";
+  return of_poses && finding.last_frame == motion.frame_count - 1;
+}
+
+Outcome outcome_of(const Evaluation& evaluation, const Execution& made, Layer layer) {
+  Outcome outcome;
+  outcome.unmet = made.intent && !made.intent->unmet.empty();
+  for (const Finding& finding : evaluation.findings) {
+    if (layer == Layer::overwrite && is_static(finding, made.motion)) {
+      outcome.unmet = true;
+      continue;
+    }
+    if (!holds(outcome.checks, finding.check)) outcome.checks.push_back(finding.check);
+    outcome.depth = std::max(outcome.depth, finding.depth);
+  }
+  return outcome;
+}
+
+Offered offered(const AuditRow& row, Generator& generator) {
+  Character character = build_character(row.character, *generator.manifest().library).value();
+  const int part = character.find_part(row.slot);
+  OfferedAction action = *find_offer(generator.offers(character), part, row.action);
+  const bool touches = touches_walls(generator, character, action, part);
+  return {std::move(character), std::move(action), part, touches};
+}
+
+Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index) {
+  Dice dice(seed, index, kAuditStream);
+  std::array<int, kRawValues> raw{};
+  for (int& value : raw) value = dice.raw();
+  ActionUse use;
+  use.action = row.action, use.slot = row.slot;
+  use.duration_frames = kShortestFrames + dice.below(kLongestFrames - kShortestFrames + 1);
+  const Part& part = on.character.parts()[static_cast<std::size_t>(on.part)];
+  draw_params(on.character, part, on.action, Profile{}, raw, use);
+  take_corners(on.action, dice, use);
+  for (const ParamDef& def : on.action.params)
+    if (is_point(def)) use.params[def.name] = row.point;
+  Spec spec;
+  spec.character = row.character;
+  spec.hold_frames = kHoldFrames;
+  if (on.touches) spec.environment.obstacles = {wall_beside(part, dice)};
+  ClipDesc clip;
+  clip.actions = {use};
+  spec.sequences.push_back({});
+  spec.sequences.back().clips = {clip};
+  return spec;
+}
+
+// Each worker's own generator and memory.
+class Workers {
+ public:
+  Workers(const Generator& generator, const CheckSettings& settings, int jobs) {
+    for (int i = 0; i < jobs; ++i) {
+      generators_.push_back(generator.another());
+      evaluators_.push_back(std::make_unique<Evaluator>(*generators_.back(), settings));
+    }
+  }
+  Evaluator& evaluator(int worker) { return *evaluators_[static_cast<std::size_t>(worker)]; }
+
+ private:
+  std::vector<std::unique_ptr<Generator>> generators_;
+  std::vector<std::unique_ptr<Evaluator>> evaluators_;
+};
+
+void fold(const Outcome& outcome, const Offered& on, std::int64_t seed, int index, AuditRow& row) {
+  const bool first_unmet = outcome.unmet && row.unmet == 0 && row.depth == 0.0;
+  ++row.draws;
+  row.clean += outcome.checks.empty() ? 1 : 0;
+  row.unmet += outcome.unmet ? 1 : 0;
+  for (const std::string& check : outcome.checks) ++row.findings[check];
+  if (outcome.depth > row.depth || first_unmet) row.worst = drawn(row, on, seed, index);
+  row.depth = std::max(row.depth, outcome.depth);
+}
+
+Result<Done> audit_row(const AuditOptions& options, const Offered& on, Workers& workers, AuditRow& row) {
+  std::vector<Result<Outcome>> outcomes(static_cast<std::size_t>(options.draws), Outcome{});
+  parallel_for(options.jobs, options.draws, [&](int worker, int index) {
+    Evaluator& evaluator = workers.evaluator(worker);
+    const Result<Evaluation> evaluation = evaluator.run(drawn(row, on, options.seed, index));
+    outcomes[static_cast<std::size_t>(index)] =
+        evaluation ? Result<Outcome>(outcome_of(*evaluation, evaluator.execution(), on.action.layer))
+                   : Result<Outcome>(evaluation.issue());
+  }, [] {});
+  for (int index = 0; index < options.draws; ++index) {
+    const Result<Outcome>& outcome = outcomes[static_cast<std::size_t>(index)];
+    if (!outcome) return outcome.issue();
+    fold(*outcome, on, options.seed, index, row);
+  }
+  return Done{};
+}
+
+std::vector<std::string> slots_of(const Library& library) {
+  std::vector<std::string> names;
+  for (const auto& [name, desc] : library.characters)
+    for (const SlotDesc& slot : desc.slots)
+      if (!holds(names, slot.name)) names.push_back(slot.name);
+  return names;
+}
+
+std::vector<std::string> characters_of(const Library& library) {
+  std::vector<std::string> names;
+  for (const auto& [name, desc] : library.characters) names.push_back(name);
+  return names;
+}
+
+Result<Done> know(const std::vector<std::string>& asked, const std::vector<std::string>& known,
+                  const std::string& kind) {
+  std::string names;
+  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : asked)
+    if (!holds(known, name))
+      return Issue{"audit.unknown_" + kind, "",
+                   "there is no " + kind + " \"" + name + "\"; there are " + names + did_you_mean(name, names)};
+  return Done{};
+}
+
+Result<Done> know_all(const AuditOptions& options, const Manifest& manifest) {
+  const Library& library = *manifest.library;
+  if (const Result<Done> known = know(options.characters, characters_of(library), "character"); !known) return known;
+  if (const Result<Done> known = know(options.actions, manifest.actions, "action"); !known) return known;
+  return know(options.slots, slots_of(library), "slot");
+}
+
+}  // namespace
+
+Result<std::vector<AuditRow>> audit_rows(const AuditOptions& options, Generator& generator) {
+  if (const Result<Done> known = know_all(options, generator.manifest()); !known) return known.issue();
+  const Library& library = *generator.manifest().library;
+  std::vector<AuditRow> rows;
+  for (const auto& [name, desc] : library.characters) {
+    if (!wanted(options.characters, name)) continue;
+    for (const Variant& variant : variants_of(desc, library)) {
+      const Result<Character> character = build_character(variant.choice, library);
+      if (!character) return character.issue();
+      add_rows(options, variant, *character, generator.offers(*character), rows);
+    }
+  }
+  if (rows.empty())
+    return Issue{"audit.nothing_matches", "",
+                 "none of these characters has such an action in such a slot; contort list actions names all"};
+  return rows;
+}
+
+Spec audit_spec(const AuditRow& row, Generator& generator, std::int64_t seed, int index) {
+  return drawn(row, offered(row, generator), seed, index);
+}
+
+Result<Done> audit(const AuditOptions& options, const CheckSettings& settings, Generator& generator,
+                   std::vector<AuditRow>& rows, const std::function<void(int)>& progress) {
+  Workers workers(generator, settings, options.jobs);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    progress(static_cast<int>(i));
+    if (const Result<Done> done = audit_row(options, offered(rows[i], generator), workers, rows[i]); !done)
+      return done.issue();
+  }
+  return Done{};
+}
+
+}  // namespace contort
