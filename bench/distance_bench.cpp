@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "bench/side_by_side.h"
-#include "checks/distance.h"
-#include "checks/round_distances.h"
+#include "model/geometry/distance.h"
+#include "model/geometry/round_distances.h"
 
 #ifdef CONTORT_HAS_FCL
 #include <fcl/narrowphase/distance.h>

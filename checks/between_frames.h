@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "checks/check.h"
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

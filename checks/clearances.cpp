@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "checks/round_distances.h"
 #include "model/core/index.h"
+#include "model/geometry/round_distances.h"
 
 namespace contort {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "checks/distance.h"
 #include "model/character/character.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

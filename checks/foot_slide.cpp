@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "checks/check.h"
-#include "checks/distance.h"
-#include "checks/solid_points.h"
+#include "model/geometry/distance.h"
+#include "model/geometry/solid_points.h"
 
 namespace contort {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "checks/check.h"
-#include "checks/solid_points.h"
+#include "model/geometry/solid_points.h"
 
 namespace contort {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <random>
 
-#include "checks/distance.h"
 #include "generator/motion/joint_clamp.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
+#include "model/geometry/distance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/recording.h"
 

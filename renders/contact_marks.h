@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "checks/nearest_points.h"
 #include "model/character/character.h"
+#include "model/geometry/nearest_points.h"
 #include "model/world/environment.h"
 #include "renders/draw_list.h"
 

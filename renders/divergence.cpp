@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "checks/solid_points.h"
 #include "model/core/index.h"
 #include "model/core/json_fields.h"
+#include "model/geometry/solid_points.h"
 #include "model/motion/kinematics.h"
 #include "renders/wording.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checks/distance.h"
 #include "model/core/index.h"
+#include "model/geometry/distance.h"
 #include "model/motion/kinematics.h"
 #include "renders/wires.h"
 

@@ -9,7 +9,7 @@
 
 #include "model/character/shape.h"
 #include "model/core/math.h"
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 namespace {

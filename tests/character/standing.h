@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "checks/distance.h"
-#include "tests/stage_evaluator.h"
+#include "model/geometry/distance.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort::fixtures {
 

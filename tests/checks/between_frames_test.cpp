@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/checks/small_character.h"
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 #include "tests/stage_evaluator.h"
 
 namespace contort {

@@ -8,7 +8,7 @@
 #include "generator/generate.h"
 #include "model/motion/place_frames.h"
 #include "tests/checks/small_character.h"
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 #include "tests/stage_evaluator.h"
 
 namespace contort {

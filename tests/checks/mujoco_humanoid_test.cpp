@@ -10,7 +10,7 @@
 #include <map>
 #include <memory>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 namespace {

@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <random>
 
-#include "checks/round_distances.h"
 #include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "fuzz/parallel.h"
 #include "generator/dynamics/recursions.h"
 #include "model/core/detmath.h"
 #include "model/core/hash.h"
+#include "model/geometry/round_distances.h"
 #include "tests/dynamics/states.h"
 #include "tests/scenes.h"
 #include "tests/stage_evaluator.h"

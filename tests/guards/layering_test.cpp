@@ -19,6 +19,7 @@ const std::vector<Layer> kLayers = {
     {"model/core", {}},
     {"model/asset", {"model/core"}},
     {"model/character", {"model/core", "model/asset"}},
+    {"model/geometry", {"model/core", "model/character"}},
     {"model/world", {"model/core", "model/character"}},
     {"model/motion", {"model/core", "model/asset", "model/character", "model/world"}},
     {"model/spec", {"model/core", "model/character", "model/world"}},

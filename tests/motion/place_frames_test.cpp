@@ -11,7 +11,7 @@
 #include "model/character/library.h"
 #include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 

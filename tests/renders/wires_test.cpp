@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "checks/distance.h"
 #include "model/character/library.h"
+#include "model/geometry/distance.h"
 #include "renders/shots.h"
 
 namespace contort {

@@ -1,5 +1,5 @@
 // Nearest and deepest points against what signed_distance says of the solids, and of the points.
-#include "checks/nearest_points.h"
+#include "model/geometry/nearest_points.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

@@ -1,12 +1,12 @@
 // signed_distance against laws and brute force, for all sixteen pairs of cores.
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 

@@ -1,7 +1,7 @@
-// The points where two solids are nearest, for people to look at: the distance itself is checks/distance.h's.
+// The points where two solids are nearest, for people to look at: the distance itself is model/geometry/distance.h's.
 #pragma once
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

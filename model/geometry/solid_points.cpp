@@ -1,4 +1,4 @@
-#include "checks/solid_points.h"
+#include "model/geometry/solid_points.h"
 
 namespace contort {
 

@@ -1,16 +1,16 @@
 // Both cores touch the planes across the way out, each with a corner, an edge or a face. Where these features lie over
 // each other is where the solids are nearest; the corners of that region are corners of one feature over the other, and
 // crossings of their edges, so the middle of all of these is the middle of the region.
-#include "checks/nearest_points.h"
+#include "model/geometry/nearest_points.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "checks/segment_distance.h"
-#include "checks/solid_points.h"
 #include "model/core/detmath.h"
+#include "model/geometry/segment_distance.h"
+#include "model/geometry/solid_points.h"
 
 namespace contort {
 

@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 

@@ -1,6 +1,6 @@
 // Pairs of spheres and capsules together, against one pair at a time: the same bits, whatever instructions the machine
 // has.
-#include "checks/round_distances.h"
+#include "model/geometry/round_distances.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <ostream>
 
-#include "tests/checks/solids.h"
+#include "tests/geometry/solids.h"
 
 namespace contort {
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort::test_solids {
 

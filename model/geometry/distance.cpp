@@ -1,12 +1,12 @@
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "checks/hull_distance.h"
-#include "checks/segment_distance.h"
 #include "model/core/math.h"
+#include "model/geometry/hull_distance.h"
+#include "model/geometry/segment_distance.h"
 
 namespace contort {
 

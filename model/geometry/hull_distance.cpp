@@ -7,7 +7,7 @@
 //
 // Overlapping: the greatest gap over the face normals of the Minkowski difference. They are the face normals of both
 // solids, and the crossed edges whose arcs on the sphere of normals meet (Gregorius, GDC 2013).
-#include "checks/hull_distance.h"
+#include "model/geometry/hull_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 #include <limits>
 #include <span>
 
-#include "checks/segment_distance.h"
 #include "model/core/index.h"
 #include "model/core/math.h"
+#include "model/geometry/segment_distance.h"
 
 namespace contort {
 

@@ -1,7 +1,7 @@
-// Distance of a convex hull from any core, the hull's part of checks/distance.h.
+// Distance of a convex hull from any core, the hull's part of model/geometry/distance.h.
 #pragma once
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 

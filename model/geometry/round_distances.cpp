@@ -1,4 +1,4 @@
-#include "checks/round_distances.h"
+#include "model/geometry/round_distances.h"
 
 #include <cmath>
 #include <cstring>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "checks/segment_distance.h"
+#include "model/geometry/segment_distance.h"
 
 namespace contort {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "checks/distance.h"
+#include "model/geometry/distance.h"
 
 namespace contort {
 
