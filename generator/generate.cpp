@@ -5,10 +5,13 @@
 #include "generator/additive.h"
 #include "generator/condition.h"
 #include "generator/motion/blend.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
 namespace {
+
+constexpr double kMet = 5e-4;  // m, rad: a request that is missed by less is met
 
 class Generation {
  public:
@@ -63,7 +66,10 @@ class Generation {
     const Playback playback(timeline_, s_.queue.history(), stage_.rate_hz, frame);
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
-    for (std::size_t p = 0; p < s_.stacks.size(); ++p) record_aim(playback, p);
+    for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
+      if (falls_short(p)) s_.lags.note(frame, p, Shortfall::out_of_reach);
+      record_aim(playback, p);
+    }
     signal();
     std::ranges::copy(s_.postures.shown.coords, motion_.row(frame).begin());
     motion_.root[at(frame)] = s_.postures.shown.root;
@@ -161,6 +167,8 @@ class Generation {
     blend_part(character_, p, shown, moved, weight, shown);
   }
 
+  bool falls_short(std::size_t p) const { return s_.rules.feedback()[p].shortfall > kMet; }
+
   // Whether the use that aims is all that moves a part. Parts before it in the chain are not its own.
   bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
     const LayerHold& ik = s_.stacks[p].ik();
@@ -181,6 +189,7 @@ class Generation {
     if (hold.action < 0) return;
     const PlannedAction& action = planned(playback, hold);
     if (action.aim == nullptr || action.named != static_cast<int>(p) || !is_full(playback, hold)) return;
+    if (falls_short(p)) return;
     const Vec3 target(action.params[1], action.params[2], action.params[3]);
     s_.spans.aim(playback.frame(), hold.action, stage_.start * target);
   }
@@ -195,6 +204,7 @@ class Generation {
 }  // namespace
 
 void generate(const Stage& stage, GenerateScratch& scratch, Motion& motion) {
+  scratch.lags.begin(stage.character->parts().size());
   if (stage.recorded)
     motion = *stage.recorded;
   else

@@ -2,6 +2,7 @@
 // each by its own stack of layers (base, ik, additive); docs/timeline.md has the rules of both.
 #pragma once
 
+#include "generator/lags.h"
 #include "generator/layer_stack.h"
 #include "generator/root_carry.h"
 #include "generator/rule_runner.h"
@@ -35,6 +36,7 @@ struct GenerateScratch {
   RuleRunner rules;
   RootCarry carry;
   SpanRecorder spans;
+  LagRecorder lags;  // of the last motion
 };
 
 // Cannot fail: trouble shows in the motion (a NaN is a finding, not an abort). Overwrites `motion`.

@@ -1,15 +1,19 @@
 // The built-in generator says what it meant.
 #pragma once
 
+#include <span>
+
+#include "generator/lags.h"
 #include "generator/stage.h"
 #include "model/motion/intent.h"
 
 namespace contort {
 
-// The intent of a motion that was generated from this stage.
-Intent intent_of(const Stage& stage, const Motion& motion);
+// The intent of a motion that was generated from this stage. Lags say where parts were not where they were wanted: no
+// goal is in force in these frames, and an action that ends in one of them did not meet its request.
+Intent intent_of(const Stage& stage, const Motion& motion, std::span<const Lag> lags = {});
 
 // The same into memory that is used again.
-void say_intent(const Stage& stage, const Motion& motion, Intent& intent);
+void say_intent(const Stage& stage, const Motion& motion, std::span<const Lag> lags, Intent& intent);
 
 }  // namespace contort

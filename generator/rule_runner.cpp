@@ -22,17 +22,22 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
 void RuleRunner::begin(const Stage& stage) {
   const Character& character = *stage.character;
   stage_ = &stage;
+  room_.begin(character);
   bodies_.assign(at(stage.timeline.use_count), {});
   feedback_.assign(character.parts().size(), {});
   world_.resize(character.joints().size());
 }
 
-void RuleRunner::begin_frame() { std::ranges::fill(feedback_, Feedback{}); }
+void RuleRunner::begin_frame() {
+  std::ranges::fill(feedback_, Feedback{});
+  room_.begin_frame();
+}
 
 void RuleRunner::place(std::size_t part, const Posture& posture) {
   const Part& own = stage_->character->parts()[part];
   if (part == 0) world_[0] = posture.root;
   forward_kinematics(*stage_->character, posture.coords, own.first_joint, own.first_joint + own.joint_count, world_);
+  room_.set_placed(part);
 }
 
 const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
@@ -45,7 +50,7 @@ const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, s
   action.def->rule({character, character.parts()[part], action.params, world_, time, stage_->start,
                     stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
                     action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
-                    feedback_[part]},
+                    feedback_[part], room_},
                    target_);
   return target_;
 }

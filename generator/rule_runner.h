@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "generator/motion/limb_room.h"
 #include "generator/playback.h"
 #include "generator/stage.h"
 
@@ -38,6 +39,7 @@ class RuleRunner {
 
  private:
   const Stage* stage_ = nullptr;
+  LimbRoom room_;
   std::vector<WholeBody> bodies_;  // by use of an action
   std::vector<Feedback> feedback_;
   std::vector<Rigid> world_;

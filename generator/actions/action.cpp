@@ -33,13 +33,6 @@ const ActionDef* find_action(std::string_view name) {
   return nullptr;
 }
 
-int carrier_of(const Character& character, int part) {
-  const Part& own = character.parts()[static_cast<std::size_t>(part)];
-  if (own.joint_count == 0 || part == 0) return 0;
-  const int joint = character.joints()[static_cast<std::size_t>(own.first_joint)].parent;
-  return character.joints()[static_cast<std::size_t>(joint)].part;
-}
-
 namespace {
 
 // Whether the part, or one on the way down to it, is carried by `carrier` or is it.

@@ -14,6 +14,7 @@
 #include "generator/actions/key_poses.h"
 #include "generator/motion/aim_ik.h"
 #include "generator/motion/gait.h"
+#include "generator/motion/limb_room.h"
 #include "model/character/character.h"
 #include "model/core/result.h"
 #include "model/generator.h"
@@ -44,6 +45,7 @@ struct Feedback {
   bool contact = false;
   bool aim_reached = false;
   bool impact = false;
+  double shortfall = 0.0;  // of what was asked for, in its own unit (m, rad, m/s, share); 0: met
 };
 
 // Where an action stands at a frame, in time of its content.
@@ -70,6 +72,7 @@ struct WholeBody {
   std::array<bool, kMaxLegs> lands{};
   std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
+  double swivel_rad = 0.0;                    // of a limb whose request leaves it open
   std::array<double, kMaxAimCoords> first_aim{};  // of the chain
   std::array<double, kMaxAimCoords> aimed{};
 };
@@ -95,6 +98,7 @@ struct RuleInput {
   double came_in;  // how far a course has blended in, [0, 1]; those that move legs do it themselves
   WholeBody& body;
   Feedback& feedback;
+  LimbRoom& room;  // how near bodies are
 };
 
 struct ActionDef {
@@ -146,9 +150,6 @@ ParamValue mirrored(Mirrored how, const ParamValue& value);
 // Codes action.unknown_action, .unsupported, .unknown_part, .stock_part, .duplicate_name, .fits_nothing, .unknown_param,
 // .wrong_type, .out_of_range, with pointers into the file.
 Result<Done> check_actions(const Library& library);
-
-// The part that carries this one; the root part for itself.
-int carrier_of(const Character& character, int part);
 
 // Points of attached objects that others than this part carry: "foregrip", "muzzle".
 std::vector<std::string> object_points(const Character& character, const Part& part);

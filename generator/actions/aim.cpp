@@ -43,6 +43,7 @@ void solve(const RuleInput& in, Posture& posture) {
   if (!result.reached) result = from_table();
   for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
   in.feedback.aim_reached = result.reached;
+  in.feedback.shortfall = result.reached ? 0.0 : result.error_rad;
 }
 
 // The end of a limb that can face something: a head, a tail.

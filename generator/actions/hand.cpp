@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/actions/limb_reach.h"
 #include "generator/motion/ik.h"
 #include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
@@ -53,11 +54,7 @@ double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& po
   // With the hand at rest the grip is as fixed to the forearm as the wrist is: two bones, the second one longer.
   ReachChain chain = in.part.reach.front();
   chain.tip = grip_of(in.character, in.part);
-  reach_for(in.character, chain, in.world, point_world_m, 0.0, posture.coords);
-  const int last = in.character.sockets()[static_cast<std::size_t>(chain.tip)].joint + 1;
-  forward_kinematics(in.character, posture.coords, in.part.first_joint, last, in.world);
-  const Vec3 missing = point_world_m - world_from_socket(in.character, in.world, chain.tip).p_m;
-  return std::sqrt(glm::dot(missing, missing));
+  return reach_with_travels(in, chain, point_world_m, std::nullopt, posture);
 }
 
 }  // namespace contort

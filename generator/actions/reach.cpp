@@ -1,6 +1,7 @@
 // reach: the part's tip goes to a point, given in the character's frame (on the ground under the root, +Z forward).
-#include "generator/actions/action.h"
-#include "generator/motion/ik.h"
+#include <cmath>
+
+#include "generator/actions/limb_reach.h"
 
 namespace contort {
 
@@ -16,9 +17,9 @@ std::vector<ParamDef> reach_params(const Character&, const Part&) {
   ParamDef swivel;
   swivel.name = "swivel_deg";
   swivel.low = -180.0, swivel.high = 180.0;
-  swivel.preset = 0.0;
+  swivel.optional = true;
   swivel.mirrored = Mirrored::opposite;
-  swivel.help = "Turns elbow or knee about the line to the target.";
+  swivel.help = "Turns elbow or knee about the line to the target; left out: the way that suits the figure best.";
   return {target, swivel};
 }
 
@@ -27,9 +28,10 @@ bool reach_supports(const Character&, const Part& part) { return !part.reach.emp
 void reach_rule(const RuleInput& in, Posture& posture) {
   // The character's frame is the root's, taken down to the ground that it stands on at rest.
   const Rigid world_from_character = in.world[0] * inverse(in.character.rest_root());
-  const Vec3 target(in.params[0], in.params[1], in.params[2]);
-  reach_for(in.character, in.part.reach.front(), in.world, world_from_character * target, in.params[3] * kRadPerDeg,
-            posture.coords);
+  const Vec3 target = world_from_character * Vec3(in.params[0], in.params[1], in.params[2]);
+  const std::optional<double> swivel_rad =
+      std::isnan(in.params[3]) ? std::nullopt : std::optional(in.params[3] * kRadPerDeg);
+  in.feedback.shortfall = reach_with_travels(in, in.part.reach.front(), target, swivel_rad, posture);
 }
 
 }  // namespace contort

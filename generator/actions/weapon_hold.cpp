@@ -19,7 +19,8 @@ bool weapon_hold_supports(const Character& character, const Part& part) {
 }
 
 void weapon_hold_rule(const RuleInput& in, Posture& posture) {
-  bring_grip_to(in, world_from_socket(in.character, in.world, static_cast<int>(in.params[0])).p_m, posture);
+  const Vec3 point_m = world_from_socket(in.character, in.world, static_cast<int>(in.params[0])).p_m;
+  in.feedback.shortfall = bring_grip_to(in, point_m, posture);
 }
 
 }  // namespace contort

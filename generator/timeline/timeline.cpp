@@ -6,6 +6,7 @@
 #include "generator/actions/hand.h"
 #include "generator/motion/aim_tables.h"
 #include "model/core/nearest.h"
+#include "model/motion/legs.h"
 
 namespace contort {
 
@@ -82,7 +83,36 @@ int looks_at(const Character& character, const PlannedAction& action) {
   return -1;
 }
 
-// Carriers first, and what is looked at before who looks; among those that may come next, in the order of slots.
+bool is_leg(const Character& character, std::size_t part) {
+  return std::ranges::any_of(find_legs(character), [&](const Leg& leg) {
+    return leg.part == static_cast<int>(part) || leg.foot_part == static_cast<int>(part);
+  });
+}
+
+// The part that a part carries; -1 where it carries none or several.
+int only_child_of(const Character& character, int part) {
+  int child = -1, count = 0;
+  for (int p = 1; p < static_cast<int>(character.parts().size()); ++p)
+    if (carrier_of(character, p) == part) child = p, ++count;
+  return count == 1 ? child : -1;
+}
+
+// The part that may come next: the one that the last one carries, so that a limb is moved as a whole; then legs, which
+// have to stand, so that arms make way for them; then in the order of slots. The number of parts where there is none.
+template <class Ready>
+std::size_t next_part(const Character& character, const std::vector<int>& order, const Ready& ready) {
+  const std::size_t parts = character.parts().size();
+  std::size_t first = parts, leg = parts;
+  for (std::size_t p = parts; p-- > 0;) {
+    if (!ready(p)) continue;
+    if (order.size() > 1 && only_child_of(character, order.back()) == static_cast<int>(p)) return p;
+    first = p;
+    if (is_leg(character, p)) leg = p;
+  }
+  return leg < parts ? leg : first;
+}
+
+// Carriers first, and what is looked at before who looks.
 Result<Done> order_parts(const Character& character, Timeline& out) {
   const std::size_t parts = character.parts().size();
   std::vector<std::vector<int>> before(parts);
@@ -96,8 +126,7 @@ Result<Done> order_parts(const Character& character, Timeline& out) {
                                          [&](int b) { return placed[static_cast<std::size_t>(b)] != 0; });
   };
   while (out.part_order.size() < parts) {
-    std::size_t next = 0;
-    while (next < parts && !ready(next)) ++next;
+    const std::size_t next = next_part(character, out.part_order, ready);
     if (next == parts)
       return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
     placed[next] = 1;

@@ -344,4 +344,11 @@ int Character::find_joint(std::string_view name) const { return find_named(joint
 int Character::find_socket(std::string_view name) const { return find_named(sockets(), name); }
 int Character::find_collider(std::string_view name) const { return find_named(colliders(), name); }
 
+int carrier_of(const Character& character, int part) {
+  const Part& own = character.parts()[static_cast<std::size_t>(part)];
+  if (own.joint_count == 0 || part == 0) return 0;
+  const int joint = character.joints()[static_cast<std::size_t>(own.first_joint)].parent;
+  return character.joints()[static_cast<std::size_t>(joint)].part;
+}
+
 }  // namespace contort

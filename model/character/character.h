@@ -204,6 +204,9 @@ class Character {
   std::uint64_t hash_ = 0;
 };
 
+// The part that carries this one; the root part for itself.
+int carrier_of(const Character& character, int part);
+
 // Whether an action's file names the part or its kind.
 bool is_for(const ActionDesc& action, const Part& part);
 

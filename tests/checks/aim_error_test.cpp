@@ -62,13 +62,19 @@ ActionUse head_aims_at(const Vec3& target_m) {
   return aim;
 }
 
-TEST(AimError, OutOfReachIsAFindingAndWithinReachIsNone) {
-  EXPECT_TRUE(played({head_aims_at(Vec3(1.0, 1.2, 3.0))}).findings.empty());
-  const Evaluation behind = played({head_aims_at(Vec3(0.0, 1.5, -3.0))});
-  ASSERT_EQ(behind.findings.size(), 1U);
-  EXPECT_EQ(behind.findings[0].subject, "head/face");
-  EXPECT_EQ(behind.findings[0].first_frame, 20);  // when it has come in
-  EXPECT_EQ(behind.findings[0].last_frame, 50);   // until it fades
+TEST(AimError, OutOfReachIsAnUnmetRequestAndNoFinding) {
+  StageEvaluator evaluator;
+  const auto play = [&](const Vec3& target_m) {
+    EXPECT_TRUE(evaluator.run(fixtures::stage_of({fixtures::sequence({head_aims_at(target_m)})}), "aim_error")
+                    .findings.empty());
+  };
+  play(Vec3(1.0, 1.2, 3.0));
+  EXPECT_TRUE(evaluator.execution().intent->unmet.empty());
+  play(Vec3(0.0, 1.5, -3.0));
+  const int head = evaluator.execution().character->find_part("head");
+  ASSERT_EQ(evaluator.execution().intent->unmet.size(), 1U);
+  // From when it has come in until it fades.
+  EXPECT_EQ(evaluator.execution().intent->unmet[0], (UnmetRequest{20, 50, head, "aim", Shortfall::out_of_reach}));
 }
 
 TEST(AimError, AnAimThatIsDisturbedOnPurposeIsNotJudged) {

@@ -275,13 +275,13 @@ TEST(Evaluator, JudgingTheGeneratedMotionIsTheSameAsRunning) {
   for (const Stage& stage : stages()) {
     StageEvaluator runs, judges;
     const Evaluation evaluation = runs.run(stage);
-    const Motion motion = generate(stage);
-    const Intent intent = intent_of(stage, motion);
-    EXPECT_EQ(evaluation.findings, judges.judge(*stage.character, motion, {}, stage.environment, &intent));
-    EXPECT_EQ(*runs.execution().intent, intent);
-    EXPECT_EQ(evaluation.motion_hash, motion_hash(motion));
-    EXPECT_EQ(evaluation.frame_count, motion.frame_count);
-    EXPECT_EQ(runs.motion(), motion);
+    Execution made;
+    execute(stage, *std::make_unique<GenerateScratch>(), made);
+    EXPECT_EQ(evaluation.findings, judges.judge(*stage.character, made.motion, {}, stage.environment, &*made.intent));
+    EXPECT_EQ(runs.execution().intent, made.intent);
+    EXPECT_EQ(evaluation.motion_hash, motion_hash(made.motion));
+    EXPECT_EQ(evaluation.frame_count, made.motion.frame_count);
+    EXPECT_EQ(runs.motion(), made.motion);
     findings += evaluation.findings.size();
   }
   EXPECT_GT(findings, 20U);

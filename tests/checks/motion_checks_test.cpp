@@ -2,9 +2,11 @@
 // known: made by hand for one property, or generated from specs that must be quiet.
 #include <gtest/gtest.h>
 
-#include "tests/stage_evaluator.h"
+#include <algorithm>
+
 #include "generator/intent.h"
 #include "tests/checks/small_character.h"
+#include "tests/stage_evaluator.h"
 
 namespace contort {
 namespace {
@@ -187,19 +189,29 @@ std::string reach_to(const std::string& target, const std::string& more = "") {
                  "}}" + more);
 }
 
-TEST(ReachError, SaysHowFarAPointOutOfReachIsMissed) {
-  EXPECT_TRUE(found(staged(reach_to("[0.35, 1.2, 0.35]")), "reach_error").empty());
-  const Stage stage = staged(reach_to("[0.2, 1.4, 3.0]"));
-  const std::vector<Finding> findings = found(stage, "reach_error");
-  ASSERT_EQ(findings.size(), 1U);
+// A tip that goes elsewhere than the generator says.
+TEST(ReachError, SaysHowFarAPointIsMissed) {
+  const Stage stage = staged(reach_to("[0.35, 1.2, 0.35]"));
+  EXPECT_TRUE(found(stage, "reach_error").empty());
   const Motion motion = generate(stage);
-  std::vector<Rigid> world(stage.character->joints().size());
-  forward_kinematics(*stage.character, motion.root[40], motion.row(40), world);
-  const int tip = stage.character->find_socket(findings[0].subject);
-  ASSERT_GE(tip, 0) << findings[0].subject;
-  const Vec3 at = world_from_socket(*stage.character, world, tip).p_m;
-  EXPECT_NEAR(findings[0].worst_margin, 0.001 - glm::length(at - Vec3(0.2, 1.4, 3.0)), 1e-9);
+  Intent intent = intent_of(stage, motion);
+  ASSERT_EQ(intent.goals.size(), 1U);
+  intent.goals[0].target_m += Vec3(0.0, 0.05, 0.0);
+  const std::vector<Finding> findings =
+      StageEvaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NEAR(findings[0].worst_margin, 0.001 - 0.05, 1e-9);
   EXPECT_EQ(findings[0].worst_frame, 40);
+}
+
+TEST(ReachError, APointOutOfReachIsAnUnmetRequestAndNoFinding) {
+  StageEvaluator evaluator;
+  EXPECT_TRUE(evaluator.run(staged(reach_to("[0.2, 1.4, 3.0]")), "reach_error").findings.empty());
+  const Intent& intent = *evaluator.execution().intent;
+  EXPECT_TRUE(intent.goals.empty());
+  ASSERT_EQ(intent.unmet.size(), 1U);
+  const int arm = evaluator.execution().character->find_part("arm_left");
+  EXPECT_EQ(intent.unmet[0], (UnmetRequest{40, 40, arm, "reach", Shortfall::out_of_reach}));
 }
 
 TEST(ReachError, IsNotJudgedWhereSomethingElseMovesTheLimb) {
@@ -216,19 +228,39 @@ TEST(ReachError, IsNotJudgedWhereSomethingElseMovesTheLimb) {
       << "another one took over";
 }
 
-TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
-  const std::string spec = R"({"format": "contort.spec/1",
+Stage two_hands_on_rifle(const std::string& target) {
+  std::string spec = R"({"format": "contort.spec/1",
     "character": {"name": "human", "attachments": [{"object": "rifle", "slot": "hand_right", "socket": "grip"}]},
     "sequences": [{"clips": [{"actions": [
       {"action": "weapon_hold", "slot": "arm_left", "duration_frames": 60},
       {"action": "reach", "slot": "arm_right", "duration_frames": 50, "params": {"target_m": TARGET}}]}]}]})";
-  const auto holding = [&](const std::string& target) {
-    std::string text = spec;
-    return found(staged(text.replace(text.find("TARGET"), 6, target)), "reach_error");
-  };
-  bool is_missed = false;
-  for (const Finding& f : holding("[-0.8, 1.4, -0.2]")) is_missed = is_missed || f.subject.starts_with("hand_left");
-  EXPECT_TRUE(is_missed) << "the rifle goes behind the body";
+  return staged(spec.replace(spec.find("TARGET"), 6, target));
+}
+
+TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
+  const Stage stage = two_hands_on_rifle("[-0.1, 1.2, 0.4]");
+  Motion motion = generate(stage);
+  const Intent intent = intent_of(stage, motion);
+  motion.row(50)[static_cast<std::size_t>(fixtures::joint(*stage.character, "arm_left/elbow").coord)] += 0.2;
+  const std::vector<Finding> findings =
+      StageEvaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
+  EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& finding) {
+    return finding.subject.starts_with("hand_left") && finding.first_frame <= 50 && finding.last_frame >= 50;
+  }));
+}
+
+TEST(ReachError, AHandThatCannotFollowTheForegripIsAnUnmetRequest) {
+  StageEvaluator evaluator;
+  EXPECT_TRUE(evaluator.run(two_hands_on_rifle("[-0.8, 1.4, -0.2]"), "reach_error").findings.empty())
+      << "the rifle goes behind the body";
+  const Intent& intent = *evaluator.execution().intent;
+  ASSERT_FALSE(intent.unmet.empty());
+  EXPECT_EQ(intent.unmet.back().action, "weapon_hold");
+  EXPECT_EQ(intent.unmet.back().last_frame, 60);
+  for (const Goal& goal : intent.goals)
+    if (goal.target_socket >= 0) {
+      EXPECT_LT(goal.last_frame, intent.unmet.back().first_frame);
+    }
 }
 
 // A second hand on the rifle, cut for a pose of its arm in frame 40, and then at it again.

@@ -1,0 +1,127 @@
+#include "generator/actions/limb_reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/motion/ik.h"
+#include "generator/motion/joint_clamp.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr int kSwivels = 24;         // 15 degrees apart
+constexpr double kReached_m = 1e-4;
+constexpr int kTravelHalvings = 20;
+
+std::size_t index_in(const Character& character, const Part& part) {
+  return static_cast<std::size_t>(&part - character.parts().data());
+}
+
+// The part as in the posture, and what it carries as at rest: that is moved later in the frame.
+void place_limb(const RuleInput& in, const Posture& posture) {
+  const int end = in.part.first_joint + in.part.joint_count;
+  forward_kinematics(in.character, posture.coords, in.part.first_joint, end, in.world);
+  for (const int j : in.room.limb_of(index_in(in.character, in.part)).joints)
+    if (j >= end) forward_kinematics(in.character, in.character.rest_coords(), j, j + 1, in.world);
+}
+
+// How far joints of the part are out of their ranges, in shares of half of the range.
+double excess(const RuleInput& in, const Posture& posture) {
+  double sum = 0.0;
+  for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
+    const Joint& joint = in.character.joint(j);
+    sum += std::max(0.0, -normalised_margin(joint, posture.coords.data() + joint.coord));
+  }
+  return sum;
+}
+
+// The greatest turn of one joint away from where the action found it, rad.
+double way_rad(const RuleInput& in, const Posture& posture) {
+  double most = 0.0;
+  for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
+    const Joint& joint = in.character.joint(j);
+    const double *a = in.from.coords.data() + joint.coord, *b = posture.coords.data() + joint.coord;
+    if (joint.kind == JointKind::ball)
+      most = std::max(most, rotation_angle(glm::conjugate(quat_at(a)) * quat_at(b)));
+    else if (joint.kind == JointKind::hinge)
+      most = std::max(most, std::fabs(b[0] - a[0]));
+  }
+  return most;
+}
+
+// The sine of the elbow's height over the shoulder; 0 of limbs that do not reach.
+double elbow_height(const RuleInput& in) {
+  if (in.part.reach.empty()) return 0.0;
+  const ReachChain& chain = in.part.reach.front();
+  const Vec3 upper = in.world[at(chain.upper)].p_m, middle = in.world[at(chain.middle)].p_m;
+  return (middle.y - upper.y) / std::max(1e-6, length(middle - upper));
+}
+
+// The straight one first, then to either side: where several cost the same, as with a limb that is stretched, rounding
+// must not choose.
+double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, Posture& posture) {
+  constexpr double kBetter = 0.01;
+  double best = 0.0, least = 1e30;
+  for (int i = 0; i < kSwivels; ++i) {
+    const int step = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
+    const double swivel = 2.0 * kPi * step / kSwivels;
+    reach_for(in.character, chain, in.world, target, swivel, posture.coords);
+    if (const double now = posture_cost(in, posture); now < least - kBetter) least = now, best = swivel;
+  }
+  return best;
+}
+
+double missing_m(const RuleInput& in, const ReachChain& chain, const Vec3& target, const Posture& posture) {
+  const int last = in.character.sockets()[at(chain.tip)].joint + 1;
+  forward_kinematics(in.character, posture.coords, in.part.first_joint, last, in.world);
+  return length(target - world_from_socket(in.character, in.world, chain.tip).p_m);
+}
+
+// Puts every travel of the part at this share of its range, and reaches.
+double reach_at(const RuleInput& in, const ReachChain& chain, const Vec3& target, double share, Posture& posture) {
+  for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j)
+    if (const Joint& joint = in.character.joint(j); joint.kind == JointKind::prismatic)
+      posture.coords[at(joint.coord)] = joint.low + share * (joint.high - joint.low);
+  reach_for(in.character, chain, in.world, target, in.body.swivel_rad, posture.coords);
+  return missing_m(in, chain, target, posture);
+}
+
+bool has_travels(const RuleInput& in) {
+  const std::span<const Joint> own = in.character.joints().subspan(at(in.part.first_joint), at(in.part.joint_count));
+  return std::ranges::any_of(own, [](const Joint& joint) { return joint.kind == JointKind::prismatic; });
+}
+
+}  // namespace
+
+double posture_cost(const RuleInput& in, const Posture& posture) {
+  // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
+  constexpr double kTooNear_m = 1e-4;
+  place_limb(in, posture);
+  const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
+  const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
+  return 40.0 * excess(in, posture) + too_near + 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
+}
+
+double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
+                          std::optional<double> swivel_rad, Posture& posture) {
+  if (swivel_rad)
+    in.body.swivel_rad = *swivel_rad;
+  else if (in.body.begun != in.took_over)
+    in.body.swivel_rad = choose_swivel(in, chain, target_world_m, posture), in.body.begun = in.took_over;
+  reach_for(in.character, chain, in.world, target_world_m, in.body.swivel_rad, posture.coords);
+  double missing = missing_m(in, chain, target_world_m, posture);
+  if (missing < kReached_m || !has_travels(in)) return missing;
+  double low = 0.0, high = 1.0;  // the smallest share that reaches
+  missing = reach_at(in, chain, target_world_m, high, posture);
+  if (missing >= kReached_m) return missing;
+  for (int i = 0; i < kTravelHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (reach_at(in, chain, target_world_m, middle, posture) < kReached_m ? high : low) = middle;
+  }
+  return reach_at(in, chain, target_world_m, high, posture);
+}
+
+}  // namespace contort

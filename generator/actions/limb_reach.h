@@ -1,0 +1,20 @@
+// How a limb gets to a point: the choice that two bones leave open, and travels where the bones are too short.
+#pragma once
+
+#include <optional>
+
+#include "generator/actions/action.h"
+
+namespace contort {
+
+// What a posture of the part's limb costs: joints out of range and bodies too near weigh most, then an elbow that is held
+// high, then a long way from where the action found the part. Places the limb in in.world.
+double posture_cost(const RuleInput& in, const Posture& posture);
+
+// Brings the chain's tip to a point of the world. Without a given swivel the one is chosen, when the action takes the
+// part, that keeps joints in their ranges and bodies apart, holds the elbow low and is near to where the limb is. The
+// part's travels come out as far as they must. Answers how far the tip is from the point, m.
+double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
+                          std::optional<double> swivel_rad, Posture& posture);
+
+}  // namespace contort

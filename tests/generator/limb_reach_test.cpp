@@ -1,0 +1,135 @@
+// How reach and weapon_hold choose: the swivel that a request leaves open, travels, and the room of a limb's bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "generator/intent.h"
+#include "generator/motion/limb_room.h"
+#include "model/motion/kinematics.h"
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+Spec reaching(const CharacterChoice& character, const Vec3& target_m, const ParamValue* swivel_deg) {
+  ActionUse reach = use("reach", "arm_left", 0, 60, {{"target_m", target_m}});
+  if (swivel_deg != nullptr) reach.params["swivel_deg"] = *swivel_deg;
+  Spec spec;
+  spec.character = character;
+  spec.hold_frames = 10;
+  spec.sequences = {sequence({reach})};
+  return spec;
+}
+
+int findings_of(const Spec& spec, Intent* intent = nullptr) {
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  if (!stage) ADD_FAILURE() << to_line(stage.issue());
+  StageEvaluator evaluator;
+  const Evaluation evaluation = evaluator.run(*stage);
+  if (intent != nullptr) *intent = *evaluator.execution().intent;
+  return static_cast<int>(evaluation.findings.size());
+}
+
+// Points in front of the left shoulder, which is at (0.2, 1.4, 0), within the length of the arm.
+std::vector<Vec3> points_in_front() {
+  std::vector<Vec3> points;
+  for (const double x : {-0.1, 0.1, 0.3})
+    for (const double y : {1.0, 1.2, 1.4, 1.6})
+      for (const double z : {0.2, 0.3, 0.4})
+        if (length(Vec3(x - 0.2, y - 1.4, z)) < 0.5) points.emplace_back(x, y, z);
+  return points;
+}
+
+TEST(LimbReach, AnOpenSwivelFindsAWayThatAFixedOneDoesNot) {
+  const ParamValue zero = 0.0;
+  int fixed = 0, open = 0;
+  for (const Vec3& point : points_in_front()) {
+    fixed += findings_of(reaching({"human", {}, {}}, point, &zero)) > 0 ? 1 : 0;
+    open += findings_of(reaching({"human", {}, {}}, point, nullptr)) > 0 ? 1 : 0;
+  }
+  EXPECT_GE(fixed, 5) << "these points are no test any more";
+  EXPECT_LE(open, 1);
+}
+
+TEST(LimbReach, TravelsGoOutWhereTheArmIsTooShort) {
+  const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  Spec spec = reaching(mech, Vec3(1.3, 1.6, 0.5), nullptr);
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  const Motion motion = generate(*stage);
+  const double travel_m = fixtures::coord(motion, 60, *stage->character, "arm_left/extend");
+  EXPECT_GT(travel_m, 0.01);
+  EXPECT_LE(travel_m, fixtures::joint(*stage->character, "arm_left/extend").high);
+  const Intent intent = intent_of(*stage, motion);
+  ASSERT_EQ(intent.goals.size(), 1U);
+  std::vector<Rigid> world(stage->character->joints().size());
+  forward_kinematics(*stage->character, motion.root[60], motion.row(60), world);
+  const Vec3 tip_m = world_from_socket(*stage->character, world, intent.goals[0].socket).p_m;
+  EXPECT_LT(length(tip_m - Vec3(1.3, 1.6, 0.5)), 1e-3);
+}
+
+TEST(LimbReach, TravelsStayWhereTheArmIsLongEnough) {
+  const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  const Result<Stage> stage = build_stage(reaching(mech, Vec3(0.5, 1.4, 0.4), nullptr), stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  const Motion motion = generate(*stage);
+  const auto coord = static_cast<std::size_t>(fixtures::joint(*stage->character, "arm_left/extend").coord);
+  EXPECT_EQ(motion.row(60)[coord], stage->character->rest_coords()[coord]);
+}
+
+TEST(LimbReach, WhatEvenTravelsDoNotReachIsUnmet) {
+  const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  Intent intent;
+  findings_of(reaching(mech, Vec3(3.0, 1.6, 0.5), nullptr), &intent);
+  ASSERT_EQ(intent.unmet.size(), 1U);
+  EXPECT_EQ(intent.unmet[0].action, "reach");
+}
+
+TEST(LimbRoom, ALimbIsAChainOfPartsUpToABranch) {
+  const Result<Character> human = build_character({"human", {}, {}}, stock_library());
+  ASSERT_TRUE(human);
+  const auto slots = [&](const contort::Limb& limb) {
+    std::vector<std::string> names;
+    for (const int part : limb.parts) names.push_back(human->parts()[static_cast<std::size_t>(part)].slot);
+    return names;
+  };
+  std::size_t parts = 0;
+  bool has_arm = false;
+  for (const contort::Limb& limb : limbs_of(*human)) {
+    parts += limb.parts.size();
+    has_arm = has_arm || slots(limb) == std::vector<std::string>{"arm_left", "hand_left"};
+  }
+  EXPECT_EQ(parts, human->parts().size() - 1) << "each part but the root part is in one limb";
+  EXPECT_TRUE(has_arm);
+}
+
+TEST(LimbRoom, IsNegativeWhereBodiesOverlapAndNeverAtRest) {
+  const Result<Character> human = build_character({"human", {}, {}}, stock_library());
+  ASSERT_TRUE(human);
+  std::vector<double> coords(human->rest_coords().begin(), human->rest_coords().end());
+  std::vector<Rigid> world(human->joints().size());
+  const auto arm = static_cast<std::size_t>(human->find_part("arm_left"));
+  LimbRoom room;
+  room.begin(*human);
+  room.begin_frame();
+  forward_kinematics(*human, human->rest_root(), coords, world);
+  EXPECT_GE(room.room_m(arm, world), 0.0);
+  const Joint& shoulder = fixtures::joint(*human, "arm_left/shoulder");
+  const Quat inward = axis_angle(Vec3(0, 0, 1), -40 * kRadPerDeg);
+  const Quat was(coords[at(shoulder.coord)], coords[at(shoulder.coord + 1)], coords[at(shoulder.coord + 2)],
+                 coords[at(shoulder.coord + 3)]);
+  const Quat turned = was * inward;
+  coords[at(shoulder.coord)] = turned.w, coords[at(shoulder.coord + 1)] = turned.x;
+  coords[at(shoulder.coord + 2)] = turned.y, coords[at(shoulder.coord + 3)] = turned.z;
+  forward_kinematics(*human, human->rest_root(), coords, world);
+  EXPECT_GE(room.room_m(arm, world), 0.0) << "the trunk is not placed yet";
+  room.set_placed(static_cast<std::size_t>(human->find_part("torso")));
+  EXPECT_LT(room.room_m(arm, world), 0.0) << "the arm is in the trunk";
+}
+
+}  // namespace
+}  // namespace contort
