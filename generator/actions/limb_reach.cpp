@@ -60,6 +60,17 @@ double elbow_height(const RuleInput& in) {
   return (middle.y - upper.y) / std::max(1e-6, length(middle - upper));
 }
 
+// Joints out of range and bodies too near weigh most, then an elbow that is held high, then a long way from where the
+// action found the part. Places the limb in in.world.
+double posture_cost(const RuleInput& in, const Posture& posture) {
+  // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
+  constexpr double kTooNear_m = 1e-4;
+  place_limb(in, posture);
+  const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
+  const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
+  return 40.0 * excess(in, posture) + too_near + 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
+}
+
 // The straight one first, then to either side: where several cost the same, as with a limb that is stretched, rounding
 // must not choose.
 double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, Posture& posture) {
@@ -95,15 +106,6 @@ bool has_travels(const RuleInput& in) {
 }
 
 }  // namespace
-
-double posture_cost(const RuleInput& in, const Posture& posture) {
-  // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
-  constexpr double kTooNear_m = 1e-4;
-  place_limb(in, posture);
-  const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
-  const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
-  return 40.0 * excess(in, posture) + too_near + 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
-}
 
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture) {

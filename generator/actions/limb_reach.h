@@ -7,10 +7,6 @@
 
 namespace contort {
 
-// What a posture of the part's limb costs: joints out of range and bodies too near weigh most, then an elbow that is held
-// high, then a long way from where the action found the part. Places the limb in in.world.
-double posture_cost(const RuleInput& in, const Posture& posture);
-
 // Brings the chain's tip to a point of the world. Without a given swivel the one is chosen, when the action takes the
 // part, that keeps joints in their ranges and bodies apart, holds the elbow low and is near to where the limb is. The
 // part's travels come out as far as they must. Answers how far the tip is from the point, m.
