@@ -6,6 +6,7 @@
 
 #include "generator/intent.h"
 #include "tests/checks/small_character.h"
+#include "tests/generator/scenes_of_one.h"
 #include "tests/stage_evaluator.h"
 
 namespace contort {
