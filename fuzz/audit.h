@@ -29,7 +29,7 @@ struct AuditRow {
   std::string slot;
   std::string part;
   std::string action;
-  std::string point;  // of the object that is pointed or held; "" where there is none
+  std::string point;  // the one that the action aims or holds, as "muzzle"; "" for actions without one
   int draws = 0;
   int clean = 0;                        // without a finding
   int unmet = 0;                        // with a request that was not met, clean or not

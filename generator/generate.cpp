@@ -5,7 +5,6 @@
 #include "generator/additive.h"
 #include "generator/condition.h"
 #include "generator/motion/blend.h"
-#include "model/motion/kinematics.h"
 
 namespace contort {
 

@@ -91,6 +91,13 @@ double missing_m(const RuleInput& in, const ReachChain& chain, const Vec3& targe
   return length(target - world_from_socket(in.character, in.world, chain.tip).p_m);
 }
 
+// Whether the target is farther from the shoulder than the tip, which is placed: one that is too near is not reached by
+// travels, which only lengthen the limb.
+bool is_too_short(const RuleInput& in, const ReachChain& chain, const Vec3& target) {
+  const Vec3 upper = in.world[at(chain.upper)].p_m;
+  return length(target - upper) > length(world_from_socket(in.character, in.world, chain.tip).p_m - upper);
+}
+
 // Puts every travel of the part at this share of its range, and reaches.
 double reach_at(const RuleInput& in, const ReachChain& chain, const Vec3& target, double share, Posture& posture) {
   for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j)
@@ -114,11 +121,11 @@ double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Ve
   else if (in.body.begun != in.took_over)
     in.body.swivel_rad = choose_swivel(in, chain, target_world_m, posture), in.body.begun = in.took_over;
   reach_for(in.character, chain, in.world, target_world_m, in.body.swivel_rad, posture.coords);
-  double missing = missing_m(in, chain, target_world_m, posture);
-  if (missing < kReached_m || !has_travels(in)) return missing;
+  const double missing = missing_m(in, chain, target_world_m, posture);
+  if (missing < kReached_m || !has_travels(in) || !is_too_short(in, chain, target_world_m)) return missing;
   double low = 0.0, high = 1.0;  // the smallest share that reaches
-  missing = reach_at(in, chain, target_world_m, high, posture);
-  if (missing >= kReached_m) return missing;
+  const double missing_at_most = reach_at(in, chain, target_world_m, high, posture);
+  if (missing_at_most >= kReached_m) return missing_at_most;
   for (int i = 0; i < kTravelHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (reach_at(in, chain, target_world_m, middle, posture) < kReached_m ? high : low) = middle;

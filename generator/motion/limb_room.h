@@ -22,8 +22,8 @@ std::vector<Limb> limbs_of(const Character& character);
 
 class LimbRoom {
  public:
-  // Of a figure at rest, whose bodies may be as near as they are there. The character must outlive it. Does nothing
-  // where it was told the same character before.
+  // Measures the figure at rest: bodies may be as near as they are there. The character must outlive this object. Does
+  // nothing if the character is the same as before.
   void begin(const Character& character);
 
   const Limb& limb_of(std::size_t part) const { return limbs_[static_cast<std::size_t>(limb_of_[part])]; }

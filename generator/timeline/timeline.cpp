@@ -98,7 +98,8 @@ int only_child_of(const Character& character, int part) {
 }
 
 // The part that may come next: the one that the last one carries, so that a limb is moved as a whole; then legs, which
-// have to stand, so that arms make way for them; then in the order of slots. The number of parts where there is none.
+// have to stand, so that arms make way for them; then in the order of slots. If none may come next, the answer is the
+// number of parts.
 template <class Ready>
 std::size_t next_part(const Character& character, const std::vector<int>& order, const Ready& ready) {
   const std::size_t parts = character.parts().size();

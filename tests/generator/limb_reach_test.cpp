@@ -81,7 +81,22 @@ TEST(LimbReach, TravelsStayWhereTheArmIsLongEnough) {
   EXPECT_EQ(motion.row(60)[coord], stage->character->rest_coords()[coord]);
 }
 
-TEST(LimbReach, WhatEvenTravelsDoNotReachIsUnmet) {
+TEST(LimbReach, TravelsDoNotGoOutForATargetThatIsTooNear) {
+  const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
+  const Result<Character> character = build_character(mech, stock_library());
+  ASSERT_TRUE(character);
+  std::vector<Rigid> world(character->joints().size());
+  forward_kinematics(*character, character->rest_root(), character->rest_coords(), world);
+  const int upper = character->parts()[static_cast<std::size_t>(character->find_part("arm_left"))].reach.front().upper;
+  const Vec3 near_m = world[static_cast<std::size_t>(upper)].p_m + Vec3(0.02, 0.0, 0.03);
+  const Result<Stage> stage = build_stage(reaching(mech, near_m, nullptr), stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  const Motion motion = generate(*stage);
+  const auto coord = static_cast<std::size_t>(fixtures::joint(*stage->character, "arm_left/extend").coord);
+  EXPECT_EQ(motion.row(60)[coord], stage->character->rest_coords()[coord]);
+}
+
+TEST(LimbReach, TargetsThatEvenTravelsDoNotReachAreUnmet) {
   const CharacterChoice mech{"mech", {{"arm_left", "mech_arm_extend"}}, {}};
   Intent intent;
   findings_of(reaching(mech, Vec3(3.0, 1.6, 0.5), nullptr), &intent);
