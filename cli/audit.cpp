@@ -25,9 +25,18 @@ struct AuditCommand {
 
 double percent(int count, int of) { return 100.0 * count / std::max(1, of); }
 
-// "human, mech_arm_slim, object:rifle/muzzle": what makes the row another one than those of the same slot and action.
+// "rifle at hand_right/grip"; "" without an object.
+std::string object_of(const AuditRow& row) {
+  if (row.character.attachments.empty()) return "";
+  const AttachmentDesc& object = row.character.attachments.front();
+  return object.object + " at " + object.slot + "/" + object.socket;
+}
+
+// "mech/arm_left (mech_arm_slim)", "human/arm_left, rifle at hand_right/grip".
 std::string place_of(const AuditRow& row) {
-  return row.character.name + "/" + row.slot + (row.character.parts.empty() ? "" : " (" + row.part + ")");
+  const std::string object = object_of(row);
+  return row.character.name + "/" + row.slot + (row.character.parts.empty() ? "" : " (" + row.part + ")") +
+         (object.empty() ? "" : ", " + object);
 }
 
 std::string findings_of(const AuditRow& row) {
@@ -38,9 +47,9 @@ std::string findings_of(const AuditRow& row) {
 }
 
 void print_table(const std::vector<AuditRow>& rows) {
-  std::printf("%-44s %-14s %-9s %7s %7s %7s  %s\n", "part", "action", "point", "draws", "clean", "unmet", "findings");
+  std::printf("%-48s %-14s %-9s %7s %7s %7s  %s\n", "part", "action", "point", "draws", "clean", "unmet", "findings");
   for (const AuditRow& row : rows)
-    std::printf("%-44s %-14s %-9s %7d %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(), row.action.c_str(),
+    std::printf("%-48s %-14s %-9s %7d %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(), row.action.c_str(),
                 row.point.c_str(), row.draws, percent(row.clean, row.draws), percent(row.unmet, row.draws),
                 findings_of(row).c_str());
 }
@@ -49,6 +58,7 @@ Json row_json(const AuditRow& row) {
   return {{"character", row.character.name},
           {"slot", row.slot},
           {"part", row.part},
+          {"object", object_of(row)},
           {"action", row.action},
           {"point", row.point},
           {"draws", row.draws},
@@ -65,12 +75,15 @@ Json rows_json(const std::vector<AuditRow>& rows) {
   return list;
 }
 
-// "human-arm_left-reach.json", with the part and the point where they make the row another one.
+// "human-arm_left-reach.json", "human-arm_right-aim-muzzle-rifle-hand_right-grip.json": no two rows have the same name.
 std::string file_of(const AuditRow& row) {
   std::string name = row.character.name + "-" + row.slot;
   if (!row.character.parts.empty()) name += "-" + row.part;
   name += "-" + row.action;
-  return row.point.empty() ? name : name + "-" + row.point;
+  if (!row.point.empty()) name += "-" + row.point;
+  for (const AttachmentDesc& object : row.character.attachments)
+    name += "-" + object.object + "-" + object.slot + "-" + object.socket;
+  return name;
 }
 
 Result<Done> write_worst(const std::string& folder, const std::vector<AuditRow>& rows) {
