@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# page_test.sh PROJECT BINARIES [NAMES]: the report's page in a browser. First a made-up report that has everything, then one
-# of real failures as contort writes it, then that one as a single file. NAMES: a regular expression; only the tests of the
-# made-up report whose names match it.
+# page_test.sh PROJECT BINARIES [NAMES]: the report's page in a browser. First a made-up report that has everything; then
+# one of real failures as contort writes it, the same as a single file, and one of a fixed failure for its film strip.
+# NAMES: a regular expression; only the tests of the made-up report whose names match it.
 set -euo pipefail
 
 project=$1
@@ -29,4 +29,7 @@ if [ -n "$names" ]; then exit 0; fi
 "$binaries/contort" fuzz --profile smoke --character human --seed 13 --cases 2 --shrink-evaluations 30 \
   --shrinks-per-case 1000 --corpus "$scratch/corpus" >/dev/null || [ $? -eq 1 ]
 "$binaries/contort" report "$scratch/corpus" -o "$scratch/report" --single-file "$scratch/report.html"
-browse --report "$scratch/report" --single "$scratch/report.html"
+"$binaries/contort" fuzz --profile smoke --cases 0 --seeds "$project/tests/page/seeds" --corpus "$scratch/seeds" >/dev/null ||
+  [ $? -eq 1 ]
+"$binaries/contort" report "$scratch/seeds" -o "$scratch/strip"
+browse --report "$scratch/report" --single "$scratch/report.html" --strip "$scratch/strip"

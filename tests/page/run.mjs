@@ -1,6 +1,6 @@
 // Browser tests of the report page.
 //
-//   node run.mjs --modules DIR --report DIR [--large DIR] [--single FILE] [--chromium PATH]
+//   node run.mjs --modules DIR --report DIR [--large DIR] [--strip DIR] [--single FILE] [--chromium PATH]
 //   node run.mjs --modules DIR --contort BINARY --viewer DIR        makes the reports itself, see fixture.mjs
 //
 // --modules is the node_modules folder where `npm ci` was run with this folder's package.json.
@@ -11,8 +11,8 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { makeFixture } from './fixture.mjs';
 
-const kPaths = ['modules', 'report', 'large', 'single', 'contort', 'viewer'];
-const usage = 'usage: node run.mjs --modules DIR (--report DIR [--large DIR] [--single FILE] | --contort BINARY --viewer DIR) ' +
+const kPaths = ['modules', 'report', 'large', 'strip', 'single', 'contort', 'viewer'];
+const usage = 'usage: node run.mjs --modules DIR (--report DIR [--large DIR] [--strip DIR] [--single FILE] | --contort BINARY --viewer DIR) ' +
   '[--chromium PATH]';
 
 function readArguments(words) {
