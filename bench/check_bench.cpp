@@ -7,7 +7,7 @@
 #include "checks/check.h"
 #include "fuzz/draw.h"
 #include "generator/generate.h"
-#include "generator/intent.h"
+#include "generator/execute.h"
 #include "model/motion/place_frames.h"
 #include "tests/dynamics/mujoco_model.h"
 #include "tests/stage_evaluator.h"
@@ -32,7 +32,7 @@ std::vector<Case> draw_cases(const char* character, const char* profile) {
     const Result<Stage> stage = build_stage(draw_spec(config, stock_generator(), 7, i), stock_library());
     if (!stage) continue;
     const Motion motion = generate(*stage);
-    cases.push_back({*stage, motion, intent_of(*stage, motion)});
+    cases.push_back({*stage, motion, intent_of(*stage)});
   }
   return cases;
 }

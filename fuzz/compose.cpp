@@ -27,10 +27,12 @@ double speed_of(int raw, const Features& features) {
   return kSpeeds[pick(raw, std::size(kSpeeds))];
 }
 
-// Unless a rule of the profile says otherwise, half of the blends are at once; the others take up to 20 frames.
-int blend_of(int raw, const Features& features, const DrawRule* rule) {
+// Unless a rule of the profile says otherwise, half of the blends are left as they are by default; the others take up to
+// 20 frames. A cut is a jump that its author wants: it is drawn where a rule asks for it.
+int blend_of(int raw, int preset, const Features& features, const DrawRule* rule) {
   if (rule != nullptr) return between(raw, static_cast<int>(rule->low[0]), static_cast<int>(rule->high[0]));
-  return features.omits("blend") ? 0 : std::max(0, between(raw, -20, 20));
+  const int frames = features.omits("blend") ? 0 : between(raw, -20, 20);
+  return frames > 0 ? frames : preset;
 }
 
 // The parts that may be moved, and the actions that may move them.
@@ -79,11 +81,11 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   const Profile& profile = stock.features.profile();
   use.duration_frames = between(raw.duration, profile.shortest_frames, profile.longest_frames);
   use.speed = speed_of(raw.speed, stock.features);
-  const auto blend = [&](int raw_frames, std::string_view field) {
-    return blend_of(raw_frames, stock.features, profile.rule_for(part.slot, action.name, field));
+  const auto draw_blend = [&](int raw_frames, std::string_view field, int& frames) {
+    frames = blend_of(raw_frames, frames, stock.features, profile.rule_for(part.slot, action.name, field));
   };
-  if (action.timing == Timing::course) use.blend_in_frames = blend(raw.blend_in, "blend_in_frames");
-  if (action.layer != Layer::overwrite) use.blend_out_frames = blend(raw.blend_out, "blend_out_frames");
+  if (action.timing == Timing::course) draw_blend(raw.blend_in, "blend_in_frames", use.blend_in_frames);
+  if (action.layer != Layer::overwrite) draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
   return use;
 }

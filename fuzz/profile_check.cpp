@@ -70,11 +70,11 @@ bool is_blend(std::string_view param) { return param == "blend_in_frames" || par
 
 Result<Done> check_blend(const DrawRule& rule, const std::string& pointer) {
   const auto good = [](double frames) {
-    return frames >= kBlend.low && frames <= kBlend.high && std::floor(frames) == frames;
+    return frames >= kBlendOut.low && frames <= kBlendOut.high && std::floor(frames) == frames;
   };
   if (rule.low.size() == 1 && good(rule.low[0]) && good(rule.high[0])) return Done{};
   return Issue{"profile.bad_rule", pointer + "/low",
-               rule.param + " is one whole number, from 0 to " + std::to_string(static_cast<int>(kBlend.high))};
+               rule.param + " is one whole number, from 0 to " + std::to_string(static_cast<int>(kBlendOut.high))};
 }
 
 // Whether a parameter can have a value that the rule allows.

@@ -12,4 +12,11 @@ void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution)
   say_intent(stage, execution.motion, scratch.lags.lags(), *execution.intent);
 }
 
+Intent intent_of(const Stage& stage) {
+  GenerateScratch scratch;
+  Execution execution;
+  execute(stage, scratch, execution);
+  return *execution.intent;
+}
+
 }  // namespace contort

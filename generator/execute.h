@@ -9,4 +9,7 @@ namespace contort {
 // Cannot fail, as generate() cannot. Overwrites `execution` and reuses its memory.
 void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution);
 
+// The intent alone.
+Intent intent_of(const Stage& stage);
+
 }  // namespace contort

@@ -1,10 +1,12 @@
 #include "generator/generate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "generator/additive.h"
 #include "generator/condition.h"
 #include "generator/motion/blend.h"
+#include "generator/motion/way.h"
 
 namespace contort {
 
@@ -40,6 +42,7 @@ class Generation {
     s_.signals.assign(timeline_.interrupts.size(), 0);
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
+    s_.behind.assign(character_.parts().size(), 0);
     stand_up();
   }
 
@@ -51,6 +54,7 @@ class Generation {
     s_.carry.begin(stage_, s_.rules.world(), start);
     s_.rules.start_from(start);
     s_.postures.start_from(start);
+    s_.path.begin(character_, start.coords, stage_.rate_hz);
   }
 
   // The queue ran dry hold_frames ago.
@@ -66,7 +70,7 @@ class Generation {
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
-      if (falls_short(p)) s_.lags.note(frame, p, Shortfall::out_of_reach);
+      note_lag(playback, p);
       record_aim(playback, p);
     }
     signal();
@@ -99,6 +103,7 @@ class Generation {
       copy_part(character_, p, layers.base, layers.plain);
     copy_part(character_, p, layers.plain, layers.shown);
     add_additives(playback, p);
+    follow(playback, p);
     s_.rules.place(p, layers.shown);
   }
 
@@ -124,6 +129,7 @@ class Generation {
     const LayerHold& hold = s_.stacks[p].ik();
     s_.spans.hold(playback.frame(), planned(playback, hold), begins);
     move(playback, hold, p, s_.postures.from_ik, s_.postures.base, s_.postures.plain);
+    if (begins && takes_its_time(planned(playback, hold))) s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
     if (p == 0 && moves_legs(playback, hold)) s_.carry.remember(s_.rules.body(planned(playback, hold)).frame);
     fade(playback, hold, p);
   }
@@ -134,6 +140,17 @@ class Generation {
     const RuleCall call{hold.action, content(playback, hold), hold.came, hold.frame, come_in(playback, hold)};
     const Posture& wanted = s_.rules.run(playback, call, p, from, beneath, s_.carry.stands_at());
     blend(playback, hold, p, from, wanted, covered(playback, hold), out);
+  }
+
+  // From the posture that the action found to the one that its rule has just made.
+  int way_frames(const Playback& playback, const LayerHold& hold, std::size_t p) {
+    double longest_s = way_s(character_, p, s_.postures.from_ik, s_.rules.made());
+    if (p == 0 && moves_legs(playback, hold)) {
+      const WholeBody& body = s_.rules.body(planned(playback, hold));
+      for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
+        longest_s = std::max(longest_s, way_s(body.seen_soles[leg], body.first_soles[leg]));
+    }
+    return static_cast<int>(std::ceil(longest_s * stage_.rate_hz));
   }
 
   void fade(const Playback& playback, const LayerHold& hold, std::size_t p) {
@@ -166,12 +183,43 @@ class Generation {
     blend_part(character_, p, shown, moved, weight, shown);
   }
 
+  static bool is_cut(const Playback& playback, const LayerHold& hold) {
+    return hold.action >= 0 && planned(playback, hold).cuts && playback.frame() <= hold.frame + 1;
+  }
+
+  // Legs that walk have their own speeds: held back one by one, their feet would leave the ground that they stand on.
+  void follow(const Playback& playback, std::size_t p) {
+    const LayerStack& stack = s_.stacks[p];
+    std::vector<double>& coords = s_.postures.shown.coords;
+    s_.behind[p] = 0;
+    if (is_cut(playback, stack.overwrite()) || is_cut(playback, stack.ik()))
+      s_.path.cut(p, coords);
+    else if (stack.ik().action >= 0 && moves_legs(playback, stack.ik()))
+      s_.path.pass(p, coords);
+    else
+      s_.behind[p] = s_.path.follow(p, coords);
+  }
+
   bool falls_short(std::size_t p) const { return s_.rules.feedback()[p].shortfall > kMet; }
 
-  // Whether the use that aims is all that moves a part. Parts before it in the chain are not its own.
+  void note_lag(const Playback& playback, std::size_t p) {
+    const LayerHold& ik = s_.stacks[p].ik();
+    const bool has_ik = ik.action >= 0;
+    if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0))
+      s_.lags.note(playback.frame(), p, std::nullopt);
+    else if (s_.behind[p] != 0)
+      s_.lags.note(playback.frame(), p, Shortfall::joint_speed);
+    else if (has_ik && s_.rules.feedback()[p].at_range_end)
+      s_.lags.note(playback.frame(), p, Shortfall::joint_range);
+    else if (falls_short(p))
+      s_.lags.note(playback.frame(), p, Shortfall::out_of_reach);
+  }
+
+  // Whether the use that aims is all that moves a part, which is where it wants it. Parts before it in the chain are not
+  // its own.
   bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
     const LayerHold& ik = s_.stacks[p].ik();
-    return ik.action >= 0 && planned(playback, ik).use == aim.use && s_.added[p] == 0;
+    return ik.action >= 0 && planned(playback, ik).use == aim.use && s_.added[p] == 0 && s_.behind[p] == 0;
   }
 
   // Whether an aim is fully in force.

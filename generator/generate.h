@@ -4,6 +4,7 @@
 
 #include "generator/lags.h"
 #include "generator/layer_stack.h"
+#include "generator/motion/joint_path.h"
 #include "generator/root_carry.h"
 #include "generator/rule_runner.h"
 #include "generator/span_recorder.h"
@@ -34,6 +35,8 @@ struct GenerateScratch {
   std::vector<char> added;         // by part: an additive moved it in this frame
   LayerPostures postures;
   RuleRunner rules;
+  JointPath path;                  // of the joints that are shown
+  std::vector<char> behind;        // by part: a joint is still on its way to where it is wanted
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion

@@ -9,8 +9,9 @@ namespace contort {
 namespace {
 
 IntendedAction intended(const PlannedAction& action) {
-  return {action.sequence,   action.clip,  action.action, action.part,     action.named,    action.name,
-          action.def->layer, action.start, action.end,    action.blend_in, action.blend_out, action.first_frame,
+  return {action.sequence,    action.clip,        action.action, action.part,
+          action.named,       action.name,        action.def->layer, action.start,
+          action.end,         std::max(0.0, action.blend_in), action.blend_out, action.first_frame,
           action.last_frame};
 }
 
@@ -58,38 +59,46 @@ class Goals {
     if (action == nullptr || run == nullptr || action->named != span.part) return;
     const Promise promise = action->def->promise;
     if (promise == Promise::arrives) add_arrival(*action, span, *run);
-    if (promise == Promise::holds || promise == Promise::aims) add_while_in_force(*action, span, *run);
+    if (promise == Promise::none && action->def->timing == Timing::goal)
+      add_unmet_end(*action, span, *run);
+    if (promise == Promise::holds || promise == Promise::aims) add_while_in_force(*action, span);
   }
 
  private:
   static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
 
-  // In the span's last frame, if the action came to its end and does not fade out.
-  void add_arrival(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
+  // Whether the action came to its end in the span's last frame, and does not fade out.
+  static bool is_ended(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
+    return content(run, span.last_frame) >= action.last_frame && !(action.blend_out > 0.0);
+  }
+
+  // Whether a part lags in the last frame of an action that came to its end.
+  bool add_unmet_end(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
     const int last = span.last_frame;
-    if (content(run, last) < action.last_frame || action.blend_out > 0.0) return;
-    if (const Lag* lag = lag_at(*stage_.character, lags_, span.part, last)) {
-      out_.unmet.push_back({last, last, span.part, action.name, lag->why});
-      return;
-    }
+    if (!is_ended(action, span, run)) return false;
+    const Lag* lag = lag_at(*stage_.character, lags_, span.part, last);
+    if (lag != nullptr && lag->why) out_.unmet.push_back({last, last, span.part, action.name, *lag->why});
+    return lag != nullptr;
+  }
+
+  void add_arrival(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
+    if (!is_ended(action, span, run) || add_unmet_end(action, span, run)) return;
+    const int last = span.last_frame;
     const Part& part = stage_.character->parts()[static_cast<std::size_t>(span.part)];
     const Vec3 target_m(action.params[0], action.params[1], action.params[2]);
     out_.goals.push_back({last, last, span.part, part.reach.front().tip, -1, target_m});
   }
 
   // In the frames in which the action has come in and does not fade.
-  void add_while_in_force(const PlannedAction& action, const ActionSpan& span, const QueueSpan& run) {
-    const double came = std::max(action.start, static_cast<double>(run.first_content));
+  void add_while_in_force(const PlannedAction& action, const ActionSpan& span) {
     bool was_held = false, was_unmet = false;
     for (int frame = span.first_frame; frame <= span.last_frame; ++frame) {
-      const int now = content(run, frame);
-      const bool is_in_force = come_in(action, came, now, frame - span.first_frame, stage_.rate_hz) >= 1.0 &&
-                               not_blended_out(action, now) >= 1.0;
-      const Lag* lag = is_in_force ? lag_at(*stage_.character, lags_, span.part, frame) : nullptr;
-      if (lag != nullptr) add_unmet_frame(action, frame, lag->why, was_unmet);
-      const bool is_held = is_in_force && lag == nullptr && action.def->promise == Promise::holds;
+      const Lag* lag = lag_at(*stage_.character, lags_, span.part, frame);
+      const bool is_unmet = lag != nullptr && lag->why.has_value();
+      if (is_unmet) add_unmet_frame(action, frame, *lag->why, was_unmet);
+      const bool is_held = lag == nullptr && action.def->promise == Promise::holds;
       if (is_held) add_held_frame(action, frame, was_held);
-      was_held = is_held, was_unmet = lag != nullptr;
+      was_held = is_held, was_unmet = is_unmet;
     }
   }
 
@@ -120,12 +129,6 @@ void say_intent(const Stage& stage, const Motion& motion, std::span<const Lag> l
   for (const PlannedAction& action : stage.timeline.actions) intent.actions.push_back(intended(action));
   Goals goals(stage, motion, lags, intent);
   for (const ActionSpan& span : motion.spans) goals.add(span);
-}
-
-Intent intent_of(const Stage& stage, const Motion& motion, std::span<const Lag> lags) {
-  Intent intent;
-  say_intent(stage, motion, lags, intent);
-  return intent;
 }
 
 }  // namespace contort

@@ -9,11 +9,9 @@
 
 namespace contort {
 
-// The intent of a motion that was generated from this stage. Lags say where parts were not where they were wanted: no
-// goal is in force in these frames, and an action that ends in one of them did not meet its request.
-Intent intent_of(const Stage& stage, const Motion& motion, std::span<const Lag> lags = {});
-
-// The same into memory that is used again.
+// The intent of a motion that was generated from this stage, into memory that is used again. Lags say where parts were
+// not where they were wanted: no goal is in force in these frames, and an action that ends in one of them did not meet
+// its request.
 void say_intent(const Stage& stage, const Motion& motion, std::span<const Lag> lags, Intent& intent);
 
 }  // namespace contort

@@ -36,6 +36,11 @@ bool was_in_force(const Playback& playback, const LayerHold& hold, std::size_t p
          not_blended_out(planned(playback, hold), content(playback, hold) - 1) > 0.0;
 }
 
+double come_in_at_ease(int held_frames, int blend_frames) {
+  if (blend_frames < 0 || held_frames <= 0) return 0.0;
+  return held_frames < blend_frames ? ease(static_cast<double>(held_frames) / blend_frames) : 1.0;
+}
+
 }  // namespace
 
 const PlannedAction& planned(const Playback& playback, const LayerHold& hold) { return playback.action(hold.action); }
@@ -43,6 +48,7 @@ const PlannedAction& planned(const Playback& playback, const LayerHold& hold) { 
 int content(const Playback& playback, const LayerHold& hold) { return playback.content(playback.run(hold.run)); }
 
 double come_in(const Playback& playback, const LayerHold& hold) {
+  if (takes_its_time(planned(playback, hold))) return come_in_at_ease(playback.frame() - hold.frame, hold.blend_frames);
   return come_in(planned(playback, hold), hold.came, content(playback, hold), playback.frame() - hold.frame,
                  playback.rate_hz());
 }

@@ -14,6 +14,7 @@ struct LayerHold {
   int frame = -1;         // of the motion, in which it took over
   double came = 0.0;      // the content frame at which it took over
   double eased = 0.0;     // [0, 1]
+  int blend_frames = -1;  // over which an action comes in that takes its time; -1: not known yet
   double since = -1e30;   // when the last action that had the layer began, in frames of the motion
   int since_action = -1;  // that action: none that began earlier gets the layer
   bool operator==(const LayerHold&) const = default;
@@ -47,6 +48,9 @@ class LayerStack {
 
   // Brings both holds to the playback's frame; frames in rising order.
   Change advance(const Playback& playback, std::size_t part);
+
+  // How long the action that has just begun takes to come in, if it takes its time.
+  void set_ik_blend(int frames) { ik_.blend_frames = frames; }
 
   const LayerHold& overwrite() const { return overwrite_; }
   const LayerHold& ik() const { return ik_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/motion/blend.h"
+#include "generator/motion/joint_clamp.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
@@ -16,6 +17,9 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
   const double missed_s = std::min(duration_s, action.speed * (came - action.start) / action.scale / rate_hz);
   return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s};
 }
+
+// Legs that walk must not be clamped one joint at a time: their feet would leave the ground that they stand on.
+bool keeps_ranges(const ActionDef& def) { return def.layer != Layer::overwrite && def.spread != Spread::legs; }
 
 }  // namespace
 
@@ -52,6 +56,7 @@ const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, s
                     action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
                     feedback_[part], room_},
                    target_);
+  if (keeps_ranges(*action.def) && clamp_part(character, part, target_)) feedback_[part].at_range_end = true;
   return target_;
 }
 

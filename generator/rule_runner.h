@@ -33,6 +33,7 @@ class RuleRunner {
   const Posture& run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
                      const Posture& beneath, const Rigid& stands_at);
 
+  const Posture& made() const { return target_; }  // by the last run
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
   std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
   std::span<Rigid> world() { return world_; }                       // by joint

@@ -46,6 +46,7 @@ struct Feedback {
   bool aim_reached = false;
   bool impact = false;
   double shortfall = 0.0;  // of what was asked for, in its own unit (m, rad, m/s, share); 0: met
+  bool at_range_end = false;  // a joint was wanted farther than it goes
 };
 
 // Where an action stands at a frame, in time of its content.

@@ -5,6 +5,7 @@
 
 #include "generator/motion/ik.h"
 #include "generator/motion/joint_clamp.h"
+#include "generator/motion/way.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 
@@ -43,11 +44,8 @@ double way_rad(const RuleInput& in, const Posture& posture) {
   double most = 0.0;
   for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
     const Joint& joint = in.character.joint(j);
-    const double *a = in.from.coords.data() + joint.coord, *b = posture.coords.data() + joint.coord;
-    if (joint.kind == JointKind::ball)
-      most = std::max(most, rotation_angle(glm::conjugate(quat_at(a)) * quat_at(b)));
-    else if (joint.kind == JointKind::hinge)
-      most = std::max(most, std::fabs(b[0] - a[0]));
+    if (joint.kind == JointKind::prismatic) continue;
+    most = std::max(most, joint_way(joint, in.from.coords.data() + joint.coord, posture.coords.data() + joint.coord));
   }
   return most;
 }
@@ -60,27 +58,35 @@ double elbow_height(const RuleInput& in) {
   return (middle.y - upper.y) / std::max(1e-6, length(middle - upper));
 }
 
-// Joints out of range and bodies too near weigh most, then an elbow that is held high, then a long way from where the
-// action found the part. Places the limb in in.world.
-double posture_cost(const RuleInput& in, const Posture& posture) {
+// Of joints out of range and bodies too near; 0 where there are none. Places the limb in in.world.
+double cost_of_faults(const RuleInput& in, const Posture& posture) {
   // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
   constexpr double kTooNear_m = 1e-4;
   place_limb(in, posture);
   const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
   const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
-  return 40.0 * excess(in, posture) + too_near + 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
+  return 40.0 * excess(in, posture) + too_near;
 }
 
-// The straight one first, then to either side: where several cost the same, as with a limb that is stretched, rounding
-// must not choose.
-double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, Posture& posture) {
-  constexpr double kBetter = 0.01;
-  double best = 0.0, least = 1e30;
+// Of an elbow that is held high, then of a long way from where the action found the part. The limb is placed.
+double cost_of_discomfort(const RuleInput& in, const Posture& posture) {
+  return 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
+}
+
+// Of postures without faults, the one that is nearest to the wish, or the most comfortable one where there is none. The
+// wish, or the straight limb, comes first, then those to either side: where several cost the same, as with a limb that
+// is stretched, rounding must not choose. A limb on the right tries the mirror images.
+double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, std::optional<double> wish_rad,
+                     Posture& posture) {
+  constexpr double kBetter = 0.01, kOfWish = 0.1;  // so that no wish outweighs a fault
+  const double first = wish_rad.value_or(0.0), outward = in.part.side == Side::right ? -1.0 : 1.0;
+  double best = first, least = 1e30;
   for (int i = 0; i < kSwivels; ++i) {
-    const int step = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
-    const double swivel = 2.0 * kPi * step / kSwivels;
-    reach_for(in.character, chain, in.world, target, swivel, posture.coords);
-    if (const double now = posture_cost(in, posture); now < least - kBetter) least = now, best = swivel;
+    const double off = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
+    reach_for(in.character, chain, in.world, target, first + off, posture.coords);
+    const double faults = cost_of_faults(in, posture);
+    const double now = faults + (wish_rad ? kOfWish * std::fabs(off) : cost_of_discomfort(in, posture));
+    if (now < least - kBetter) least = now, best = first + off;
   }
   return best;
 }
@@ -112,25 +118,36 @@ bool has_travels(const RuleInput& in) {
   return std::ranges::any_of(own, [](const Joint& joint) { return joint.kind == JointKind::prismatic; });
 }
 
+// With travels out as far as they must, whatever the swivel.
+double reach_as_far(const RuleInput& in, const ReachChain& chain, const Vec3& target, Posture& posture) {
+  reach_for(in.character, chain, in.world, target, in.body.swivel_rad, posture.coords);
+  const double missing = missing_m(in, chain, target, posture);
+  if (missing < kReached_m || !has_travels(in) || !is_too_short(in, chain, target)) return missing;
+  double low = 0.0, high = 1.0;  // the smallest share that reaches without an elbow that bends backwards
+  const Joint& elbow = in.character.joint(chain.middle);
+  const auto reaches = [&](double share) {
+    return reach_at(in, chain, target, share, posture) < kReached_m &&
+           normalised_margin(elbow, posture.coords.data() + elbow.coord) >= 0.0;
+  };
+  if (!reaches(high)) return missing_m(in, chain, target, posture);
+  for (int i = 0; i < kTravelHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (reaches(middle) ? high : low) = middle;
+  }
+  return reach_at(in, chain, target, high, posture);
+}
+
 }  // namespace
 
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture) {
-  if (swivel_rad)
-    in.body.swivel_rad = *swivel_rad;
-  else if (in.body.begun != in.took_over)
-    in.body.swivel_rad = choose_swivel(in, chain, target_world_m, posture), in.body.begun = in.took_over;
+  const bool begins = in.body.begun != in.took_over;
+  if (begins) in.body.swivel_rad = swivel_rad.value_or(0.0), in.body.begun = in.took_over;
+  const double missing = reach_as_far(in, chain, target_world_m, posture);
+  if (!begins) return missing;
+  in.body.swivel_rad = choose_swivel(in, chain, target_world_m, swivel_rad, posture);
   reach_for(in.character, chain, in.world, target_world_m, in.body.swivel_rad, posture.coords);
-  const double missing = missing_m(in, chain, target_world_m, posture);
-  if (missing < kReached_m || !has_travels(in) || !is_too_short(in, chain, target_world_m)) return missing;
-  double low = 0.0, high = 1.0;  // the smallest share that reaches
-  const double missing_at_most = reach_at(in, chain, target_world_m, high, posture);
-  if (missing_at_most >= kReached_m) return missing_at_most;
-  for (int i = 0; i < kTravelHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (reach_at(in, chain, target_world_m, middle, posture) < kReached_m ? high : low) = middle;
-  }
-  return reach_at(in, chain, target_world_m, high, posture);
+  return missing_m(in, chain, target_world_m, posture);
 }
 
 }  // namespace contort

@@ -7,9 +7,10 @@
 
 namespace contort {
 
-// Brings the chain's tip to a point of the world. Without a given swivel the one is chosen, when the action takes the
-// part, that keeps joints in their ranges and bodies apart, holds the elbow low and is near to where the limb is. The
-// part's travels come out as far as they must. Answers how far the tip is from the point, m.
+// Brings the chain's tip to a point of the world. The swivel is chosen when the action takes the part: one that keeps
+// joints in their ranges and bodies apart, as near to the given one as that allows; where none is given, one that holds
+// the elbow low and is near to where the limb is. The part's travels come out as far as they must. Answers how far the
+// tip is from the point, m.
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
 

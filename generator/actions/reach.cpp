@@ -19,7 +19,7 @@ std::vector<ParamDef> reach_params(const Character&, const Part&) {
   swivel.low = -180.0, swivel.high = 180.0;
   swivel.optional = true;
   swivel.mirrored = Mirrored::opposite;
-  swivel.help = "Turns elbow or knee about the line to the target; left out: the way that suits the figure best.";
+  swivel.help = "Turns elbow or knee about the line to the target, as far as joints and bodies allow; left out: the way that suits the figure best.";
   return {target, swivel};
 }
 

@@ -1,15 +1,26 @@
 #include "generator/motion/blend.h"
 
 #include <algorithm>
+#include <array>
+
+#include "generator/motion/joint_clamp.h"
 
 namespace contort {
 
 namespace {
 
+constexpr double kAtEnd = -1e-6;  // of half a range: rounding puts an angle at its limit that far beyond
+
+// The range of a ball is not convex: the arc between two rotations inside of it may leave it, and then goes along its
+// edge.
 void blend_joint(const Joint& joint, const double* a, const double* b, double weight, double* out) {
   if (joint.kind == JointKind::ball) {
-    const Quat q = slerp_short(Quat(a[0], a[1], a[2], a[3]), Quat(b[0], b[1], b[2], b[3]), weight);
-    out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+    const Quat q = slerp_short(quat_at(a), quat_at(b), weight);
+    std::array<double, 4> between{q.w, q.x, q.y, q.z};
+    const bool has_left = normalised_margin(joint, between.data()) < 0.0 && normalised_margin(joint, a) >= kAtEnd &&
+                          normalised_margin(joint, b) >= kAtEnd;
+    if (has_left) clamp_to_range(joint, between.data());
+    std::ranges::copy(between, out);
   } else if (joint.kind != JointKind::root) {
     out[0] = a[0] + (b[0] - a[0]) * weight;
   }

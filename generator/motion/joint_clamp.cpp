@@ -1,8 +1,10 @@
 #include "generator/motion/joint_clamp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "generator/motion/way.h"
 #include "model/core/detmath.h"
 
 namespace contort {
@@ -94,6 +96,21 @@ void clamp_to_range(const Joint& joint, double* coords) {
   if (joint.kind == JointKind::ball) return clamp_ball(joint, coords);
   if (!std::isfinite(coords[0])) coords[0] = 0.5 * (joint.low + joint.high);
   coords[0] = std::clamp(coords[0], joint.low, joint.high);
+}
+
+bool clamp_part(const Character& character, std::size_t part, Posture& posture) {
+  constexpr double kMoved = 1e-4;
+  bool moved = false;
+  const Part& own = character.parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character.joint(j);
+    double* coords = posture.coords.data() + joint.coord;
+    std::array<double, 4> wanted{};
+    std::copy_n(coords, coord_size(joint.kind), wanted.begin());
+    clamp_to_range(joint, coords);
+    moved = moved || joint_way(joint, wanted.data(), coords) > kMoved;
+  }
+  return moved;
 }
 
 double normalised_margin(const Joint& joint, const double* coords) {

@@ -1,8 +1,8 @@
-// A joint's range, for rules that promise to stay inside it: clamping, and how far inside a posture is. Rules that do
-// not promise it do not clamp (docs/architecture.md); the check that judges ranges has its own arithmetic.
+// A joint's range: clamping, and how far inside of it a posture is. The check that judges ranges has its own arithmetic.
 #pragma once
 
 #include "model/character/character.h"
+#include "model/motion/motion.h"
 
 namespace contort {
 
@@ -24,6 +24,9 @@ void set_swing_twist(const Joint& ball, const SwingTwist& at, double* coords);
 // that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. What is not a
 // number goes to the middle of the range.
 void clamp_to_range(const Joint& joint, double* coords);
+
+// Moves all joints of a part into their ranges; true if one of them was moved by more than 1e-4 rad or m.
+bool clamp_part(const Character& character, std::size_t part, Posture& posture);
 
 // How far inside its range the joint is: 1 in the middle, 0 at a limit, below 0 outside. 1 for the root and for a joint
 // that cannot move.

@@ -258,6 +258,12 @@ class Layout {
     return Done{};
   }
 
+  // Only courses on the ik layer start elsewhere than where the part is.
+  static int blend_in_frames(const ActionUse& use, const ActionDef& def) {
+    const bool may_wait = def.layer == Layer::ik && def.timing == Timing::course;
+    return may_wait ? use.blend_in_frames : std::max(0, use.blend_in_frames);
+  }
+
   Result<Done> add_action(const ActionUse& use, const Stretch& content, PlannedAction& planned) {
     if (Result<Done> done = resolve(use, planned); !done) return done;
     planned.use = out_.use_count++;
@@ -265,7 +271,8 @@ class Layout {
     planned.end = content.at(static_cast<double>(use.start_frame) + use.duration_frames);
     planned.speed = use.speed;
     planned.scale = content.scale;
-    planned.blend_in = use.blend_in_frames * content.scale;
+    planned.blend_in = blend_in_frames(use, *planned.def) * content.scale;
+    planned.cuts = planned.def->timing == Timing::goal ? use.duration_frames == 0 : planned.blend_in == 0.0;
     planned.blend_out = use.blend_out_frames * content.scale;
     planned.first_frame = static_cast<int>(std::min(frame_from(planned.start), 1e9));
     // At least one frame after the start, or an action shorter than the rounding would never reach its target.
@@ -323,6 +330,8 @@ double ramp(double frame, double from, double length) {
 }  // namespace
 
 Result<Timeline> lay_out(const TimelineInput& input) { return Layout(input).lay_out(); }
+
+bool takes_its_time(const PlannedAction& action) { return action.blend_in < 0.0; }
 
 double progress(const PlannedAction& action, int frame) {
   const double period = action.end - action.start;

@@ -28,8 +28,9 @@ struct PlannedAction {
   double scale = 1.0;   // frames per frame of content
   int first_frame = 0;  // the frames that it moves: ceil(start) to ceil(end), rounding forgiven, two at least
   int last_frame = 0;
-  double blend_in = 0.0;  // frames
+  double blend_in = 0.0;  // frames; negative: as long as the way needs
   double blend_out = 0.0;
+  bool cuts = false;  // it takes its part at once, as its use says
   std::vector<double> params;
   std::shared_ptr<const AimPlan> aim;   // where it has an own_point
   std::shared_ptr<const KeyPlan> keys;  // of key poses
@@ -57,6 +58,9 @@ struct TimelineInput {
 // those of bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
 Result<Timeline> lay_out(const TimelineInput& input);
 
+// Whether a course on the ik layer comes in for as long as its way needs.
+bool takes_its_time(const PlannedAction& action);
+
 // Progress of an action at a frame of its sequence, in [0, 1].
 double progress(const PlannedAction& action, int frame);
 
@@ -67,7 +71,7 @@ double not_blended_out(const PlannedAction& action, int frame);
 
 // As blended_in, of an action that has had its part for `held_frames` of the motion: a course that was cut comes in again
 // where it goes on, because a walk would start with both feet at home, wherever they are. Key poses, on the layer
-// overwrite, start from where the part is by themselves.
+// overwrite, start from where the part is by themselves. Not for an action that takes its time.
 double come_in(const PlannedAction& action, double came, int frame, int held_frames, double rate_hz);
 
 // Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and

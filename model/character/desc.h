@@ -40,7 +40,7 @@ struct JointDesc {
   std::array<double, 2> swing_deg{90.0, 90.0};
   Vec3 swing_center_deg{0.0};
 
-  double max_speed_deg_s = 720.0;  // hinge, ball: > 0. Read by checks; generation never clamps to it.
+  double max_speed_deg_s = 720.0;  // hinge, ball: > 0.
   double max_speed_m_s = 1.0;      // prismatic: > 0.
   double strength_low = -100.0;    // Greatest effort against the axis, N m (prismatic: N), <= 0.
   double strength_high = 100.0;    // Greatest effort along the axis, N m (prismatic: N), >= 0.

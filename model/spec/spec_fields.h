@@ -10,7 +10,8 @@
 namespace contort {
 
 inline const json_fields::Rule kFrames{.low = 0, .high = 36000};
-inline const json_fields::Rule kBlend{.low = 0, .high = 600};
+inline const json_fields::Rule kBlendIn{.low = -1, .high = 600};
+inline const json_fields::Rule kBlendOut{.low = 0, .high = 600};
 inline const json_fields::Rule kSpeed{.low = 0.1, .high = 10};
 inline const json_fields::Rule kOptionalLabel{.text = json_fields::Text::label, .may_be_empty = true};
 
@@ -21,8 +22,9 @@ void fields(V& v, const ActionUse*) {
   v.field("start_frame", &ActionUse::start_frame, kFrames, "From the clip's start.");
   v.field("duration_frames", &ActionUse::duration_frames, kFrames, "A longer period plays slower.");
   v.field("speed", &ActionUse::speed, kSpeed, "Progress within the period.");
-  v.field("blend_in_frames", &ActionUse::blend_in_frames, kBlend, "How long a course takes to come in.");
-  v.field("blend_out_frames", &ActionUse::blend_out_frames, kBlend, "How long it fades out before its end.");
+  v.field("blend_in_frames", &ActionUse::blend_in_frames, kBlendIn,
+          "How long a course takes to come in; 0 is a cut, -1 as long as the way needs.");
+  v.field("blend_out_frames", &ActionUse::blend_out_frames, kBlendOut, "How long it fades out before its end.");
   v.field("params", &ActionUse::params, {.max_count = 64}, "Parameters by the names that the action declares.");
 }
 

@@ -80,7 +80,7 @@ TEST(AimError, OutOfReachIsAnUnmetRequestAndNoFinding) {
 TEST(AimError, AnAimThatIsDisturbedOnPurposeIsNotJudged) {
   Motion motion;
   const auto blow = [](int start) {
-    return use("hit_reaction", "head", start, 10, {{"azimuth_deg", 90.0}, {"strength_deg", 30.0}});
+    return use("hit_reaction", "head", start, 10, {{"azimuth_deg", 90.0}, {"strength_deg", 10.0}});
   };
   EXPECT_TRUE(played({head_aims_at(Vec3(1.0, 1.2, 3.0)), blow(25)}, &motion).findings.empty());
   ASSERT_EQ(motion.aims.size(), 2U);

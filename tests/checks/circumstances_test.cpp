@@ -1,7 +1,7 @@
 // In what circumstances a frame is: by example, one for each phase.
 #include "checks/circumstances.h"
 
-#include "generator/intent.h"
+#include "generator/execute.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {
@@ -14,7 +14,7 @@ struct Case {
   Stage stage;
   Motion motion;
   explicit Case(const Spec& spec) : stage(*build_stage(spec, stock_library())), motion(generate(stage)) {}
-  Circumstances at(int frame) const { return circumstances_of(intent_of(stage, motion), *stage.character, motion, frame); }
+  Circumstances at(int frame) const { return circumstances_of(intent_of(stage), *stage.character, motion, frame); }
   Phase phase(int frame) const { return at(frame).phase; }
 };
 

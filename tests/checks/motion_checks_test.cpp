@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "generator/intent.h"
+#include "generator/execute.h"
 #include "tests/checks/small_character.h"
 #include "tests/generator/scenes_of_one.h"
 #include "tests/stage_evaluator.h"
@@ -177,7 +177,7 @@ TEST(Residue, IsFoundWhereAnAdditiveStays) {
   const int elbow = stage.character->find_joint("arm_right/elbow");
   const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
   for (int frame = motion.spans[0].last_frame; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
-  const Intent intent = intent_of(stage, motion);
+  const Intent intent = intent_of(stage);
   const std::vector<Finding> findings =
       StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent);
   ASSERT_EQ(findings.size(), 1U);
@@ -195,7 +195,7 @@ TEST(ReachError, SaysHowFarAPointIsMissed) {
   const Stage stage = staged(reach_to("[0.35, 1.2, 0.35]"));
   EXPECT_TRUE(found(stage, "reach_error").empty());
   const Motion motion = generate(stage);
-  Intent intent = intent_of(stage, motion);
+  Intent intent = intent_of(stage);
   ASSERT_EQ(intent.goals.size(), 1U);
   intent.goals[0].target_m += Vec3(0.0, 0.05, 0.0);
   const std::vector<Finding> findings =
@@ -241,7 +241,7 @@ Stage two_hands_on_rifle(const std::string& target) {
 TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
   const Stage stage = two_hands_on_rifle("[-0.1, 1.2, 0.4]");
   Motion motion = generate(stage);
-  const Intent intent = intent_of(stage, motion);
+  const Intent intent = intent_of(stage);
   motion.row(50)[static_cast<std::size_t>(fixtures::joint(*stage.character, "arm_left/elbow").coord)] += 0.2;
   const std::vector<Finding> findings =
       StageEvaluator().judge(*stage.character, motion, "reach_error", stage.environment, &intent);
@@ -270,7 +270,7 @@ Stage cut_hold(int rate_hz) {
     "character": {"name": "human", "attachments": [{"object": "rifle", "slot": "hand_right", "socket": "grip"}]},
     "sequences": [{"clips": [{"actions": [
       {"action": "reach", "slot": "arm_right", "duration_frames": 20, "params": {"target_m": [-0.15, 1.2, 0.3]}},
-      {"action": "weapon_hold", "slot": "arm_left", "start_frame": 20, "duration_frames": 160}]}]}],
+      {"action": "weapon_hold", "slot": "arm_left", "start_frame": 20, "duration_frames": 160, "blend_in_frames": 0}]}]}],
     "interrupts": [{"when": {"event": "frame", "frame": 40}, "sequence": {"clips": [{"actions": [
       {"action": "pose", "slot": "arm_left", "duration_frames": 20, "params": {"elbow_deg": 80}}]}]}}]})");
 }
@@ -279,7 +279,7 @@ TEST(ReachError, AHoldThatWasCutHasTheTimeThatItsGeneratorTakesToComeBack) {
   for (const int rate_hz : {30, 60, 120}) {
     const Stage stage = cut_hold(rate_hz);
     EXPECT_TRUE(found(stage, "reach_error").empty()) << rate_hz << " Hz";
-    const Intent intent = intent_of(stage, generate(stage));
+    const Intent intent = intent_of(stage);
     ASSERT_EQ(intent.goals.size(), 3U) << "the reach, and the hold before and after the cut";
     EXPECT_LT(intent.goals[1].last_frame, intent.goals[2].first_frame);
   }
@@ -288,7 +288,7 @@ TEST(ReachError, AHoldThatWasCutHasTheTimeThatItsGeneratorTakesToComeBack) {
 TEST(ReachError, AHoldThatDoesNotComeBackAfterACutIsFound) {
   const Stage stage = cut_hold(60);
   Motion motion = generate(stage);
-  const Intent intent = intent_of(stage, motion);
+  const Intent intent = intent_of(stage);
   const int elbow = stage.character->find_joint("arm_left/elbow");
   const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
   for (int frame = 60; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
@@ -310,7 +310,7 @@ TEST(Stuck, QueuesOfSpecsRunDry) {
   Motion motion = generate(stage);
   ASSERT_EQ(motion.queue.size(), 1U);
   motion.queue[0].last_frame = motion.frame_count - 1;
-  const Intent intent = intent_of(stage, motion);
+  const Intent intent = intent_of(stage);
   EXPECT_EQ(StageEvaluator().judge(*stage.character, motion, "stuck", stage.environment, &intent).size(), 1U);
 }
 
@@ -331,7 +331,7 @@ TEST(QueueGap, WhatIsCutGoesOnWhereItWas) {
   ASSERT_EQ(motion.queue.size(), 5U);
   EXPECT_TRUE(found(stage, "queue_gap").empty());
   const auto judged = [&](const Motion& changed) {
-    const Intent intent = intent_of(stage, changed);
+    const Intent intent = intent_of(stage);
     return StageEvaluator().judge(*stage.character, changed, "queue_gap", stage.environment, &intent);
   };
   for (std::size_t span = 0; span < motion.queue.size(); ++span)

@@ -6,7 +6,7 @@
 
 #include "checks/waive.h"
 #include "tests/stage_evaluator.h"
-#include "generator/intent.h"
+#include "generator/execute.h"
 #include "tests/checks/small_character.h"
 
 namespace contort {
@@ -122,7 +122,7 @@ TEST(Settings, ALimitOfOnePhaseCountsInItsFramesOnly) {
   EXPECT_EQ(moving[0].first_frame, all[0].first_frame);
   EXPECT_LT(moving[0].last_frame, all[0].last_frame);
   const Motion motion = generate(stage);
-  EXPECT_EQ(phase_of(intent_of(stage, motion), motion, moving[0].last_frame + 1), Phase::at_rest);
+  EXPECT_EQ(phase_of(intent_of(stage), motion, moving[0].last_frame + 1), Phase::at_rest);
 }
 
 CheckSettings waiving(const Waiver& waiver, const std::string& today) {

@@ -38,7 +38,9 @@ TEST(Generate, PosesReachTheirKeyPoseInTheLastFrame) {
 }
 
 TEST(Generate, EvenActionsOfOneFrameAreSeen) {
-  const Motion motion = generate(stage_of({sequence({elbow(0, 1, 90), elbow(1, 1, 20)}), sequence({elbow(0, 1, 50)})}));
+  const auto character = std::make_shared<const Character>(fixtures::built({}, fixtures::tireless_library()));
+  const Motion motion = generate(
+      stage_of({sequence({elbow(0, 1, 90), elbow(1, 1, 20)}), sequence({elbow(0, 1, 50)})}, 0, character));
   EXPECT_NEAR(coord(motion, 1, human(), kElbow), 90 * kDeg, 1e-15);
   EXPECT_NEAR(coord(motion, 2, human(), kElbow), 20 * kDeg, 1e-15);
   EXPECT_NEAR(coord(motion, 3, human(), kElbow), 50 * kDeg, 1e-15);

@@ -14,7 +14,7 @@ using fixtures::coord;
 using fixtures::use;
 
 Library with(const std::vector<std::string>& files) {
-  Library library = stock_library();
+  Library library = fixtures::tireless_library();
   for (const std::string& file : files) {
     const Result<ActionDesc> action = parse_action(file);
     EXPECT_TRUE(action.ok()) << (action.ok() ? "" : to_line(action.issue()));
@@ -205,7 +205,7 @@ TEST(OwnActions, PartsOfAKindThatLackAJointCannotDoIt) {
 
 // A case is judged against the actions that it was found with.
 TEST(OwnActions, CountAsAPartOfTheCharacter) {
-  const Character plain = fixtures::built({});
+  const Character plain = fixtures::built({}, fixtures::tireless_library());
   EXPECT_NE(fixtures::built({}, with({kNod})).hash(), plain.hash());
   EXPECT_NE(fixtures::built({}, with({kNod})).hash(), fixtures::built({}, with({kPoint})).hash());
   EXPECT_EQ(fixtures::built({}, with({kShieldNod})).hash(), plain.hash());  // for a part that a human has not

@@ -13,11 +13,13 @@
 
 namespace contort::fixtures {
 
+// It takes its part at once.
 inline ActionUse use(const std::string& action, const std::string& slot, int start_frame, int duration_frames,
                      std::map<std::string, ParamValue> params) {
   ActionUse made;
   made.action = action, made.slot = slot;
   made.start_frame = start_frame, made.duration_frames = duration_frames;
+  made.blend_in_frames = 0;
   made.params = std::move(params);
   return made;
 }

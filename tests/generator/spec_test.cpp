@@ -132,6 +132,7 @@ TEST(Spec, CanonicalTextIsSortedAndLeavesDefaultsOut) {
   Spec spec;
   EXPECT_EQ(print_spec(spec), R"({"character":{"name":"human"},"format":"contort.spec/1"})");
   spec.sequences = {sequence({elbow(0, 30, 0.1)})};
+  spec.sequences[0].clips[0].actions[0].blend_in_frames = -1;
   EXPECT_EQ(print_spec(spec),
             R"({"character":{"name":"human"},"format":"contort.spec/1","sequences":[{"clips":[{"actions":[)"
             R"({"action":"pose","params":{"elbow_deg":0.1},"slot":"arm_left"}]}]}]})");

@@ -40,8 +40,8 @@ Spec drawn(std::int64_t index) {
   return spec;
 }
 
-Motion play(const Spec& spec) {
-  const Result<Stage> stage = build_stage(spec, stock_library());
+Motion play(const Spec& spec, const Library& library = stock_library()) {
+  const Result<Stage> stage = build_stage(spec, library);
   EXPECT_TRUE(stage.ok()) << (stage.ok() ? "" : to_line(stage.issue())) << pretty_spec(spec);
   return stage ? generate(*stage) : Motion{};
 }
@@ -72,15 +72,18 @@ TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
   }
 }
 
-// Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion.
+// Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Blends have
+// lengths of content: those that take their time take the same time at any speed. A leg that leaves a course to reach does
+// so a frame later, which is half a frame of content in the slow motion: it may find another way there.
 Spec whole_frames(std::int64_t index) {
   Spec spec = drawn(index);
   spec.interrupts.clear();
   for_sequences(spec, [](SequenceDesc& sequence) {
     sequence.duration_frames = 0;
     for (ClipDesc& clip : sequence.clips) {
+      std::erase_if(clip.actions, [](const ActionUse& use) { return use.action == "reach" && use.slot.starts_with("leg"); });
       clip.speed = 1.0, clip.duration_frames = 0;
-      for (ActionUse& use : clip.actions) use.speed = 1.0;
+      for (ActionUse& use : clip.actions) use.speed = 1.0, use.blend_in_frames = std::max(0, use.blend_in_frames);
     }
   });
   return spec;
@@ -95,11 +98,11 @@ void expect_twice_as_slow(const Motion& plain, const Motion& slow, int frames, s
 TEST(Symmetry, ClipsOfHalfTheSpeedTakeTheSamePosturesAtTwiceTheTime) {
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     Spec spec = whole_frames(i);
-    const Motion plain = play(spec);
+    const Motion plain = play(spec, fixtures::tireless_library());
     for_sequences(spec, [](SequenceDesc& sequence) {
       for (ClipDesc& clip : sequence.clips) clip.speed = 0.5, clip.start_frame *= 2;
     });
-    expect_twice_as_slow(plain, play(spec), plain.frame_count - spec.hold_frames, i);
+    expect_twice_as_slow(plain, play(spec, fixtures::tireless_library()), plain.frame_count - spec.hold_frames, i);
   }
 }
 
@@ -108,7 +111,7 @@ TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     Spec spec = whole_frames(i);
     remove(spec, {"walk", "run"});
-    const Motion plain = play(spec);
+    const Motion plain = play(spec, fixtures::tireless_library());
     for_sequences(spec, [](SequenceDesc& sequence) {
       for (ClipDesc& clip : sequence.clips) {
         clip.start_frame *= 2;
@@ -118,7 +121,7 @@ TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
         }
       }
     });
-    expect_twice_as_slow(plain, play(spec), plain.frame_count - spec.hold_frames, i);
+    expect_twice_as_slow(plain, play(spec, fixtures::tireless_library()), plain.frame_count - spec.hold_frames, i);
   }
 }
 

@@ -1,0 +1,143 @@
+#include "generator/motion/joint_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "generator/motion/joint_clamp.h"
+#include "model/core/index.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kShare = 0.98;       // of the greatest speed: room for rounding
+constexpr double kShortest_s = 0.03;  // from rest to the greatest speed in a posture that is passed on
+constexpr double kGentle_s = 0.1;     // the same of a joint that has fallen behind
+
+// What one frame allows, per frame.
+struct Limits {
+  double speed;
+  double change;
+};
+
+Limits limits_of(const Joint& joint, bool is_behind, double frame_s) {
+  const double speed = kShare * joint.max_speed * frame_s;
+  return {speed, speed * std::min(1.0, frame_s / (is_behind ? kGentle_s : kShortest_s))};
+}
+
+// The way from a to b: rad as a rotation vector in a's frame, or m in x.
+Vec3 way(const Joint& joint, const double* a, const double* b) {
+  if (joint.kind != JointKind::ball) return Vec3(b[0] - a[0], 0.0, 0.0);
+  return to_rotation_vector(glm::conjugate(quat_at(a)) * quat_at(b));
+}
+
+void go(const Joint& joint, const double* from, const Vec3& step, double* out) {
+  if (joint.kind != JointKind::ball) {
+    out[0] = from[0] + step.x;
+    return;
+  }
+  const Quat q = glm::normalize(quat_at(from) * from_rotation_vector(step));
+  out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+}
+
+Vec3 shortened(const Vec3& v, double most) {
+  const double now = length(v);
+  return now > most ? v * (most / now) : v;
+}
+
+// The greatest speed at which what is `distance` away can be reached without going past it, per frame: after n frames
+// of losing `change` each, n (n + 1) / 2 times that lie behind.
+double closing_speed(double distance, double change) {
+  return std::min(distance, std::sqrt(2.0 * change * distance + 0.25 * change * change) - 0.5 * change);
+}
+
+// The speed that is nearest to the wanted one and allows to stop at the end of the range.
+double stopping_in_range(const Joint& joint, double now, double speed, double change) {
+  const auto most = [&](double room) { return room > 0.0 ? closing_speed(room, change) : 0.0; };
+  return std::clamp(speed, -most(now - joint.low), most(joint.high - now));
+}
+
+// Rounding puts a joint at the end of its range a little beyond.
+bool is_inside(const Joint& joint, const double* coords) { return normalised_margin(joint, coords) >= -1e-6; }
+
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+void JointPath::begin(const Character& character, std::span<const double> coords, double rate_hz) {
+  character_ = &character;
+  frame_s_ = 1.0 / rate_hz;
+  now_.assign(coords.begin(), coords.end());
+  wanted_.assign(coords.begin(), coords.end());
+  joints_.assign(character.joints().size(), {});
+}
+
+bool JointPath::follow_joint(int j, double* coords) {
+  const Joint& joint = character_->joint(j);
+  const double* now = now_.data() + joint.coord;
+  State& state = joints_[at(j)];
+  const Vec3 left = way(joint, now, coords);
+  const Vec3 wanted_speed = way(joint, wanted_.data() + joint.coord, coords);
+  const Limits limits = limits_of(joint, state.is_behind, frame_s_);
+  const bool is_there = length(left) <= limits.speed && length(left - state.speed) <= limits.change &&
+                        length(left - wanted_speed) <= limits.change;
+  if (is_there || !is_finite(left) || !is_finite(state.speed) || joint.max_speed <= 0.0) {
+    state = {is_there ? left : Vec3(0.0), false};
+    return false;
+  }
+  const Limits gentle = limits_of(joint, true, frame_s_);
+  const double distance = length(left);
+  const Vec3 towards = distance > 0.0 ? left * (closing_speed(distance, gentle.change) / distance) : Vec3(0.0);
+  Vec3 aim = shortened(shortened(wanted_speed, gentle.speed) + towards, gentle.speed);
+  const bool stays_inside = is_inside(joint, now) && is_inside(joint, coords);
+  if (stays_inside && joint.kind != JointKind::ball) aim.x = stopping_in_range(joint, now[0], aim.x, gentle.change);
+  const Vec3 step = state.speed + shortened(aim - state.speed, gentle.change);
+  go(joint, now, step, coords);
+  if (stays_inside) clamp_to_range(joint, coords);
+  state = {way(joint, now, coords), true};
+  return true;
+}
+
+bool JointPath::follow(std::size_t part, std::span<double> coords) {
+  const Part& own = character_->parts()[part];
+  bool is_behind = false;
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character_->joint(j);
+    if (joint.kind == JointKind::root) continue;
+    std::array<double, 4> wanted{};
+    const auto first = coords.begin() + joint.coord;
+    std::copy_n(first, coord_size(joint.kind), wanted.begin());
+    is_behind = follow_joint(j, coords.data() + joint.coord) || is_behind;
+    std::copy_n(first, coord_size(joint.kind), now_.begin() + joint.coord);
+    std::copy_n(wanted.begin(), coord_size(joint.kind), wanted_.begin() + joint.coord);
+  }
+  return is_behind;
+}
+
+void JointPath::put(std::size_t part, std::span<const double> coords) {
+  const Part& own = character_->parts()[part];
+  const auto first = coords.begin() + own.first_coord;
+  std::copy_n(first, own.coord_count, now_.begin() + own.first_coord);
+  std::copy_n(first, own.coord_count, wanted_.begin() + own.first_coord);
+}
+
+void JointPath::pass(std::size_t part, std::span<const double> coords) {
+  const Part& own = character_->parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character_->joint(j);
+    if (joint.kind == JointKind::root) continue;
+    const Vec3 step = way(joint, now_.data() + joint.coord, coords.data() + joint.coord);
+    const double most = limits_of(joint, false, frame_s_).speed;
+    joints_[at(j)] = {is_finite(step) ? shortened(step, most) : Vec3(0.0), false};
+  }
+  put(part, coords);
+}
+
+void JointPath::cut(std::size_t part, std::span<const double> coords) {
+  const Part& own = character_->parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) joints_[at(j)] = {};
+  put(part, coords);
+}
+
+}  // namespace contort

@@ -1,0 +1,20 @@
+// The time that a part takes, at ease, from one posture to another: how long an action blends in if its use does not say.
+#pragma once
+
+#include "model/character/character.h"
+#include "model/motion/motion.h"
+
+namespace contort {
+
+// How far apart two postures of a joint are: rad, or m of a travel; 0 for the root. `a` and `b` are the joint's own
+// coordinates.
+double joint_way(const Joint& joint, const double* a, const double* b);
+
+// Seconds for a minimum-jerk blend in which no joint of the part is faster than half of its greatest speed; 0 where
+// both postures are the same. For the root part also the way of the root: 1 m/s and 2 rad/s at most.
+double way_s(const Character& character, std::size_t part, const Posture& from, const Posture& to);
+
+// The same for a root or a foot that goes from one place to another.
+double way_s(const Rigid& from, const Rigid& to);
+
+}  // namespace contort
