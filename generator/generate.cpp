@@ -43,6 +43,7 @@ class Generation {
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
+    s_.held_off.assign(character_.parts().size(), 0);
     stand_up();
   }
 
@@ -55,6 +56,8 @@ class Generation {
     s_.rules.start_from(start);
     s_.postures.start_from(start);
     s_.path.begin(character_, start.coords, stage_.rate_hz);
+    s_.clearance.begin(character_, s_.rules.room());
+    s_.before = start;
   }
 
   // The queue ran dry hold_frames ago.
@@ -76,6 +79,7 @@ class Generation {
     signal();
     std::ranges::copy(s_.postures.shown.coords, motion_.row(frame).begin());
     motion_.root[at(frame)] = s_.postures.shown.root;
+    s_.before.coords = s_.postures.shown.coords;
     motion_.frame_count = frame + 1;
   }
 
@@ -95,7 +99,7 @@ class Generation {
     if (change.settles) settle(p);
     if (change.overwrite_begins) begin(playback, stack.overwrite(), p, layers.base, layers.from_overwrite);
     if (stack.overwrite().action >= 0) overwrite(playback, p, change.overwrite_begins);
-    const Posture& present = change.ik_follows ? layers.plain : layers.base;
+    const Posture& present = change.ik_follows ? seen(p) : layers.base;
     if (change.ik_begins) begin(playback, stack.ik(), p, present, layers.from_ik);
     if (stack.ik().action >= 0)
       solve_ik(playback, p, change.ik_begins);
@@ -105,12 +109,42 @@ class Generation {
     add_additives(playback, p);
     follow(playback, p);
     s_.rules.place(p, layers.shown);
+    if (p != 0 && at(limb_at(p).parts.back()) == p) keep_clear(playback, limb_at(p));
   }
+
+  const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
+
+  // Poses are taken as their authors give them, and walking legs as their gait has them.
+  bool makes_way(const Playback& playback, std::size_t p) const {
+    const LayerHold& ik = s_.stacks[p].ik();
+    if (ik.action >= 0) return !moves_legs(playback, ik) && !is_cut(playback, ik);
+    return s_.added[p] != 0 || (s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0);
+  }
+
+  int held_socket(const Playback& playback, std::size_t p) const {
+    const LayerHold& ik = s_.stacks[p].ik();
+    const bool holds = ik.action >= 0 && planned(playback, ik).def->promise == Promise::holds;
+    return holds ? static_cast<int>(planned(playback, ik).params[0]) : -1;
+  }
+
+  // All parts of the limb are placed.
+  void keep_clear(const Playback& playback, const Limb& limb) {
+    Posture& shown = s_.postures.shown;
+    for (const int p : limb.parts) s_.held_off[at(p)] = 0;
+    if (std::ranges::none_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); })) return;
+    const auto last = at(limb.parts.back());
+    s_.rules.room().hold(last, held_socket(playback, at(limb.parts.front())));
+    if (!s_.clearance.keep(last, 1.0 / stage_.rate_hz, s_.before, shown, s_.rules.world())) return;
+    for (const int p : limb.parts) s_.held_off[at(p)] = 1, s_.path.correct(at(p), shown.coords);
+  }
+
+  // A part's posture with ik in the frame before, without additives.
+  const Posture& seen(std::size_t p) const { return s_.held_off[p] != 0 ? s_.before : s_.postures.plain; }
 
   // An ik action has ended: the base is what it reached.
   void settle(std::size_t p) {
-    copy_part(character_, p, s_.postures.plain, s_.postures.base);
-    copy_part(character_, p, s_.postures.plain, s_.postures.from_overwrite);
+    copy_part(character_, p, seen(p), s_.postures.base);
+    copy_part(character_, p, seen(p), s_.postures.from_overwrite);
     if (p == 0) s_.carry.settle();
   }
 
@@ -207,6 +241,8 @@ class Generation {
     const bool has_ik = ik.action >= 0;
     if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0))
       s_.lags.note(playback.frame(), p, std::nullopt);
+    else if (s_.held_off[p] != 0)
+      s_.lags.note(playback.frame(), p, Shortfall::clearance);
     else if (s_.behind[p] != 0)
       s_.lags.note(playback.frame(), p, Shortfall::joint_speed);
     else if (has_ik && s_.rules.feedback()[p].at_range_end)
@@ -219,7 +255,8 @@ class Generation {
   // its own.
   bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
     const LayerHold& ik = s_.stacks[p].ik();
-    return ik.action >= 0 && planned(playback, ik).use == aim.use && s_.added[p] == 0 && s_.behind[p] == 0;
+    return ik.action >= 0 && planned(playback, ik).use == aim.use && come_in(playback, ik) >= 1.0 && s_.added[p] == 0 &&
+           s_.behind[p] == 0 && s_.held_off[p] == 0;
   }
 
   // Whether an aim is fully in force.

@@ -4,6 +4,7 @@
 
 #include "generator/lags.h"
 #include "generator/layer_stack.h"
+#include "generator/motion/clearance.h"
 #include "generator/motion/joint_path.h"
 #include "generator/root_carry.h"
 #include "generator/rule_runner.h"
@@ -37,6 +38,9 @@ struct GenerateScratch {
   RuleRunner rules;
   JointPath path;                  // of the joints that are shown
   std::vector<char> behind;        // by part: a joint is still on its way to where it is wanted
+  Clearance clearance;
+  Posture before;                  // what was shown in the frame before
+  std::vector<char> held_off;      // by part: bodies would have come too near
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion

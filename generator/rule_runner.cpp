@@ -32,16 +32,28 @@ void RuleRunner::begin(const Stage& stage) {
   world_.resize(character.joints().size());
 }
 
+void RuleRunner::start_from(const Posture& posture) {
+  target_ = posture;
+  forward_kinematics(*stage_->character, posture.root, posture.coords, world_);
+}
+
 void RuleRunner::begin_frame() {
   std::ranges::fill(feedback_, Feedback{});
-  room_.begin_frame();
 }
 
 void RuleRunner::place(std::size_t part, const Posture& posture) {
   const Part& own = stage_->character->parts()[part];
-  if (part == 0) world_[0] = posture.root;
+  if (part == 0) move_root(posture.root);
   forward_kinematics(*stage_->character, posture.coords, own.first_joint, own.first_joint + own.joint_count, world_);
-  room_.set_placed(part);
+  if (part == 0) room_.begin_frame(world_);
+}
+
+// All joints go along with the root until their own parts are placed.
+void RuleRunner::move_root(const Rigid& root) {
+  if (root == world_[0]) return;
+  const Rigid moved = root * inverse(world_[0]);
+  world_[0] = root;
+  for (std::size_t j = 1; j < world_.size(); ++j) world_[j] = moved * world_[j];
 }
 
 const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,

@@ -22,7 +22,7 @@ struct RuleCall {
 class RuleRunner {
  public:
   void begin(const Stage& stage);
-  void start_from(const Posture& posture) { target_ = posture; }  // parts that no rule has moved yet
+  void start_from(const Posture& posture);  // where the character is before frame 0
   void begin_frame();  // forgets the feedback of the frame before
 
   // The world transforms of a part's own joints in a posture; its carrier must be placed.
@@ -34,11 +34,14 @@ class RuleRunner {
                      const Posture& beneath, const Rigid& stands_at);
 
   const Posture& made() const { return target_; }  // by the last run
+  LimbRoom& room() { return room_; }
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
   std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
   std::span<Rigid> world() { return world_; }                       // by joint
 
  private:
+  void move_root(const Rigid& root);
+
   const Stage* stage_ = nullptr;
   LimbRoom room_;
   std::vector<WholeBody> bodies_;  // by use of an action

@@ -74,8 +74,7 @@ struct WholeBody {
   std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   double swivel_rad = 0.0;                    // of a limb whose request leaves it open
-  std::array<double, kMaxAimCoords> first_aim{};  // of the chain
-  std::array<double, kMaxAimCoords> aimed{};
+  std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
 };
 
 // What a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the part's own

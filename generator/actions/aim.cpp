@@ -1,6 +1,7 @@
 // aim: a point of an arm or a head, or of what it carries, is directed at a target while the body moves (P13). Its first posture
-// comes from the aim table; every frame goes on from that one, so that the arm follows without drifting.
+// comes from the aim table; every frame goes on from the one before, so that joints turn little.
 #include <algorithm>
+#include <array>
 
 #include "generator/actions/hand.h"
 #include "model/motion/kinematics.h"
@@ -8,6 +9,8 @@
 namespace contort {
 
 namespace {
+
+constexpr std::size_t kCandidates = 96;  // postures of the table that are tried
 
 void place_chain(const RuleInput& in, const Posture& posture) {
   const std::span<const int> joints = in.aim->chain.joints;
@@ -25,6 +28,32 @@ void for_coords(const RuleInput& in, Copy copy) {
   }
 }
 
+bool has_room(const RuleInput& in, const Posture& posture) {
+  constexpr double kTooNear_m = 1e-4;
+  const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
+  for (const int j : in.room.limb_of(part).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+  return in.room.room_m(part, in.world) >= -kTooNear_m;
+}
+
+// Of the postures of the table that point there, the one nearest to the present one in which no bodies are too near.
+// False where all have such bodies; then `posture` is of no use.
+bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
+  const AimTable& table = *in.aim->table;
+  const auto base = static_cast<std::size_t>(in.character.joint(in.aim->chain.joints.front()).parent);
+  std::array<double, kMaxAimCoords> present{};
+  for_coords(in, [&](std::size_t coord, std::size_t at) { present[at] = in.from.coords[coord]; });
+  std::array<AimHit, kCandidates> hits;
+  const int found = table.nearest_to_point(inverse(in.world[base]) * target.world, hits);
+  const std::span<AimHit> near = std::span(hits).first(static_cast<std::size_t>(found));
+  table.prefer(present, near);
+  return std::ranges::any_of(near, [&](const AimHit& hit) {
+    const std::span<const double> coords = table.coords(hit.posture);
+    for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = coords[at]; });
+    place_chain(in, posture);
+    return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached && has_room(in, posture);
+  });
+}
+
 void solve(const RuleInput& in, Posture& posture) {
   WholeBody& body = in.body;
   const AimTarget target{AimTarget::Kind::point, in.world_from_start * Vec3(in.params[1], in.params[2], in.params[3])};
@@ -33,11 +62,11 @@ void solve(const RuleInput& in, Posture& posture) {
     return aim(in.character, in.aim->chain, *in.aim->table, in.world, target, posture.coords);
   };
   if (body.begun != in.took_over) {
-    from_table();
-    for_coords(in, [&](std::size_t coord, std::size_t at) { body.first_aim[at] = posture.coords[coord]; });
+    if (!from_table().reached || has_room(in, posture) || !find_room(in, target, posture)) from_table();
+    for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
     body.begun = in.took_over;
   }
-  for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = body.first_aim[at]; });
+  for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = body.aimed[at]; });
   place_chain(in, posture);
   AimResult result = continue_aim(in.character, in.aim->chain, in.world, target, posture.coords);
   if (!result.reached) result = from_table();

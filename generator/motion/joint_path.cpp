@@ -46,10 +46,12 @@ Vec3 shortened(const Vec3& v, double most) {
   return now > most ? v * (most / now) : v;
 }
 
-// The greatest speed at which what is `distance` away can be reached without going past it, per frame: after n frames
-// of losing `change` each, n (n + 1) / 2 times that lie behind.
+// The greatest speed at which what is `distance` away can be reached without going past it, per frame: this step and n
+// more, each slower by `change`, cover the distance, (n + 1) speed - n (n + 1) / 2 change.
 double closing_speed(double distance, double change) {
-  return std::min(distance, std::sqrt(2.0 * change * distance + 0.25 * change * change) - 0.5 * change);
+  if (!(change > 0.0)) return 0.0;
+  const double n = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * distance / change) - 1.0));
+  return distance / (n + 1.0) + 0.5 * n * change;
 }
 
 // The speed that is nearest to the wanted one and allows to stop at the end of the range.
@@ -60,6 +62,18 @@ double stopping_in_range(const Joint& joint, double now, double speed, double ch
 
 // Rounding puts a joint at the end of its range a little beyond.
 bool is_inside(const Joint& joint, const double* coords) { return normalised_margin(joint, coords) >= -1e-6; }
+
+// Goes a step, along the edge of the range where it would leave that. Where the edge would make it longer than the joint
+// can go, it is shortened, at last to nothing.
+void go_inside(const Joint& joint, const double* now, const Vec3& step, bool stays_inside, double* out) {
+  const double most = length(step) * 1.01;
+  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+    go(joint, now, share * step, out);
+    if (!stays_inside) return;
+    clamp_to_range(joint, out);
+    if (length(way(joint, now, out)) <= most) return;
+  }
+}
 
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -93,8 +107,7 @@ bool JointPath::follow_joint(int j, double* coords) {
   const bool stays_inside = is_inside(joint, now) && is_inside(joint, coords);
   if (stays_inside && joint.kind != JointKind::ball) aim.x = stopping_in_range(joint, now[0], aim.x, gentle.change);
   const Vec3 step = state.speed + shortened(aim - state.speed, gentle.change);
-  go(joint, now, step, coords);
-  if (stays_inside) clamp_to_range(joint, coords);
+  go_inside(joint, now, step, stays_inside, coords);
   state = {way(joint, now, coords), true};
   return true;
 }
@@ -132,6 +145,17 @@ void JointPath::pass(std::size_t part, std::span<const double> coords) {
     joints_[at(j)] = {is_finite(step) ? shortened(step, most) : Vec3(0.0), false};
   }
   put(part, coords);
+}
+
+void JointPath::correct(std::size_t part, std::span<const double> coords) {
+  const Part& own = character_->parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character_->joint(j);
+    if (joint.kind == JointKind::root) continue;
+    State& state = joints_[at(j)];
+    state = {state.speed + way(joint, now_.data() + joint.coord, coords.data() + joint.coord), true};
+  }
+  std::copy_n(coords.begin() + own.first_coord, own.coord_count, now_.begin() + own.first_coord);
 }
 
 void JointPath::cut(std::size_t part, std::span<const double> coords) {

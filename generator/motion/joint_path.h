@@ -24,6 +24,9 @@ class JointPath {
   // The part is where it is wanted, and goes on at that speed, or the greatest allowed.
   void pass(std::size_t part, std::span<const double> coords);
 
+  // After follow(): the part went elsewhere, as these coordinates say, and is behind.
+  void correct(std::size_t part, std::span<const double> coords);
+
   // The part is where it is wanted, and at rest: no way led there.
   void cut(std::size_t part, std::span<const double> coords);
 

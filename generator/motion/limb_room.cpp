@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
@@ -13,7 +14,9 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kBand_m = 0.08;   // pairs that are farther apart have room enough
-constexpr double kSafe_m = 0.008;  // the gap that is wanted, where the figure at rest has as much
+// The gaps that are wanted, where the figure at rest has as much. Hands hold objects.
+constexpr double kSafe_m = 0.008;
+constexpr double kSafeInHands_m = 0.001;
 
 int child_count(const Character& character, int part) {
   int count = 0;
@@ -26,15 +29,23 @@ int child_count(const Character& character, int part) {
 std::vector<Limb> limbs_of(const Character& character) {
   std::vector<Limb> limbs;
   std::vector<std::size_t> limb_of(character.parts().size());
+  std::vector<std::set<std::size_t>> carriers;  // of a limb: the limbs that carry it
   for (int p = 1; p < static_cast<int>(character.parts().size()); ++p) {
     const int carrier = carrier_of(character, p);
     const bool goes_on = carrier != 0 && child_count(character, carrier) == 1;
     limb_of[at(p)] = goes_on ? limb_of[at(carrier)] : limbs.size();
-    if (!goes_on) limbs.push_back({});
+    if (!goes_on) {
+      limbs.push_back({});
+      carriers.push_back(carrier == 0 ? std::set<std::size_t>{} : carriers[limb_of[at(carrier)]]);
+      if (carrier != 0) carriers.back().insert(limb_of[at(carrier)]);
+    }
     Limb& limb = limbs[limb_of[at(p)]];
     limb.parts.push_back(p);
     const Part& part = character.parts()[at(p)];
-    for (int j = part.first_joint; j < part.first_joint + part.joint_count; ++j) limb.joints.push_back(j);
+    for (int j = part.first_joint; j < part.first_joint + part.joint_count; ++j) {
+      limb.joints.push_back(j);
+      for (const std::size_t c : carriers[limb_of[at(p)]]) limbs[c].carried.push_back(j);
+    }
   }
   return limbs;
 }
@@ -63,26 +74,45 @@ void LimbRoom::begin_bodies() {
   }
 }
 
+// Whether a limb is this one or carried by it.
+bool LimbRoom::is_moved_by(int limb, int other) const {
+  if (other < 0) return false;
+  const std::vector<int>& carried = limbs_[at(limb)].carried;
+  return other == limb || std::ranges::find(carried, limbs_[at(other)].joints.front()) != carried.end();
+}
+
 void LimbRoom::begin_pairs() {
   limbs_ = limbs_of(*character_);
+  held_.assign(limbs_.size(), -1);
   limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {}), safe_m_.clear();
   for (std::size_t l = 0; l < limbs_.size(); ++l)
     for (const int p : limbs_[l].parts) limb_of_[at(p)] = static_cast<int>(l);
-  std::vector<Rigid> rest(character_->joints().size());
-  forward_kinematics(*character_, character_->rest_root(), character_->rest_coords(), rest);
+  before_.resize(character_->joints().size());
+  forward_kinematics(*character_, character_->rest_root(), character_->rest_coords(), before_);
   for (std::size_t p = 0; p < character_->judged_pairs().size(); ++p) {
     const JudgedPair& pair = character_->judged_pairs()[p];
     const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)], index = static_cast<int>(p);
-    if (a >= 0) pairs_[at(a)].push_back(index);
-    if (b >= 0 && b != a) pairs_[at(b)].push_back(index);
-    safe_m_.push_back(std::min(kSafe_m, distance_m(index, rest, kBand_m)));
+    for (int l = 0; l < static_cast<int>(limbs_.size()); ++l)
+      if ((is_moved_by(l, a) || is_moved_by(l, b)) && (a != b || a == l)) pairs_[at(l)].push_back(index);
+    const bool is_in_hands = (is_object(pair.body_a) && has_grip(b)) || (is_object(pair.body_b) && has_grip(a));
+    safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, -1, before_)));
   }
 }
 
-void LimbRoom::place_body(int body, std::span<const Rigid> world) {
-  const Body& own = character_->bodies()[at(body)];
-  for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
-    place(world[at(own.joint)], own_[at(c)], world_[at(c)]);
+bool LimbRoom::is_object(int body) const { return character_->bodies()[at(body)].name.starts_with("object:"); }
+
+bool LimbRoom::has_grip(int limb) const {
+  return limb >= 0 && std::ranges::any_of(character_->sockets(), [&](const Socket& socket) {
+           return socket.name.ends_with("/grip") && limb_of_[at(character_->joint(socket.joint).part)] == limb;
+         });
+}
+
+// A body of another limb of the same kind is where it was before this frame.
+const Rigid& LimbRoom::where(int body, int limb, std::span<const Rigid> world) const {
+  const auto joint = at(character_->bodies()[at(body)].joint);
+  const int other = limb_of_[part_of(body)];
+  const bool is_twin = limb >= 0 && other >= 0 && other != limb && kind_of(other) == kind_of(limb);
+  return is_twin ? before_[joint] : world[joint];
 }
 
 // Infinite beyond the band. Both bodies are placed.
@@ -100,16 +130,19 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) cons
 }
 
 // Infinite beyond the band.
-double LimbRoom::distance_m(int pair, std::span<const Rigid> world, double band_m) {
+double LimbRoom::distance_m(int pair, int limb, std::span<const Rigid> world) {
   const JudgedPair& judged = character_->judged_pairs()[at(pair)];
-  const auto center = [&](int body) {
-    return world[at(character_->bodies()[at(body)].joint)] * ball_center_m_[at(body)];
-  };
-  const Vec3 apart = center(judged.body_b) - center(judged.body_a);
-  const double reach = ball_radius_m_[at(judged.body_a)] + ball_radius_m_[at(judged.body_b)] + band_m;
+  const std::array<int, 2> bodies{judged.body_a, judged.body_b};
+  const std::array<Rigid, 2> at_now{where(bodies[0], limb, world), where(bodies[1], limb, world)};
+  const Vec3 apart = at_now[1] * ball_center_m_[at(bodies[1])] - at_now[0] * ball_center_m_[at(bodies[0])];
+  const double reach = ball_radius_m_[at(bodies[0])] + ball_radius_m_[at(bodies[1])] + kBand_m;
   if (glm::dot(apart, apart) > reach * reach) return kFar;
-  place_body(judged.body_a, world), place_body(judged.body_b, world);
-  return collider_distance_m(judged, band_m);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Body& own = character_->bodies()[at(bodies[i])];
+    for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
+      place(at_now[i], own_[at(c)], world_[at(c)]);
+  }
+  return collider_distance_m(judged, kBand_m);
 }
 
 std::size_t LimbRoom::part_of(int body) const {
@@ -120,20 +153,31 @@ const std::string& LimbRoom::kind_of(int limb) const {
   return character_->parts()[at(limbs_[at(limb)].parts.front())].kind;
 }
 
-bool LimbRoom::is_judged(int pair, int limb) const {
-  const JudgedPair& judged = character_->judged_pairs()[at(pair)];
-  return std::ranges::all_of(std::array{part_of(judged.body_a), part_of(judged.body_b)}, [&](std::size_t part) {
-    const int other = limb_of_[part];
-    return other == limb || (placed_[part] != 0 && (other < 0 || kind_of(other) != kind_of(limb)));
-  });
+void LimbRoom::hold(std::size_t part, int socket) {
+  int& held = held_[at(limb_of_[part])];
+  held = -1;
+  if (socket < 0) return;
+  const std::string& name = character_->sockets()[at(socket)].name;
+  const std::string_view object = std::string_view(name).substr(0, name.rfind('/'));
+  for (std::size_t body = 0; body < character_->bodies().size(); ++body)
+    if (character_->bodies()[body].name == object) held = static_cast<int>(body);
 }
 
 double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
   const int limb = limb_of_[part];
   double least = kBand_m;
-  for (const int p : pairs_[at(limb)])
-    if (is_judged(p, limb)) least = std::min(least, distance_m(p, world, kBand_m) - safe_m_[at(p)]);
+  for (const int p : pairs_[at(limb)]) {
+    const JudgedPair& pair = character_->judged_pairs()[at(p)];
+    if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
+      least = std::min(least, distance_m(p, limb, world) - safe_m_[at(p)]);
+  }
   return least;
+}
+
+// Whether the limb with one body holds the other one.
+bool LimbRoom::holds(int body, int object) const {
+  const int limb = limb_of_[part_of(body)];
+  return limb >= 0 && held_[at(limb)] == object;
 }
 
 }  // namespace contort

@@ -13,8 +13,9 @@ namespace contort {
 
 // Parts that move as one: a chain of parts, each carried by the one before it, up to where the figure branches.
 struct Limb {
-  std::vector<int> parts;   // carriers first
-  std::vector<int> joints;  // of these parts
+  std::vector<int> parts;    // carriers first
+  std::vector<int> joints;   // of these parts
+  std::vector<int> carried;  // joints of the parts that it carries
 };
 
 // Every part but the root part is in one limb. Limbs are in the order of their first parts.
@@ -28,32 +29,38 @@ class LimbRoom {
 
   const Limb& limb_of(std::size_t part) const { return limbs_[static_cast<std::size_t>(limb_of_[part])]; }
 
-  // In a frame, parts are placed one after another. Those that are not yet are no obstacle: they will make way. Nor are
-  // limbs of the same kind, or the left arm would choose otherwise than the right one, which is placed after it.
-  void begin_frame() { placed_.assign(limb_of_.size(), 0); }
-  void set_placed(std::size_t part) { placed_[part] = 1; }
+  // The transforms of all joints before a frame moves any but the root. Limbs of the same kind see each other there, or
+  // the left arm would choose otherwise than the right one, which is placed after it.
+  void begin_frame(std::span<const Rigid> world) { before_.assign(world.begin(), world.end()); }
 
-  // The least distance of the bodies of this part's limb from placed parts and from each other, beyond what they may
-  // have, m; negative where they are too near, and at most 0.08. `world` holds the transforms of the limb's joints and
-  // of those of placed parts. Not for the root part.
+  // The limb of this part holds the object with this socket, and may touch it; -1: none. Until it is said otherwise.
+  void hold(std::size_t part, int socket);
+
+  // The least distance of the bodies of this part's limb, and of what it carries, from others and from each other, beyond
+  // what they must have, m; negative where they are too near, and at most 0.08. `world` holds the transforms of all
+  // joints; of parts that have not moved yet in this frame those of the frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
 
  private:
-  bool is_judged(int pair, int limb) const;
+  bool is_moved_by(int limb, int other) const;
   std::size_t part_of(int body) const;
+  bool is_object(int body) const;
+  bool holds(int body, int object) const;
+  bool has_grip(int limb) const;
   const std::string& kind_of(int limb) const;
   void begin_bodies();
   void begin_pairs();
-  void place_body(int body, std::span<const Rigid> world);
-  double distance_m(int pair, std::span<const Rigid> world, double band_m);
+  const Rigid& where(int body, int limb, std::span<const Rigid> world) const;
+  double distance_m(int pair, int limb, std::span<const Rigid> world);
   double collider_distance_m(const JudgedPair& pair, double band_m) const;
 
   const Character* character_ = nullptr;
   std::uint64_t character_hash_ = 0;
   std::vector<Limb> limbs_;
   std::vector<int> limb_of_;              // by part; -1 of the root part
-  std::vector<char> placed_;              // by part
-  std::vector<std::vector<int>> pairs_;   // by limb: judged pairs with a body in it
+  std::vector<Rigid> before_;             // by joint
+  std::vector<std::vector<int>> pairs_;   // by limb: judged pairs whose distance it changes
+  std::vector<int> held_;                 // by limb: the body of what it holds, or -1
   std::vector<double> safe_m_;            // by judged pair: the gap that it must have
   std::vector<Solid> own_;                // colliders in their joints' frames
   std::vector<Solid> world_;              // placed

@@ -233,13 +233,13 @@ Stage two_hands_on_rifle(const std::string& target) {
   std::string spec = R"({"format": "contort.spec/1",
     "character": {"name": "human", "attachments": [{"object": "rifle", "slot": "hand_right", "socket": "grip"}]},
     "sequences": [{"clips": [{"actions": [
-      {"action": "weapon_hold", "slot": "arm_left", "duration_frames": 60},
-      {"action": "reach", "slot": "arm_right", "duration_frames": 50, "params": {"target_m": TARGET}}]}]}]})";
+      {"action": "weapon_hold", "slot": "arm_left", "start_frame": 40, "duration_frames": 20, "blend_in_frames": 0},
+      {"action": "reach", "slot": "arm_right", "duration_frames": 40, "params": {"target_m": TARGET}}]}]}]})";
   return staged(spec.replace(spec.find("TARGET"), 6, target));
 }
 
 TEST(ReachError, AHandThatLeavesTheForegripIsFound) {
-  const Stage stage = two_hands_on_rifle("[-0.1, 1.2, 0.4]");
+  const Stage stage = two_hands_on_rifle("[-0.12, 1.28, 0.28]");
   Motion motion = generate(stage);
   const Intent intent = intent_of(stage);
   motion.row(50)[static_cast<std::size_t>(fixtures::joint(*stage.character, "arm_left/elbow").coord)] += 0.2;

@@ -45,7 +45,7 @@ std::vector<Vec3> points_in_front() {
 }
 
 TEST(LimbReach, ASwivelIsTakenAsFarAsJointsAndBodiesAllow) {
-  for (const double swivel_deg : {0.0, 60.0, 150.0}) {
+  for (const double swivel_deg : {-150.0, -60.0, 0.0, 60.0, 150.0}) {
     const ParamValue wish = swivel_deg;
     int found = 0;
     for (const Vec3& point : points_in_front()) found += findings_of(reaching({"human", {}, {}}, point, &wish)) > 0;
@@ -149,8 +149,8 @@ TEST(LimbRoom, IsNegativeWhereBodiesOverlapAndNeverAtRest) {
   const auto arm = static_cast<std::size_t>(human->find_part("arm_left"));
   LimbRoom room;
   room.begin(*human);
-  room.begin_frame();
   forward_kinematics(*human, human->rest_root(), coords, world);
+  room.begin_frame(world);
   EXPECT_GE(room.room_m(arm, world), 0.0);
   const Joint& shoulder = fixtures::joint(*human, "arm_left/shoulder");
   const Quat inward = axis_angle(Vec3(0, 0, 1), -40 * kRadPerDeg);
@@ -160,8 +160,6 @@ TEST(LimbRoom, IsNegativeWhereBodiesOverlapAndNeverAtRest) {
   coords[at(shoulder.coord)] = turned.w, coords[at(shoulder.coord + 1)] = turned.x;
   coords[at(shoulder.coord + 2)] = turned.y, coords[at(shoulder.coord + 3)] = turned.z;
   forward_kinematics(*human, human->rest_root(), coords, world);
-  EXPECT_GE(room.room_m(arm, world), 0.0) << "the trunk is not placed yet";
-  room.set_placed(static_cast<std::size_t>(human->find_part("torso")));
   EXPECT_LT(room.room_m(arm, world), 0.0) << "the arm is in the trunk";
 }
 

@@ -40,10 +40,21 @@ Spec drawn(std::int64_t index) {
   return spec;
 }
 
-Motion play(const Spec& spec, const Library& library = stock_library()) {
+// `was_hindered` is set where bodies kept a limb off: that is decided frame by frame, and by thresholds, of which rounding
+// may be on either side.
+Motion play(const Spec& spec, bool& was_hindered, const Library& library = stock_library()) {
   const Result<Stage> stage = build_stage(spec, library);
   EXPECT_TRUE(stage.ok()) << (stage.ok() ? "" : to_line(stage.issue())) << pretty_spec(spec);
-  return stage ? generate(*stage) : Motion{};
+  Motion motion;
+  GenerateScratch scratch;
+  if (stage) generate(*stage, scratch, motion);
+  was_hindered = was_hindered || scratch.clearance.kept() > 0;
+  return motion;
+}
+
+Motion play(const Spec& spec) {
+  bool unused = false;
+  return play(spec, unused);
 }
 
 void expect_near(const Rigid& a, const Rigid& b, const std::string& where) {
@@ -52,15 +63,19 @@ void expect_near(const Rigid& a, const Rigid& b, const std::string& where) {
 }
 
 TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
+  int judged = 0;
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     Spec spec = drawn(i);
-    const Motion here = play(spec);
+    bool was_hindered = false;
+    const Motion here = play(spec, was_hindered);
     spec.start.position_m = Vec3(3.7, 0.0, -12.4);
     spec.start.heading_deg = 137.0;
     spec.environment.position_m = spec.start.position_m;
     spec.environment.heading_deg = 137.0;
     // look_at's point moves along: it is given from where the character stood at first.
-    const Motion there = play(spec);
+    const Motion there = play(spec, was_hindered);
+    if (was_hindered) continue;
+    ++judged;
     const Rigid there_from_here{axis_angle(Vec3(0, 1, 0), 137.0 * kRadPerDeg), spec.start.position_m};
     ASSERT_EQ(there.frame_count, here.frame_count);
     for (int f = 0; f < here.frame_count; ++f) {
@@ -70,6 +85,7 @@ TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
         ASSERT_NEAR(there.row(f)[c], here.row(f)[c], kLaw) << "spec " << i << " frame " << f;
     }
   }
+  EXPECT_GT(judged, kSpecs / 3);
 }
 
 // Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Blends have
@@ -96,22 +112,30 @@ void expect_twice_as_slow(const Motion& plain, const Motion& slow, int frames, s
 }
 
 TEST(Symmetry, ClipsOfHalfTheSpeedTakeTheSamePosturesAtTwiceTheTime) {
+  int judged = 0;
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     Spec spec = whole_frames(i);
-    const Motion plain = play(spec, fixtures::tireless_library());
+    bool was_hindered = false;
+    const Motion plain = play(spec, was_hindered, fixtures::tireless_library());
     for_sequences(spec, [](SequenceDesc& sequence) {
       for (ClipDesc& clip : sequence.clips) clip.speed = 0.5, clip.start_frame *= 2;
     });
-    expect_twice_as_slow(plain, play(spec, fixtures::tireless_library()), plain.frame_count - spec.hold_frames, i);
+    const Motion slow = play(spec, was_hindered, fixtures::tireless_library());
+    if (was_hindered) continue;
+    ++judged;
+    expect_twice_as_slow(plain, slow, plain.frame_count - spec.hold_frames, i);
   }
+  EXPECT_GT(judged, kSpecs / 3);
 }
 
 // walk and run have a pace of their own, speed_m_s: a longer period of theirs is a longer way.
 TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
+  int judged = 0;
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     Spec spec = whole_frames(i);
     remove(spec, {"walk", "run"});
-    const Motion plain = play(spec, fixtures::tireless_library());
+    bool was_hindered = false;
+    const Motion plain = play(spec, was_hindered, fixtures::tireless_library());
     for_sequences(spec, [](SequenceDesc& sequence) {
       for (ClipDesc& clip : sequence.clips) {
         clip.start_frame *= 2;
@@ -121,8 +145,12 @@ TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
         }
       }
     });
-    expect_twice_as_slow(plain, play(spec, fixtures::tireless_library()), plain.frame_count - spec.hold_frames, i);
+    const Motion slow = play(spec, was_hindered, fixtures::tireless_library());
+    if (was_hindered) continue;
+    ++judged;
+    expect_twice_as_slow(plain, slow, plain.frame_count - spec.hold_frames, i);
   }
+  EXPECT_GT(judged, kSpecs / 3);
 }
 
 std::string other_side(std::string slot) {
@@ -204,11 +232,15 @@ void expect_mirrored(const Character& a, const Motion& motion, const Character& 
 // Ties between ways to reach a target (an elbow above or below, a turn by exactly half a circle) have no mirror image;
 // drawn specs meet none.
 TEST(Symmetry, AMirroredSpecGivesTheMirroredMotion) {
+  int judged = 0;
   for (std::int64_t i = 0; i < kSpecs; ++i) {
     const Spec spec = drawn(i);
     const Spec twin = mirrored(spec);
     const Character a = fixtures::built(spec.character), b = fixtures::built(twin.character);
-    const Motion motion = play(spec), other = play(twin);
+    bool was_hindered = false;
+    const Motion motion = play(spec, was_hindered), other = play(twin, was_hindered);
+    if (was_hindered) continue;
+    ++judged;
     ASSERT_EQ(motion.frame_count, other.frame_count);
     for (int f = 0; f < motion.frame_count; ++f) {
       SCOPED_TRACE("spec " + std::to_string(i));
@@ -216,6 +248,7 @@ TEST(Symmetry, AMirroredSpecGivesTheMirroredMotion) {
       if (HasFatalFailure()) return;
     }
   }
+  EXPECT_GT(judged, kSpecs / 3);
 }
 
 // By how much the muzzle misses a target, given as seen from where the character stood at first, in the last frame.

@@ -1,0 +1,60 @@
+// Limbs keep clear of bodies: they stop before them, and get out of the way of what comes towards them.
+#include <gtest/gtest.h>
+
+#include "generator/execute.h"
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+std::vector<Finding> collisions(const Stage& stage) {
+  StageEvaluator evaluator;
+  return evaluator.run(stage, "self_collision").findings;
+}
+
+ActionUse through_the_trunk() { return use("reach", "arm_left", 0, 60, {{"target_m", Vec3(-0.1, 1.1, 0.0)}}); }
+
+TEST(Clearance, AnArmThatIsSentIntoTheTrunkStopsBeforeItAndSaysSo) {
+  const Stage stage = fixtures::stage_of({sequence({through_the_trunk()})}, 20);
+  EXPECT_TRUE(collisions(stage).empty());
+  const Intent intent = intent_of(stage);
+  ASSERT_EQ(intent.unmet.size(), 1U);
+  EXPECT_EQ(intent.unmet[0].why, Shortfall::clearance);
+}
+
+// When the action is over, the arm stays where it got to.
+TEST(Clearance, AnArmThatStoppedStaysThere) {
+  const Stage stage = fixtures::stage_of({sequence({through_the_trunk()})}, 40);
+  const Motion motion = generate(stage);
+  for (std::size_t c = 0; c < motion.row(70).size(); ++c) EXPECT_NEAR(motion.row(100)[c], motion.row(70)[c], 1e-3) << c;
+}
+
+TEST(Clearance, ATrunkThatBendsAsidePutsNoArmIntoALeg) {
+  for (const double azimuth_deg : {-90.0, 90.0, 0.0}) {
+    const Stage stage = fixtures::stage_of(
+        {sequence({use("hit_reaction", "torso", 0, 40, {{"azimuth_deg", azimuth_deg}, {"strength_deg", 60.0}})})}, 20);
+    EXPECT_TRUE(collisions(stage).empty()) << azimuth_deg;
+  }
+}
+
+// An author's pose is taken as it is; an arm with an action of its own gets out of its way.
+TEST(Clearance, AnArmGetsOutOfTheWayOfAPose) {
+  const ActionUse look = use("direction", "torso", 0, 1, {});
+  const ActionUse hold = use("reach", "arm_left", 0, 90, {{"target_m", Vec3(0.25, 0.95, 0.2)}});
+  const ActionUse lift = use("pose", "leg_left", 30, 60, {{"hip_flex_deg", 60.0}, {"knee_deg", 60.0}});
+  const Stage stage = fixtures::stage_of({sequence({look, hold, lift})}, 10);
+  for (const Finding& finding : collisions(stage))
+    EXPECT_EQ(finding.subject.find("arm_left"), std::string::npos) << finding.subject;
+}
+
+TEST(Clearance, PosesAreTakenAsTheyAre) {
+  const ActionUse pose = use("pose", "arm_left", 0, 30, {{"shoulder_deg", Vec3(0.0, 0.0, -40.0)}});
+  EXPECT_FALSE(collisions(fixtures::stage_of({sequence({pose})}, 5)).empty());
+}
+
+}  // namespace
+}  // namespace contort
