@@ -1,4 +1,4 @@
-// How long an aim takes, and what it is worth against plain cyclic coordinate descent. First a table: the same 2,000
+// The time that an aim takes, and its worth against plain cyclic coordinate descent. First a table: the same 2,000
 // reachable directions for each chain, solved by aim() and by CCD from rest without a table, once without any clamp and
 // once with every step clamped. Then the benchmarks.
 #include <benchmark/benchmark.h>

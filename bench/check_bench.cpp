@@ -37,7 +37,7 @@ std::vector<Case> draw_cases(const char* character, const char* profile) {
   return cases;
 }
 
-// What MuJoCo asks for in a frame.
+// The state that MuJoCo asks for in a frame.
 struct State {
   std::vector<double> coords, velocity, acceleration;
 };
@@ -58,7 +58,7 @@ void differentiate(mjModel* model, double rate_hz, std::vector<State>& states) {
   }
 }
 
-// Of all cases, as all have the stock character.
+// The frames of all cases, as all have the stock character.
 class MujocoFrames {
  public:
   explicit MujocoFrames(const std::vector<Case>& cases)

@@ -51,7 +51,7 @@ std::vector<Pose> random_poses() {
   return poses;
 }
 
-// What varies from pose to pose, by capsule.
+// The fields that vary from pose to pose, by capsule.
 struct Place {
   Vec3 center_m, axis;
 };

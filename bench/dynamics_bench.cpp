@@ -91,7 +91,7 @@ void compare_on(const char* name, const Character& character) {
       });
 }
 
-// What single ticks of one simulation take: each is measured in many runs, its median is its time, and the quantiles
+// The times of single ticks of one simulation: each is measured in many runs, its median is its time, and the quantiles
 // are those over the ticks. Frames' own work between ticks counts with the tick after it.
 void print_quantiles(const char* name, const Stage& stage, const Motion& target) {
   constexpr std::size_t kRuns = 101;

@@ -1,5 +1,5 @@
-// How long a frame takes: generated, and generated and checked. Each benchmark prints frames per second and the hash of
-// the motion that it made, so that a faster wrong answer is seen as wrong.
+// The time that a frame takes: generated, and generated and checked. Each benchmark prints frames per second and the
+// hash of the motion that it made, so that a faster wrong answer is seen as wrong.
 #include <benchmark/benchmark.h>
 
 #include "tests/stage_evaluator.h"
@@ -40,7 +40,7 @@ void check_scene(benchmark::State& state, const char* name) {
   finish(state, frames, last.motion_hash);
 }
 
-// What the fuzzer does all night: many different motions, so that branch predictors do not learn one.
+// The work that the fuzzer does all night: many different motions, so that branch predictors do not learn one.
 void check_drawn(benchmark::State& state, const char* character) {
   std::vector<Stage> stages;
   for (int i = 0; i < 256; ++i)

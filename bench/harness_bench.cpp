@@ -1,6 +1,6 @@
-// What the harness adds to generating and checking: CPU time of `contort fuzz` (drawing, worker processes, journal,
-// hashing, near misses) over that of the bare work on the same specs in one process. The profile fails nowhere, so
-// nothing is shrunk or stored. Slices alternate; printed are medians.
+// The cost that the harness adds to generating and checking: CPU time of `contort fuzz` (drawing, worker processes,
+// journal, hashing, near misses) over that of the bare work on the same specs in one process. The profile fails
+// nowhere, so nothing is shrunk or stored. Slices alternate; printed are medians.
 //
 // contort_harness_bench CONTORT [CASES]
 #include <sys/resource.h>

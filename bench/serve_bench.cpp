@@ -1,5 +1,5 @@
-// How soon a terminal sees what it asked for: eight of them play mech in dynamic mode at 30 frames a second, and each asks
-// for something now and then. Against a server that runs: contort_serve_bench PORT [SECONDS] [TERMINALS]
+// The delay until a terminal sees what it asked for: eight of them play mech in dynamic mode at 30 frames a second, and
+// each asks for something now and then. Against a server that runs: contort_serve_bench PORT [SECONDS] [TERMINALS]
 #include <httplib.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Terminal {
 
 constexpr double kRate_hz = 30.0;
 
-// What a page does with the stream: it knows where the clock is, and which frames it has.
+// A reader of the stream that does what a page does: it knows where the clock is, and which frames it has.
 class Listener {
  public:
   explicit Listener(Terminal& terminal) : terminal_(terminal) {}

@@ -1,6 +1,6 @@
-// What shrinking costs and how far it comes, on failures as a run meets them before anything guides it: human, mech, and mech on reverse
-// legs, at most two failures of a family for each seed and figure. One line for each failure, then medians and shares;
-// exit code 1 where a family is lost or shrinking again changes anything.
+// The cost of shrinking and how far it comes, on failures as a run meets them before anything guides it: human, mech,
+// and mech on reverse legs, at most two failures of a family for each seed and figure. One line for each failure, then
+// medians and shares; exit code 1 where a family is lost or shrinking again changes anything.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// What a film strip costs, and where the time goes: one thread, one context; a strip has six tiles of 320 x 240, a whole
-// case eight and a .glb.
+// The cost of a film strip, and where the time goes: one thread, one context; a strip has six tiles of 320 x 240, a
+// whole case eight and a .glb.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -57,7 +57,7 @@ void strip_and_clip(benchmark::State& state) {
         renderer.render(subject.input, scratch("contort_bench.png"), scratch("contort_bench.webp")).ok());
 }
 
-// What a failing case costs: choosing the view, eight antialiased tiles in one PNG, and the motion as .glb.
+// The cost of a failing case: choosing the view, eight antialiased tiles in one PNG, and the motion as .glb.
 struct WholeCase : Subject {
   StripRenderer strips = StripRenderer::create().value();
   WholeCase() { input.tiles = 8, input.columns = 4; }

@@ -20,7 +20,7 @@ struct DofLimits {
   // Subjects are "lwrist ry min" and "max", units rad (prismatic: the file's unit of length). Frames are the file's own
   // numbers, which mostly begin with 1.
   std::vector<Finding> findings;
-  double least_margin = 0.0;  // Of all samples, like the findings' margins; infinite without samples.
+  double least_margin = 0.0;  // The least margin of all samples, measured as in findings; infinite without samples.
   double worst_depth = 0.0;   // -least_margin / scale of joint_range: below 0 where all is in range.
 };
 

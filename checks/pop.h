@@ -4,11 +4,12 @@
 // first: its speed grows and falls over several keys. Both break the speed limit; they are reported apart because their
 // cures differ.
 //
-// What explains a speed: with v the speeds of a channel's key intervals, a window of one or two intervals around i has
-// neighbours on both sides; the faster of these is what the window stands out from. Of the three windows that hold i,
-// the calmest neighbours count. Interval i is a pop where v[i] is above its limit and above kPopFactor times that. At
-// the first or last key there are neighbours on one side only, and with none (a clip of two or three keys) nothing is
-// a pop. Nor is a window longer than kPopLongest_s: sparse keys that an animator set are fast moves, not jumps.
+// The explanation of a speed by the motion around it: with v the speeds of a channel's key intervals, a window of one
+// or two intervals around i has neighbours on both sides; the faster of these is what the window stands out from. Of
+// the three windows that hold i, the calmest neighbours count. Interval i is a pop where v[i] is above its limit and
+// above kPopFactor times that. At the first or last key there are neighbours on one side only, and with none (a clip of
+// two or three keys) nothing is a pop. Nor is a window longer than kPopLongest_s: sparse keys that an animator set are
+// fast moves, not jumps.
 #pragma once
 
 #include <cstddef>

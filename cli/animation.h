@@ -24,7 +24,7 @@ struct Animation {
 
 struct AnimationOptions {
   std::string skeleton;    // The .asf of an .amc; "": find_skeleton.
-  double rate_hz = 120.0;  // Of an .amc, which does not say it.
+  double rate_hz = 120.0;  // The frame rate of an .amc, which does not say it.
 };
 
 bool is_animation(const std::string& path);  // by its ending

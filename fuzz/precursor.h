@@ -2,7 +2,7 @@
 //
 // One fault mostly breaks several limits at one time: a knee that snaps straight is too fast, and so is its hip, which
 // pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows them together.
-// Of those that happen at one time, the earliest that is as deep names them all (docs/shrinking.md, "Who names it").
+// The earliest failure that is as deep, of those at one time, names them all (docs/shrinking.md, "Who names it").
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// How strongly an additive action moves its part.
+// The strength with which an additive action moves its part.
 #pragma once
 
 #include <optional>

@@ -25,7 +25,7 @@ LayerHold next_hold(const Playback& playback, const LayerHold& held, Layer layer
 
 bool is_same(const LayerHold& a, const LayerHold& b) { return a.action == b.action && a.run == b.run; }
 
-// How far an action's easing had come a frame ago.
+// The easing that an action had reached a frame ago, [0, 1].
 double eased_before(const Playback& playback, const LayerHold& hold) {
   return blended_in(planned(playback, hold), hold.came, content(playback, hold) - 1);
 }

@@ -49,7 +49,7 @@ class LayerStack {
   // Brings both holds to the playback's frame; frames in rising order.
   Change advance(const Playback& playback, std::size_t part);
 
-  // How long the action that has just begun takes to come in, if it takes its time.
+  // Sets the frames in which the action that has just begun comes in, if it takes its time.
   void set_ik_blend(int frames) { ik_.blend_frames = frames; }
 
   const LayerHold& overwrite() const { return overwrite_; }

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// What a part of the spec did not accept, seen from the whole.
+// An issue in a part of the spec, with its pointer extended to the whole spec.
 Issue below(const std::string& pointer, Issue issue) {
   issue.pointer = pointer + issue.pointer;
   return issue;

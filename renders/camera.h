@@ -14,7 +14,7 @@ struct Camera {
   Vec3 up{0.0, 1.0, 0.0};
   Vec3 back{0.0, 0.0, 1.0};  // Against the direction of view.
   double tan_half_height = 0.27;
-  Vec3 center_m{0.0};  // What it looks at: the middle of what was framed, on the axis of view.
+  Vec3 center_m{0.0};  // The point that it looks at: the middle of what was framed, on the axis of view.
 };
 
 // A direction of view. Azimuth 0 looks at the front of a character at rest (from +Z), positive from its left (+X);

@@ -12,7 +12,7 @@ namespace contort {
 namespace {
 
 constexpr Vec3 kHighlightColor{0.80, 0.035, 0.03};
-constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Of the other one of a pair: red on red hides which is which.
+constexpr Vec3 kSecondColor{0.86, 0.20, 0.02};  // Colour of the other one of a pair: red on red hides which is which.
 constexpr Vec3 kMarkerColor{1.0, 0.82, 0.05};
 constexpr Vec3 kSkinColor{0.33, 0.37, 0.42};
 constexpr Vec3 kGhostColor{0.04, 0.042, 0.046};

@@ -15,7 +15,7 @@ using json_fields::Json;
 
 Json spec_of(const std::string& text) {
   const Result<Json> spec = json_fields::parse_document(text);
-  return spec ? *spec : Json(text);  // What cannot be read is still shown.
+  return spec ? *spec : Json(text);  // A spec that cannot be read is still shown.
 }
 
 Json texts_of(const std::vector<Family>& families) {

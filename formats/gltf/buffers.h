@@ -13,7 +13,7 @@
 namespace contort {
 
 struct BufferSource {
-  std::span<const std::byte> bin;  // Of the GLB.
+  std::span<const std::byte> bin;  // The binary chunk of the GLB.
   bool has_bin = false;
   // External files may lie here or below, after every symbolic link has been followed. "" allows none.
   std::string folder;

@@ -23,9 +23,9 @@ struct Field {
   std::string_view key;
   Kind kind = Kind::text;
   bool required = false;
-  std::int64_t low = 0;       // Of an integer; fewest entries of a list.
-  std::int64_t high = 0;      // Of an integer; most bytes of a text; most entries of a list.
-  std::string_view target{};  // Of an index: the list at the document's root that it points into.
+  std::int64_t low = 0;       // Least value of an integer; fewest entries of a list.
+  std::int64_t high = 0;      // Greatest value of an integer; most bytes of a text; most entries of a list.
+  std::string_view target{};  // The target of an index: the list at the document's root that it points into.
   std::span<const Field> fields{};
 };
 

@@ -7,7 +7,7 @@
 
 namespace contort {
 
-inline constexpr std::size_t kMaxGltfBytes = std::size_t{192} << 20;  // Of the file, and of all its buffers together.
+inline constexpr std::size_t kMaxGltfBytes = std::size_t{192} << 20;  // Size of the file, or of its buffers together.
 inline constexpr int kMaxGltfDepth = 64;  // Brackets within brackets. tinygltf dies at 14 500.
 inline constexpr std::uint64_t kMaxGltfValues =
     1'000'000;  // JSON values; the worst cost 0.3 GB and 3 s in two parsers.
@@ -18,6 +18,6 @@ inline constexpr std::int64_t kMaxGltfNameBytes = 1024;
 inline constexpr std::uint64_t kMaxGltfNumbers = std::uint64_t{16} << 20;
 // No number of a node's place, scale or matrix may be larger: its square would overflow. Accessors hold 32-bit floats.
 inline constexpr double kMaxGltfLength = 1e100;
-inline constexpr double kUnitTolerance = 0.01;  // Of a quaternion's length; a byte quaternion is off by up to 0.008.
+inline constexpr double kUnitTolerance = 0.01;  // Error of a quaternion's length; a byte one is off by up to 0.008.
 
 }  // namespace contort

@@ -12,7 +12,7 @@
 namespace contort {
 
 struct MocapSyntax {
-  std::string_view area;   // Of issue codes: "bvh".
+  std::string_view area;   // The prefix of issue codes: "bvh".
   std::string_view alone;  // Characters that are words of their own: "{}".
   std::string_view blank;  // Skipped like white space: "()".
   char comment = '\0';     // From here to the end of the line nothing counts; '\0': no comments.
@@ -50,8 +50,8 @@ class MocapWords {
   MocapSyntax syntax_;
   std::string_view text_;
   std::size_t at_ = 0;
-  int line_ = 1;       // Of at_.
-  int word_line_ = 1;  // Of the last word that was taken.
+  int line_ = 1;       // The line of at_.
+  int word_line_ = 1;  // The line of the last word that was taken.
   Issue issue_;
 };
 

@@ -25,7 +25,7 @@
 
 namespace contort {
 
-// What one use of an action moves.
+// The parts that one use of an action moves.
 enum class Spread {
   own,   // the part that the spec names
   limb,  // and the parts that hang on it, one after another: arm and hand
@@ -40,7 +40,7 @@ enum class Tells {
   impact,       // the same
 };
 
-// What a rule has to say to those who wait for it, beside the posture (events of interrupts).
+// The report of a rule to those who wait for it, beside the posture (events of interrupts).
 struct Feedback {
   bool contact = false;
   bool aim_reached = false;
@@ -49,7 +49,7 @@ struct Feedback {
   bool at_range_end = false;  // a joint was wanted farther than it goes
 };
 
-// Where an action stands at a frame, in time of its content.
+// The progress of an action at a frame, in time of its content.
 struct ActionTime {
   double progress = 0.0;    // of its period, [0, 1]
   double time_s = 0.0;      // since its start
@@ -58,13 +58,13 @@ struct ActionTime {
   double left_s = 0.0;      // from then to its end
 };
 
-// What an action that aims knows from the start.
+// The data that an aiming action has from the start.
 struct AimPlan {
   AimChain chain;
   std::shared_ptr<const AimTable> table;
 };
 
-// What one use of an action that moves several parts remembers from frame to frame.
+// The state that one use of an action that moves several parts keeps from frame to frame.
 struct WholeBody {
   Gait gait;
   GaitFrame frame;
@@ -77,8 +77,8 @@ struct WholeBody {
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
 };
 
-// What a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the part's own
-// entries of `world` stand where the posture puts them, and are scratch; on overwrite they mean nothing.
+// The data that a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the
+// part's own entries of `world` stand where the posture puts them, and are scratch; on overwrite they mean nothing.
 struct RuleInput {
   const Character& character;
   const Part& part;                // the one to move
@@ -122,8 +122,8 @@ struct ActionDef {
 std::span<const ActionDef> all_actions();
 const ActionDef* find_action(std::string_view name);  // nullptr where there is none
 
-// What a part can do: a built-in action, or one from a file (action_desc.h), which has a built-in one's rule. Valid as
-// long as the character is.
+// An action that a part can do: a built-in one, or one from a file (action_desc.h), which has a built-in one's rule.
+// Valid as long as the character is.
 struct Action {
   std::string_view name;
   std::string_view help;

@@ -35,8 +35,8 @@ bool has_room(const RuleInput& in, const Posture& posture) {
   return in.room.room_m(part, in.world) >= -kTooNear_m;
 }
 
-// Of the postures of the table that point there, the one nearest to the present one in which no bodies are too near.
-// False where all have such bodies; then `posture` is of no use.
+// Chooses, from the postures of the table that point there, the one nearest to the present one in which no bodies are
+// too near. False where all have such bodies; then `posture` is of no use.
 bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
   const AimTable& table = *in.aim->table;
   const auto base = static_cast<std::size_t>(in.character.joint(in.aim->chain.joints.front()).parent);

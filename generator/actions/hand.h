@@ -1,17 +1,18 @@
-// What actions of hands share.
+// Functions that actions of hands share.
 #pragma once
 
 #include "generator/actions/action.h"
 
 namespace contort {
 
-// What reaches and does not stand: a part with a reach chain and without a sole.
+// Whether a part reaches and does not stand: it has a reach chain and no sole.
 bool is_arm(const Character& character, const Part& part);
 
 // The grip of an arm: its own, or that of the part that hangs on it; else the tip of its reach chain.
 int grip_of(const Character& character, const Part& arm);
 
-// Where it is easily: below the shoulder, as the arm hangs, at four fifths of its length. In the character's frame.
+// The place where the grip is held with ease: below the shoulder, as the arm hangs, at four fifths of its length. In
+// the character's frame.
 Vec3 easy_grip_m(const Character& character, const Part& arm);
 
 void rest_part(const Character& character, const Part& part, Posture& posture);

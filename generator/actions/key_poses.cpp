@@ -33,7 +33,7 @@ KeyPlan::Node node_of(const KeyPoseDesc& key, const Joint& joint, const ParamVal
   return node;
 }
 
-// Where a joint is on its way from the node at `before` (with these coordinates) to the next one.
+// Writes to `q` a joint's coordinates at `share` of its way from the node with coordinates `before` to the next one.
 void between(const Joint& joint, const double* before, const KeyPlan::Node& next, double share, double* q) {
   if (joint.kind != JointKind::ball) {
     q[0] = before[0] + share * (next.value - before[0]);

@@ -29,7 +29,7 @@ void place_limb(const RuleInput& in, const Posture& posture) {
     if (j >= end) forward_kinematics(in.character, in.character.rest_coords(), j, j + 1, in.world);
 }
 
-// How far joints of the part are out of their ranges, in shares of half of the range.
+// The excess of the part's joints over their ranges, in shares of half of the range.
 double excess(const RuleInput& in, const Posture& posture) {
   double sum = 0.0;
   for (int j = in.part.first_joint; j < in.part.first_joint + in.part.joint_count; ++j) {
@@ -58,7 +58,7 @@ double elbow_height(const RuleInput& in) {
   return (middle.y - upper.y) / std::max(1e-6, length(middle - upper));
 }
 
-// Of joints out of range and bodies too near; 0 where there are none. Places the limb in in.world.
+// The cost of joints out of range and of bodies too near; 0 where there are none. Places the limb in in.world.
 double cost_of_faults(const RuleInput& in, const Posture& posture) {
   // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
   constexpr double kTooNear_m = 1e-4;
@@ -68,14 +68,14 @@ double cost_of_faults(const RuleInput& in, const Posture& posture) {
   return 40.0 * excess(in, posture) + too_near;
 }
 
-// Of an elbow that is held high, then of a long way from where the action found the part. The limb is placed.
+// The cost of an elbow that is held high and of a long way from where the action found the part. The limb is placed.
 double cost_of_discomfort(const RuleInput& in, const Posture& posture) {
   return 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
 }
 
-// Of postures without faults, the one that is nearest to the wish, or the most comfortable one where there is none. The
-// wish, or the straight limb, comes first, then those to either side: where several cost the same, as with a limb that
-// is stretched, rounding must not choose. A limb on the right tries the mirror images.
+// The swivel, rad, of the posture without faults that is nearest to the wish, or most comfortable where there is no
+// wish. The wish, or the straight limb, comes first, then those to either side: where several cost the same, as with a
+// limb that is stretched, rounding must not choose. A limb on the right tries the mirror images.
 double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, std::optional<double> wish_rad,
                      Posture& posture) {
   constexpr double kBetter = 0.01, kOfWish = 0.1;  // so that no wish outweighs a fault

@@ -1,4 +1,4 @@
-// How a limb gets to a point: the choice that two bones leave open, and travels where the bones are too short.
+// The reach of a limb to a point: the choice that two bones leave open, and travels where the bones are too short.
 #pragma once
 
 #include <optional>

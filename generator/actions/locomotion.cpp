@@ -50,7 +50,7 @@ bool is_root_with_legs(const Character& character, const Part& part) {
 
 bool is_root(const RuleInput& in) { return &in.part == in.character.parts().data(); }
 
-// Where a foot goes while the course comes in: what it is off at first goes away with the blend.
+// The place of a foot while the course comes in: its first offset from the course goes away with the blend.
 Rigid blended_sole(const RuleInput& in, std::size_t leg) {
   const Rigid& wanted = in.body.frame.feet[leg].world_from_sole;
   const double left = 1.0 - in.came_in;

@@ -37,7 +37,7 @@ void put_unit(const Handle& handle, const DynamicFigure& figure, const DynamicsS
   for (int k = 0; k < 3; ++k) out[at(handle.dof + k)] = glm::dot(dynamics.world[at(handle.link)].rotation[k], world);
 }
 
-// What the forces would be without the loads, at the same accelerations.
+// The forces that would act without the loads, at the same accelerations.
 void without_loads(const ControlTick& tick, std::span<double> forces) {
   std::copy(tick.forces.begin(), tick.forces.end(), forces.begin());
   const DynamicsScratch& d = tick.dynamics;
@@ -90,7 +90,7 @@ double DynamicControl::strength(const DynamicFigure& figure, int dof) const {
   return std::max({-figure.strength_low[at(dof)], figure.strength_high[at(dof)], 1e-3});
 }
 
-// What a joint may bear: what the figure would need without its loads, and what is comfortable anyway.
+// The effort that a joint may bear: what the figure would need without its loads, and what is comfortable anyway.
 void DynamicControl::find_nominal(const ControlTick& tick) {
   if (tick.figure.loads.empty()) return;
   without_loads(tick, nominal_);

@@ -40,7 +40,7 @@ class DynamicControl {
   // Forgets what it was doing: where feet have come or gone in this tick.
   void rest();
 
-  // What it added in the last tick, by freedom.
+  // The accelerations that it added in the last tick, by freedom.
   std::span<const double> added() const { return added_; }
 
  private:

@@ -25,7 +25,7 @@ struct Placement {
   WideVec3 origin_m;
 };
 
-// Where all bodies are, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
+// The places of all bodies, and memory of the recursions over them. Spatial vectors: about world[0].origin_m.
 struct DynamicsScratch {
   std::vector<double> angles_rad;       // of hinges, by link; 0 for others
   std::vector<det::SinCos> turns;       // by these

@@ -36,11 +36,11 @@ class Feet {
   std::vector<char> by_dof_;
 };
 
-// Where a sole is, and where it stands if it comes down here: on the ground, tilted like it, turned as it was.
+// The place of a sole, and its footprint if it comes down here: on the ground, tilted like it, turned as it was.
 Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics);
 Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
-// How high a sole's middle is above the ground.
+// The height of a sole's middle above the ground.
 double gap_m(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
 // Whether all corners of a sole are near the ground and slow. Needs the velocities of inverse_dynamics.
@@ -50,8 +50,8 @@ bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environ
 std::vector<std::uint8_t> planned_stances(const Character& character, const DynamicFigure& figure,
                                           const Environment& environment, const Motion& motion);
 
-// How firmly a sole stands in a frame of such stances, (0, 1]: less from when it landed and until it is lifted, so that
-// weight comes and goes softly. A leg that is about to leave must not move the hips.
+// The firmness with which a sole stands in a frame of such stances, (0, 1]: less from when it landed and until it is
+// lifted, so that weight comes and goes softly. A leg that is about to leave must not move the hips.
 double firmness(std::span<const std::uint8_t> stances, int sole, int frame, double rate_hz);
 
 // That, squared, by sole; and by freedom how easily legs give way (support.h): the less firm, the more.

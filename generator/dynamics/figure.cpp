@@ -49,7 +49,7 @@ class FigureBuilder {
     for (const Leg& leg : legs_) roles_[at(leg.part)] = roles_[at(leg.foot_part)] = Role::leg;
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (!parts[p].reach.empty() && roles_[p] == Role::other) roles_[p] = Role::arm;
-    // What carries other limbs is the trunk.
+    // A part that carries other limbs is the trunk.
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const int below = carrier(static_cast<int>(p));
       if (below >= 0 && roles_[at(below)] == Role::other) roles_[at(below)] = Role::trunk;
@@ -131,7 +131,7 @@ class FigureBuilder {
     return group;
   }
 
-  // Where hips are, and their pitch.
+  // Handles for the place of the hips and their pitch.
   static void add_root_handles(std::vector<Handle>& out) {
     for (const int dof : {0, 1, 2, 3}) out.push_back({0, dof, Vec3(0.0), false});
   }

@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// What a link carries beyond its own mass.
+// A mass that a link carries beyond its own.
 struct Load {
   int link = 0;
   double mass_kg = 0.0;

@@ -77,7 +77,7 @@ Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std
   if (!(net.force.y > kLeastShare * weight_N) || area.edges.empty()) return balance;
   double height_m = 0.0;
   for (const Vec3& corner : area.corners_m) height_m += corner.y / static_cast<double>(area.corners_m.size());
-  // Where the force's moment has no horizontal part, at that height.
+  // The ZMP is the point at that height where the force's moment has no horizontal part.
   const double down_m = height_m - balance.zmp_m.y;
   balance.zmp_m.x += (net.moment.z + down_m * net.force.x) / net.force.y;
   balance.zmp_m.z += (-net.moment.x + down_m * net.force.z) / net.force.y;

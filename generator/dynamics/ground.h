@@ -17,8 +17,8 @@
 
 namespace contort {
 
-// What the ground must supply: a force, and its moment about the root's origin (world axes). `forces` are the
-// generalised ones of inverse dynamics.
+// The wrench that the ground must supply: a force, and its moment about the root's origin (world axes). `forces` are
+// the generalised ones of inverse dynamics.
 SpatialForce ground_force(const DynamicsScratch& dynamics, std::span<const double> forces);
 
 struct SupportEdge {
@@ -35,7 +35,7 @@ struct SupportArea {
   std::vector<int> order;          // memory
 };
 
-// Of soles that stand, by index, at the placed pose.
+// The support area of the soles that stand, by index, at the placed pose.
 void find_support_area(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
                        SupportArea& area);
 
@@ -44,7 +44,7 @@ struct Balance {
   double margin_m = 0.0;  // of the ZMP inside the area, < 0 outside; -infinity where the ground would have to pull
 };
 
-// Of a figure that needs this force; a vertical one below a fifth of the weight counts as pulling.
+// The balance of a figure that needs this force; a vertical one below a fifth of the weight counts as pulling.
 Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std::span<const double> forces,
                    double weight_N);
 
@@ -53,8 +53,8 @@ Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std
 double balanced_share(const SupportArea& area, std::span<const double> hold, std::span<const double> forces,
                       double margin_m);
 
-// How soles share a ground force: the least sum of squared forces and, a hundred times dearer, of squared moments about
-// the soles' centres. Efforts of joints above the legs do not depend on it.
+// The division of a ground force among soles: the least sum of squared forces and, a hundred times dearer, of squared
+// moments about the soles' centres. Efforts of joints above the legs do not depend on it.
 class GroundShare {
  public:
   // `firmness` by sole of the figure: the cost of a sole's forces is divided by it.

@@ -14,7 +14,7 @@
 
 namespace contort {
 
-// Where a link can touch: a sphere of this radius around a point.
+// A place where a link can touch: a sphere of this radius around a point.
 struct TouchPoint {
   int link = 0;
   Vec3 point_m{0.0};  // in the link's frame
@@ -53,7 +53,7 @@ SpatialForce momentum_of(const Multibody& body, const DynamicsScratch& dynamics,
 void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> mass,
                   const SpatialForce& momentum, std::span<double> velocity);
 
-// What gravity adds to it in a second.
+// The momentum that gravity adds in a second.
 SpatialForce weight_of(const DynamicsScratch& dynamics);
 
 // Changes the root's velocity so that no point gets deeper into the ground within a tick. Needs a placed pose and the

@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// Of a speed: how much of it is left; 1 where the joint does not race.
+// The share of a joint's velocity that stays within its limit; 1 where the joint does not race.
 double share_left(std::span<const double> velocity, double fastest) {
   const double most = kRacing * fastest, squared = dot(velocity, velocity);
   return squared > most * most ? most / std::sqrt(squared) : 1.0;

@@ -1,4 +1,4 @@
-// What dynamics did, written into a motion frame by frame: of several ticks the greatest efforts and the worst balance.
+// Records dynamics in a motion, frame by frame: of several ticks the greatest efforts and the worst balance.
 #pragma once
 
 #include <span>

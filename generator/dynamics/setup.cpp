@@ -1,4 +1,4 @@
-// What a description of dynamics builds.
+// Builds the dynamics of a stage from a description.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,8 @@ Result<Load> build_load(const LoadDesc& desc, const Character& character, const 
                   desc.mass_kg);
 }
 
-// What moves a part that has no joints of its own: the joint that carries its colliders or sockets.
+// The joint that moves a part: its first, or for a part that has no joints of its own the joint that carries its
+// colliders or sockets.
 int first_joint(const Character& character, const Part& part) {
   if (part.joint_count > 0) return part.first_joint;
   for (const Collider& collider : character.colliders())

@@ -60,7 +60,7 @@ inline SpatialForce& operator+=(SpatialForce& a, const SpatialForce& b) {
   return a;
 }
 
-// What moves a body so: I a + v x* I v, by the shorter way of the acceleration of the body's point at the origin.
+// The force that moves a body so: I a + v x* I v, by the shorter way of the acceleration of its point at the origin.
 inline SpatialForce force_of(const SpatialInertia& i, const SpatialMotion& v, const SpatialMotion& a) {
   const Vec3 origin_m_s2 = a.linear + glm::cross(v.angular, v.linear);
   return {

@@ -14,8 +14,8 @@ struct StandingFoot {
   Rigid world_from_sole;  // where it was put down
 };
 
-// What standing feet ask of accelerations: J a = wanted, six rows a foot (linear at the sole, then angular; world).
-// J is kept by columns, as most are 0: a freedom moves the feet below it. Memory of the caller, reused.
+// The conditions of standing feet on accelerations: J a = wanted, six rows a foot (linear at the sole, then angular;
+// world). J is kept by columns, as most are 0: a freedom moves the feet below it. Memory of the caller, reused.
 struct SupportRows {
   int count = 0;                // rows
   std::vector<double> columns;  // dof_count x count: J transposed

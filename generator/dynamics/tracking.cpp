@@ -32,7 +32,7 @@ std::vector<int> turns(std::span<const double> target, double wiggle) {
   return found;
 }
 
-// Where a target that moves comes to rest for three frames or more, and where it sets out again.
+// Adds the frames in which a target that moves comes to rest for three frames or more, and where it sets out again.
 void add_plateaus(std::span<const double> target, double wiggle, std::vector<int>& frames) {
   constexpr int kShortest = 3;
   const int count = static_cast<int>(target.size());

@@ -30,8 +30,8 @@ std::vector<int> find_knots(std::span<const double> target, const KnotOptions& o
 // Both, in order: joints of one closed chain must share their knots, or they pull at each other.
 std::vector<int> merged_knots(std::span<const int> a, std::span<const int> b);
 
-// How far ahead control looks at a time (in frames, with fractions): to the next knot, but never nearer than the
-// shortest horizon, and where there is no knot for longer than kFarthest_s, kHold_s.
+// The horizon of control, in seconds, at a time (in frames, with fractions): up to the next knot, but never nearer than
+// the shortest horizon, and where there is no knot for longer than kFarthest_s, kHold_s.
 //
 // With a period D between two ticks the law is stable only for horizons above 2.58 D, by Jury's criterion for
 // semi-implicit Euler: 6 r^2 + 8 r < 4 with r = D / T. shortest_horizon_s keeps 3 D and 0.1 s.

@@ -15,7 +15,7 @@ inline constexpr int kMaxAimCoords = 4 * kMaxAimJoints;
 
 struct AimChain {
   std::vector<int> joints;  // From the body outward, each below the one before it; at most kMaxAimJoints.
-  int socket = 0;           // Of the character. Its +Z is the aim direction, its origin the aim point.
+  int socket = 0;           // A socket of the character. Its +Z is the aim direction, its origin the aim point.
   bool operator==(const AimChain&) const = default;
 };
 

@@ -176,8 +176,8 @@ void keep_posture(const Character& character, const AimChain& chain, std::span<c
   });
 }
 
-// Where the table is to be looked up, in the frame of the chain's base. The aim point depends on the posture, which
-// depends on the direction: two rounds settle it for targets that are not within the chain's own length.
+// The direction at which the table is to be looked up, in the frame of the chain's base. The aim point depends on the
+// posture, which depends on the direction: two rounds settle it for targets that are not within the chain's own length.
 Vec3 direction_in_base(const AimTable& table, const Rigid& world_from_base, const AimTarget& target) {
   const Rigid base_from_world = inverse(world_from_base);
   const Vec3 forward(0, 0, 1);

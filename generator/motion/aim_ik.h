@@ -36,8 +36,8 @@ struct AimResult {
 AimResult continue_aim(const Character& character, const AimChain& chain, std::span<Rigid> world,
                        const AimTarget& target, std::span<double> row);
 
-// From the table: interpolated between near postures, then from the nearest, one after another, until one gets there.
-// Where none does, the posture with the smallest error stays. `table` must be of this chain's geometry.
+// From the table: interpolated between near postures, then from the nearest, one after another, until one gets
+// there. Where none does, the posture with the smallest error stays. `table` must be of this chain's geometry.
 AimResult aim(const Character& character, const AimChain& chain, const AimTable& table, std::span<Rigid> world,
               const AimTarget& target, std::span<double> row);
 

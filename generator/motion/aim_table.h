@@ -62,7 +62,7 @@ class AimTable {
   // does not point nearer to the direction than the first one, that one. Never allocates.
   void interpolated(const Vec3& direction, std::span<const AimHit> hits, std::span<double> coords) const;
 
-  // Of the eight nearest.
+  // The same for the eight nearest postures.
   void interpolated(const Vec3& direction, std::span<double> coords) const;
 
  private:

@@ -19,7 +19,7 @@ class Clearance {
   // what it carries are brought up to date. Joints get out of the way at a third of their greatest speed.
   bool keep(std::size_t part, double frame_s, const Posture& before, Posture& shown, std::span<Rigid> world);
 
-  // How often keep() has changed something since begin().
+  // The number of times that keep() has changed something since begin().
   int kept() const { return kept_; }
 
  private:

@@ -1,6 +1,6 @@
-// How a sole that stands rolls: it comes down on its heel, lies flat, and leaves the ground over its toes. With rolling
-// feet a leg reaches farther in front and behind than with flat ones, so that hips need not dip in long strides (J.
-// Perry, Gait Analysis, 1992: heel, ankle and forefoot rockers).
+// The roll of a sole that stands: it comes down on its heel, lies flat, and leaves the ground over its toes. With
+// rolling feet a leg reaches farther in front and behind than with flat ones, so that hips need not dip in long strides
+// (J. Perry, Gait Analysis, 1992: heel, ankle and forefoot rockers).
 #pragma once
 
 #include "model/motion/legs.h"
@@ -16,7 +16,7 @@ double toe_rise(double stance, double swing);
 // about its rear end. No point of the sole is lower for it. Angles >= 0.
 Rigid rolled_sole(const Leg& leg, double heel_up_rad, double toes_up_rad);
 
-// What a sole stands on in its own frame: the middle of its lower end, or its origin where it lies flat.
+// The point on which a sole stands, in its own frame: the middle of its lower end, or its origin where it lies flat.
 Vec3 lower_end_m(const Leg& leg, const Rigid& world_from_sole);
 
 }  // namespace contort

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBend = 0.01;  // of a moving leg's length: a knee never snaps straight
 
-// How much the leg of a runner holds the hips down: not while it swings, when its foot may trail.
+// The weight with which a runner's leg holds the hips down, [0, 1]: none while it swings, when its foot may trail.
 double hold_of(double swing) {
   const double off = std::clamp(std::min(swing, 1.0 - swing) / 0.2, 0.0, 1.0);
   return 1.0 - minimum_jerk(off);
@@ -28,14 +28,14 @@ double slope_rad(std::span<const Leg> legs, std::span<const Vec3> feet, double m
   return -det::atan2(zy, zz);
 }
 
-// How far a hip is above the highest place from which a leg of this length reaches its ankle.
+// The height of a hip above the highest place from which a leg of this length reaches its ankle, m.
 double too_high_m(const Vec3& hip, const Vec3& ankle, double reach_m) {
   const double across2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
   const double up_m = std::sqrt(std::max(reach_m * reach_m - across2, 0.04 * reach_m * reach_m));
   return hip.y - ankle.y - up_m;
 }
 
-// How far a course has begun, or has not ended yet: eased over half a cycle, [0, 1].
+// The share by which a course has begun, or has not ended yet: eased over half a cycle, [0, 1].
 double half_cycle_share(const GaitParams& params, double time_s) {
   return minimum_jerk(std::clamp(time_s / (0.5 * params.cycle_s), 0.0, 1.0));
 }

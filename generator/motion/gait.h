@@ -25,7 +25,7 @@ struct GaitFrame {
   std::array<FootTarget, kMaxLegs> feet;
 };
 
-// What is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
+// The gait that is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
 class Gait {
  public:
   // From where the character stands: a turn about +Y and a place on the plane. Feet stay where their soles are seen until

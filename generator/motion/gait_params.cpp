@@ -25,8 +25,9 @@ GaitParams params_for(std::span<const Leg> legs, double speed_m_s, double headin
   return params;
 }
 
-// How far the hips must be below their height at rest for every leg to bend a little still at the ends of its stance,
-// when its foot is half of the stance's way in front or behind. Near straight, a knee turns very fast for a small step.
+// The distance by which the hips must be below their height at rest for every leg to bend a little still at the ends of
+// its stance, when its foot is half of the stance's way in front or behind. Near straight, a knee turns very fast for a
+// small step.
 double lower_for(std::span<const Leg> legs, double stance_m) {
   constexpr double kBent = 0.97;
   double lower_m = 0.0;
@@ -48,8 +49,8 @@ double lower_for(const Leg& leg, double ahead_m, const Rigid& flat_from_rolled) 
   return leg.hip_m.y - ankle.y - std::sqrt(std::max(reach_m * reach_m - along_m * along_m, 0.5 * reach_m * reach_m));
 }
 
-// How much lower hips must be at their lowest than over a standing foot, so that no leg is stretched where it reaches
-// farthest: in front when its swing has all but ended, behind when it leaves the ground.
+// The distance by which hips must be lower at their lowest than over a standing foot, so that no leg is stretched where
+// it reaches farthest: in front when its swing has all but ended, behind when it leaves the ground.
 double dip_for(std::span<const Leg> legs, const GaitParams& params) {
   constexpr double kArrives = 0.88;  // of the swing
   const double stride_m = params.speed_m_s * params.cycle_s, stance_m = params.duty * stride_m;

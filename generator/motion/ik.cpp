@@ -24,7 +24,7 @@ Vec3 tip_in_middle(const Character& character, const ReachChain& chain, std::spa
   return point;
 }
 
-// How far v is outside [low, high].
+// The distance of v from [low, high]; 0 inside.
 double outside(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
 // Angle of a hinge at `elbow` (axis a) that brings a point, `tip` in the hinge's frame, to the distance from the
@@ -138,7 +138,7 @@ struct TurnedChain {
   }
 };
 
-// How `facing` changes with a joint's angle, as an axis to turn about; what lies along `facing` does nothing.
+// The change of `facing` with a joint's angle, as an axis to turn about; what lies along `facing` does nothing.
 Vec3 turning_part(const Vec3& axis, const Vec3& facing) { return axis - glm::dot(axis, facing) * facing; }
 
 // The turn y, across `facing`, of which each joint takes its share, so that together they make `wanted`: the solution

@@ -28,8 +28,8 @@ void clamp_to_range(const Joint& joint, double* coords);
 // Moves all joints of a part into their ranges; true if one of them was moved by more than 1e-4 rad or m.
 bool clamp_part(const Character& character, std::size_t part, Posture& posture);
 
-// How far inside its range the joint is: 1 in the middle, 0 at a limit, below 0 outside. 1 for the root and for a joint
-// that cannot move.
+// The margin of the joint inside its range: 1 in the middle, 0 at a limit, below 0 outside. 1 for the root and for a
+// joint that cannot move.
 double normalised_margin(const Joint& joint, const double* coords);
 
 }  // namespace contort

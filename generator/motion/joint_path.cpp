@@ -15,7 +15,7 @@ constexpr double kShare = 0.98;       // of the greatest speed: room for roundin
 constexpr double kShortest_s = 0.03;  // from rest to the greatest speed in a posture that is passed on
 constexpr double kGentle_s = 0.1;     // the same of a joint that has fallen behind
 
-// What one frame allows, per frame.
+// The greatest speed, and change of speed, of a joint, per frame.
 struct Limits {
   double speed;
   double change;

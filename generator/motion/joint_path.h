@@ -31,7 +31,8 @@ class JointPath {
   void cut(std::size_t part, std::span<const double> coords);
 
  private:
-  // Of one joint. Speeds are per frame, rad or m, as rotation vectors in the joint's own frame; x of a hinge or travel.
+  // The state of one joint. Speeds are per frame, rad or m, as rotation vectors in the joint's own frame; x of a hinge
+  // or travel.
   struct State {
     Vec3 speed{0.0};
     bool is_behind = false;

@@ -32,8 +32,8 @@ double toes_down_rad(const Leg& leg, double bump_m, double swing) {
   return std::min(0.5 * bump_m / toes_m, kSteepestSole_rad) * swing_bump(swing) * 2.0 * (1.0 - swing);
 }
 
-// How high a swing that is lifted by bump_m must be lifted for toes, heel and middle of a sole on its straight way to
-// clear the ground.
+// The height to which a swing lifted by bump_m must be raised for toes, heel and middle of a sole on its straight way
+// to clear the ground.
 double raised_bump(const Environment& environment, const Leg& leg, const Rigid& sole, double swing, double bump_m) {
   for (int i = 0; i < kAcross; i += 2)
     for (int j = 0; j < kLong; j += 3) {
@@ -50,7 +50,7 @@ double least_bump(double lift_m, double horizontal_m) {
   return std::max(lift_m * std::min(1.0, horizontal_m / 0.15), std::min(kClearance_m, horizontal_m));
 }
 
-// How high a swing with this margin must be lifted over its straight way.
+// The height by which a swing with this margin must be lifted over its straight way.
 double clear_bump(const Environment& environment, const Leg& leg, const Step& step, double margin) {
   constexpr int kSamples = 96;  // a centimetre of way each: no edge is stepped over unseen
   const Vec3 way = step.to.p_m - step.from.p_m;

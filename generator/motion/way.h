@@ -6,7 +6,7 @@
 
 namespace contort {
 
-// How far apart two postures of a joint are: rad, or m of a travel; 0 for the root. `a` and `b` are the joint's own
+// The distance between two postures of a joint: rad, or m of a travel; 0 for the root. `a` and `b` are the joint's own
 // coordinates.
 double joint_way(const Joint& joint, const double* a, const double* b);
 

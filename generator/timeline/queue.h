@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// What the queue must know of a sequence. Times are in the sequence's own frames.
+// The data that the queue must have of a sequence. Times are in the sequence's own frames.
 struct PlannedClip {
   std::string name;
   int start = 0;  // first frame at or after its start and its end
@@ -44,7 +44,7 @@ class PlayQueue {
 
   bool idle() const { return !runs_ && waiting_.empty(); }
   bool has_fired(int interrupt) const { return fired_[static_cast<std::size_t>(interrupt)] != 0; }
-  // Who ran when; the last entry grows while it runs.
+  // The spans in which sequences ran; the last entry grows while it runs.
   std::span<const QueueSpan> history() const { return history_; }
 
   static bool knows(Event event) { return event <= Event::sequence_ended; }

@@ -22,7 +22,7 @@ struct Stretch {
   double at(double content) const { return start + content * scale; }
 };
 
-// How content of a natural length is stretched to a wanted one (0: natural).
+// The factor by which content of a natural length is stretched to a wanted one (0: natural).
 double stretch_scale(double natural, int wanted_frames) {
   return wanted_frames > 0 && natural > 0.0 ? wanted_frames / natural : 1.0;
 }

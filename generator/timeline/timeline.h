@@ -64,8 +64,8 @@ bool takes_its_time(const PlannedAction& action);
 // Progress of an action at a frame of its sequence, in [0, 1].
 double progress(const PlannedAction& action, int frame);
 
-// How far an action has come in, a course since it took its part at `came`; and how much of it is left while it fades
-// out. Frames of its sequence; both in [0, 1].
+// The share by which an action has come in, a course since it took its part at `came`; and the share left while it
+// fades out. Frames of its sequence; both in [0, 1].
 double blended_in(const PlannedAction& action, double came, int frame);
 double not_blended_out(const PlannedAction& action, int frame);
 

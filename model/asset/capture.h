@@ -41,7 +41,7 @@ struct AsfBone {
 struct AsfSkeleton {
   std::string name;
   double length_unit = 1.0;    // As declared. CMU's 0.45 means: a length of 1 is 1 / 0.45 inches.
-  bool is_in_degrees = false;  // What the file is written in; values here are rad.
+  bool is_in_degrees = false;  // Whether the file is written in degrees; values here are rad.
   Vec3 root_position{0.0};
   std::vector<AsfBone> bones;  // Bone 0 is the root; the others are in the file's order.
   std::vector<int> order;      // Every bone once, parents before children.
@@ -52,7 +52,7 @@ struct AsfSkeleton {
 struct AmcMotion {
   int first_frame = 0;  // As the file numbers it: 1 in most. Frames are numbered without a gap.
   int frame_count = 0;
-  int dof_count = 0;  // Of all bones, root included.
+  int dof_count = 0;  // The degrees of freedom of all bones, root included.
   std::vector<double>
       values;  // Frame by frame; in a frame bone by bone in the skeleton's order, not the AMC's. In rad.
   bool operator==(const AmcMotion&) const = default;

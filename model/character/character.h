@@ -60,7 +60,7 @@ struct Collider {
   std::string name;                                // "arm_left/forearm", or "object:rifle/barrel"
   int joint = 0;                                   // The joint that moves it.
   ColliderShape shape;                             // In that joint's frame.
-  std::shared_ptr<const Polyhedron> polyhedron{};  // Of a ConvexHull, in that joint's frame; null of other shapes.
+  std::shared_ptr<const Polyhedron> polyhedron{};  // The hull of a ConvexHull, in that joint's frame; null for others.
 };
 
 // Colliders that move as one and are judged as one: those of a part or object on one joint.

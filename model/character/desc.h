@@ -107,7 +107,7 @@ struct PartDesc {
   double fixed_mass_kg = 0.0;
   Vec3 fixed_center_of_mass_m{0.0};
   Vec3 fixed_inertia_kg_m2{0.0};
-  Vec3 color{0.7};  // Of colliders drawn as mesh.
+  Vec3 color{0.7};  // The colour of colliders drawn as mesh.
   bool operator==(const PartDesc&) const = default;
 };
 

@@ -23,8 +23,8 @@ struct SlopeGround {  // Height 0 at the origin.
 
 struct StepsGround {  // A flight of steps up; level before and behind it.
   double heading_deg = 0.0;
-  double start_m = 1.0;  // Where the first riser stands, along the heading.
-  double depth_m = 0.3;  // Of a tread.
+  double start_m = 1.0;  // The place of the first riser along the heading.
+  double depth_m = 0.3;  // The depth of a tread.
   double height_m = 0.15;
   int count = 5;
   bool operator==(const StepsGround&) const = default;
@@ -47,8 +47,8 @@ struct ObstacleDesc {
 };
 
 struct EnvironmentDesc {
-  Vec3 position_m{0.0};      // Where its origin is, ground and obstacles together,
-  double heading_deg = 0.0;  // and how far it is turned about +Y.
+  Vec3 position_m{0.0};      // The place of its origin, ground and obstacles together,
+  double heading_deg = 0.0;  // and its turn about +Y.
   Ground ground;
   std::vector<ObstacleDesc> obstacles;
   bool operator==(const EnvironmentDesc&) const = default;

@@ -79,7 +79,7 @@
 
   const list = { cards: [], words: null, selects: new Map() };
 
-  // What was chosen stays chosen while there is such a failure.
+  // A value that was chosen stays chosen while there is such a failure.
   const fillSelect = (name, select) => {
     const values = new Set(list.cards.flatMap((card) => valuesOf(card, name)));
     const chosen = select.value;
@@ -199,7 +199,7 @@
     return element ? dataFromPage(element, `case ${key}`) : dataFromFile(`cases/${encodeURIComponent(key)}.js`, key);
   };
 
-  // Where a case has a film strip: its picture, and how to ask from where it is seen.
+  // The film strip of a case that has one: its picture, and a function that loads the views of its tiles.
   const stripOf = (data) => {
     const [path, name] = /^strips\/([\w.-]+)\.png$/.exec(data.strip) || [];
     if (!path) return {};

@@ -46,7 +46,7 @@
       make('span', { class: 'subject' }, data.subject)),
     make('p', { class: 'summary' }, ...data.chips.map(chip), ' ', make('span', {}, data.count))));
 
-  // Where further buckets of a card go, by its number; those of the page itself say so in data-more.
+  // The places to which further buckets of a card go, by its number; those of the page itself say so in data-more.
   const places = new Map();
   const placeOf = (number) => {
     if (!places.has(number)) places.set(number, document.querySelector(`details[data-more="${Number(number)}"]`));

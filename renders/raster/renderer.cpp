@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kOversampling = 2;  // See halve_and_flip.
 constexpr float kGhostAlpha = 0.42f;
-constexpr float kFigureAlpha = 0.5f;        // Of the ghost of a whole figure.
-constexpr float kMarkAlpha = 0.55f;         // Of translucent marks, which are seen as they are and not at their rims.
+constexpr float kFigureAlpha = 0.5f;        // Opacity of the ghost of a whole figure.
+constexpr float kMarkAlpha = 0.55f;         // Opacity of translucent marks, seen as they are and not at their rims.
 constexpr double kGhostSetback_m = 0.03;    // Away from the eye: a figure that coincides with its ghost hides it.
 constexpr float kObstacleAlpha = 0.42f;     // A figure behind two walls stays clear.
 constexpr float kShineThroughAlpha = 0.4f;  // More looks as if nothing were in front.

@@ -24,7 +24,7 @@ inline constexpr char kStripFont[] = "/usr/share/fonts/truetype/dejavu/DejaVuSan
 
 struct StripInput {
   const Character& character;
-  const Motion& motion;              // Of this character.
+  const Motion& motion;              // A motion of this character.
   const Finding* finding = nullptr;  // Null: frames are evenly spaced and nothing is highlighted.
   std::string title{};               // "" for the finding's check and subject.
   std::string note{};                // Stands out after the line of figures; "" for none.
@@ -36,9 +36,9 @@ struct StripInput {
   const Motion* ghost = nullptr;  // Drawn translucent behind, frame by frame: the motion that was aimed for.
   std::string font = kStripFont;
   const Environment* environment = nullptr;  // Null: a level plane at height 0.
-  const DynamicsDesc* dynamics = nullptr;    // Of the spec: its loads are drawn. Null: none.
+  const DynamicsDesc* dynamics = nullptr;    // The spec's dynamics: its loads are drawn. Null: none.
   std::vector<int> frames{};                 // Empty: `tiles` of them are chosen.
-  std::optional<double> azimuth_rad{};       // Where to look from, see View. None: from where most is seen.
+  std::optional<double> azimuth_rad{};       // The direction of view, see View. None: from where most is seen.
   bool colliders = false;                    // Drawn as wires around the figure.
   const Skin* skin = nullptr;                // Drawn instead of the parts' meshes.
 };
@@ -51,7 +51,7 @@ struct StripRow {
 
 struct RowsInput {
   std::vector<StripRow> rows;           // 1 to 16
-  std::vector<int> frames;              // Of every row, 1 to 16; their numbers are in the tiles' corners.
+  std::vector<int> frames;              // The frames of every row, 1 to 16; their numbers are in the tiles' corners.
   std::optional<double> azimuth_rad{};  // As in StripInput; chosen for the first row's middle tile.
   std::optional<int> marked_frame{};    // Its tiles have a red frame, and say `mark`.
   std::string mark{};
@@ -62,8 +62,8 @@ struct RowsInput {
 };
 
 struct StripDone {
-  std::vector<int> frames;      // What is on the tiles.
-  int visible_pixels = 0;       // Of what is highlighted, at the worst frame. 0: it only shines through, if at all.
+  std::vector<int> frames;      // The frames on the tiles.
+  int visible_pixels = 0;       // Pixels of the highlight at the worst frame. 0: it only shines through, if at all.
   std::vector<StripTile> tiles; // of render: from where each is seen, and where it is in the picture
   std::vector<Issue> warnings;  // render.no_font: the picture was written, without text.
 };

@@ -107,7 +107,7 @@ TEST_F(Folder, DescriptionsAreToldApartByTheirFormat) {
   EXPECT_EQ(library.parts.size() + library.objects.size() + library.characters.size(), 3U);
 }
 
-// What one file must satisfy by itself; the rest needs parts (tests/generator/own_actions_test.cpp).
+// The rules that one file must satisfy by itself; the rest needs parts (tests/generator/own_actions_test.cpp).
 TEST_F(Folder, ActionsAreCheckedOnTheWayIn) {
   const std::pair<const char*, const char*> expected[] = {
       {R"("keys": [{"at": 1, "pose": {"elbow_deg": 1}}])", "action.no_part"},

@@ -51,7 +51,7 @@ TEST(Quadruped, StandsOnFourLegsInTwoRows) {
   EXPECT_EQ(places, (std::set<std::pair<int, int>>{{0, 0}, {0, 1}, {1, 0}, {1, 1}}));
 }
 
-// Where a joint's body goes when the joint turns by 0.2 rad.
+// The displacement of the watched joint when the turned one turns by 0.2 rad.
 Vec3 moved_m(const std::string& turned, const std::string& watched) {
   const Character& c = quadruped();
   std::vector<double> row(c.rest_coords().begin(), c.rest_coords().end());

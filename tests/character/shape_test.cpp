@@ -1,4 +1,4 @@
-// What is drawn is closed, faces outward and fills what collides.
+// The shapes that are drawn are closed, face outward and fill those that collide.
 #include "model/character/shape.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How a character stands at rest, for tests of the stock characters.
+// The stance of a character at rest, for tests of the stock characters.
 #pragma once
 
 #include <algorithm>

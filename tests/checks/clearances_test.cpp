@@ -103,7 +103,7 @@ MarginFold folded(const Stage& stage, const Motion& motion, bool all) {
   return fold;
 }
 
-// What nobody looked at changes nothing: neither findings, nor how near any pair ever came.
+// A pair that nobody looked at changes nothing: neither findings, nor how near any pair ever came.
 TEST_P(ClearancesOf, WhatSelfCollisionLeavesOutChangesNothing) {
   int episodes = 0;
   for (int i = 0; i < 40; ++i) {

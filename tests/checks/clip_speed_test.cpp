@@ -159,7 +159,7 @@ TEST(ClipSpeed, AClipWithoutRotationsHasNoPeak) {
 
 TEST(ClipSpeed, OneKeyIsNoMotion) { EXPECT_EQ(speeds(turning({1.0}, {2.0})).peak_rad_s, 0.0); }
 
-// What other programs measured in real files (assets/MANIFEST.tsv).
+// The peak speeds that other programs measured in real files (assets/MANIFEST.tsv).
 struct RealPeak {
   const char* file;
   const char* clip;

@@ -1,4 +1,4 @@
-// How far colliders are above the ground, against dense points on their surfaces.
+// The height of colliders above the ground, against dense points on their surfaces.
 #include <gtest/gtest.h>
 
 #include <random>

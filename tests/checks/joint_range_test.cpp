@@ -100,7 +100,7 @@ TEST_F(JointRange, BallNextToTheMiddleIsJudgedByTheDirectionOfItsSwing) {
   EXPECT_NEAR(margin("arm_left/wrist", wrist(1e-6 * b_axis, 0.0), "swing"), 80 * kRadPerDeg - 1e-6, 1e-9);
 }
 
-// What the check takes apart is put together here: any swing across the axis and any twist come back.
+// The rotations that the check takes apart are put together here: any swing across the axis and any twist come back.
 // Worst measured: 5.3e-15 rad.
 TEST_F(JointRange, BallTakesSwingAndTwistApartAsTheyWerePutTogether) {
   std::mt19937_64 engine(7);

@@ -169,7 +169,7 @@ TEST(Residue, NothingIsLeftOfAdditivesThatPlay) {
     EXPECT_TRUE(found(staged(playing(action)), "residue").empty()) << action;
 }
 
-// What a generator that forgets to take its additive back would make.
+// The motion of a generator that forgets to take its additive back.
 TEST(Residue, IsFoundWhereAnAdditiveStays) {
   const Stage stage = staged(playing(R"({"action": "recoil", "slot": "arm_right", "start_frame": 5})"));
   Motion motion = generate(stage);

@@ -19,7 +19,7 @@ namespace {
 const std::string kDocs = std::string(CONTORT_SOURCE_DIR) + "/docs";
 const std::string kFolder = kDocs + "/ci";
 
-// Of both folders, by their paths below docs.
+// The files of both folders, by their paths below docs.
 Tree files() {
   Tree all;
   for (const std::string folder : {"ci", "scale"})

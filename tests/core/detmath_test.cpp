@@ -111,7 +111,7 @@ TEST(Detmath, AnglesTooLargeToMeanAnythingAreNaN) {
   }
 }
 
-// Where angles are reduced: beside multiples of pi/4, far out, and what is no angle, in rows of any length.
+// Angles that test the reduction: beside multiples of pi/4, far out, and what is no angle, in rows of any length.
 TEST(Detmath, ManyAtATimeAreTheSameBits) {
   std::vector<double> angles = {0.0,
                                 -0.0,

@@ -1,4 +1,4 @@
-// What is found and in no bucket yet.
+// Leads: failures that were found and are in no bucket yet.
 #include "corpus/leads.h"
 
 #include <gtest/gtest.h>

@@ -236,7 +236,7 @@ TEST(LifecycleTable, WhatTheBaselineHasDoesNotGate) {
 
 Family pop_of(std::string_view subject) { return {"pop", "human", std::string(subject)}; }
 
-// Of what waits to be shrunk only the family is known.
+// A failure that waits to be shrunk is known only by its family.
 TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
   std::vector<Bucket> buckets;
   for (const BucketState state : {BucketState::fresh, BucketState::open, BucketState::fixed, BucketState::regressed}) {
@@ -249,7 +249,7 @@ TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
   EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {pop_of("other")}}), with_baseline);
 }
 
-// What the other branch's contort printed of a replay: what fails there as well is known.
+// The output of a replay by the other branch's contort: what fails there as well is known.
 TEST(LifecycleTable, ABaselineMayBeAReplayByTheOtherBranch) {
   const TempFolder folder;
   spill(folder / "replay.json", R"([{"bucket": "pop-a", "family": "pop|x|y", "verdict": "same"},

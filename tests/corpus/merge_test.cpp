@@ -68,8 +68,8 @@ RunRecord record_of(const Failures& failures, int shard, int shards) {
   return record;
 }
 
-// What a run leaves behind: of each family its first leads; a whole run has put them into buckets, but for those that
-// the minimal spec of an earlier failure of the case shows too.
+// Leaves in the corpus what a run leaves behind: of each family its first leads; a whole run has put them into buckets,
+// but for those that the minimal spec of an earlier failure of the case shows too.
 void leave(const Failures& failures, int shard, int shards, const Corpus& corpus) {
   const RunRecord record = record_of(failures, shard, shards);
   ASSERT_TRUE(keep_run(corpus, record));
@@ -131,7 +131,7 @@ std::vector<int> draw_subjects() {
   return *rc::gen::resize(4, rc::gen::unique<std::vector<int>>(rc::gen::inRange(0, 4)));
 }
 
-// Of one case no, one or several failures, whose minimal specs show some of the others.
+// Draws for each case no, one or several failures, whose minimal specs show some of the others.
 Failures draw_failures() {
   Failures failures;
   for (int index = 0; index < 10; ++index)
@@ -179,7 +179,8 @@ TEST(Merge, FilesNothingThatAnEarlierFailureOfTheCaseShowsToo) {
     const Case min = *read_case(into.folder_of(bucket) + "/" + bucket.min);
     filed.insert({min.expect.subject, min.provenance.index});
   }
-  // What the first shows is told with it, and what only that would have told is not; another case tells nothing of it.
+  // The failures that the first shows are told with it, and those that only they would have told are not; another case
+  // tells nothing of it.
   EXPECT_EQ(filed, (std::set<std::pair<std::string, std::int64_t>>{
                        {subject_text(0), 0}, {subject_text(3), 0}, {subject_text(1), 1}}));
 }

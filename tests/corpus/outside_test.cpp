@@ -68,7 +68,7 @@ class StrangersCorpus : public testing::Test {
   void expect_outside_untouched() const { EXPECT_EQ(first_difference(outside_, outside()), ""); }
   std::string in_hostile(const std::string& name) const { return corpus_.folder_of(hostile_) + "/" + name; }
 
-  // What is known about the bucket, with one field that says something else.
+  // Writes what is known about the bucket, with one field that says something else.
   void say(const std::string& field, const std::string& text) {
     Bucket known = hostile_;
     known.state = BucketState::fixed, known.owner = "ana", known.changes = 3;
@@ -104,7 +104,7 @@ class StrangersCorpus : public testing::Test {
     EXPECT_EQ(corpus_.buckets(damaged).size(), 2U);
     EXPECT_TRUE(damaged.empty());
   }
-  // What is done to the whole corpus is done to the honest bucket alone.
+  // Every operation on the whole corpus is done to the honest bucket alone.
   void expect_others_are_served() {
     make_honest_one_fixed();
     Tree before = tree_of(corpus_.folder());

@@ -1,4 +1,4 @@
-// What is done to whole corpora, and corpora that several processes or nobody may write.
+// Operations on whole corpora, and corpora that several processes or nobody may write.
 #include "corpus/upkeep.h"
 
 #include <gtest/gtest.h>

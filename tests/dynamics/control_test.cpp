@@ -135,7 +135,7 @@ TEST(Ground, TheMarginIsTheDistanceFromTheHull) {
   }
 }
 
-// What is asked of the groups takes effort away from where it was too much, summed over all that were overloaded.
+// The change asked of the groups takes effort away where it was too much, summed over all that were overloaded.
 TEST(Control, ReliefNeverAddsToAnOverload) {
   int relieved = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

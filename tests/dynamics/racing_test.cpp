@@ -29,7 +29,7 @@ Stage standing(const std::string& name) {
                   R"("}, "dynamics": {"mode": "tracking"}})");
 }
 
-// Of a joint's freedoms: rad/s or m/s.
+// The speed of a joint, over all its freedoms: rad/s or m/s.
 double speed_of(const Link& link, std::span<const double> velocity) {
   double squared = 0.0;
   for (int k = 0; k < link.dof_count; ++k) {

@@ -84,7 +84,7 @@ TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }
 
-// What was seen in many draws: "action pose on kind arm", "mech_arm_shield in arm_left", "rifle", …
+// The features seen in many draws: "action pose on kind arm", "mech_arm_shield in arm_left", "rifle", …
 std::set<std::string> seen_in(int draws) {
   std::set<std::string> seen;
   for (int i = 0; i < draws; ++i) {
@@ -145,7 +145,7 @@ bool has_begun(const Motion& motion, std::size_t sequence) {
   return std::ranges::any_of(motion.queue, [&](const QueueSpan& s) { return std::cmp_equal(s.sequence, sequence); });
 }
 
-// What waits for something that nothing brings about is never played.
+// An interrupt that waits for something that nothing brings about is never played.
 TEST(Draw, MostInterruptsComeIn) {
   DrawConfig config = kAll;
   config.profile.tracking = config.profile.dynamic = 0.0;

@@ -1,4 +1,4 @@
-// What shrinking takes out of a spec.
+// The edits by which shrinking takes things out of a spec.
 #include "fuzz/edits.h"
 
 #include <gtest/gtest.h>

@@ -98,7 +98,7 @@ TEST(Lineages, GuidanceComesIntoItsShareLittleByLittle) {
   EXPECT_LT(guided_from(1000), guided_from(3000));
 }
 
-// Of 400 numbers and more that a case is made of, most mean nothing in it.
+// More than 400 numbers make up a case, and most mean nothing in it.
 TEST(Lineages, AMutationChangesTheSpec) {
   const DrawConfig config{{"human"}};
   int same = 0;

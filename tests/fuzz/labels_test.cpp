@@ -1,4 +1,4 @@
-// What is counted of a case: by example.
+// The labels that are counted of a case: by example.
 #include "fuzz/labels.h"
 
 #include <algorithm>

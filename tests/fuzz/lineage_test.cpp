@@ -1,4 +1,4 @@
-// How the cases of a run are made: even draws, crowded ones, and what they hold.
+// The making of a run's cases: even draws, crowded ones, and what they hold.
 #include "fuzz/lineage.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Lineage, ArmsHaveNamesOfTheirOwn) {
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kStrategies));
 }
 
-// What the search is measured against.
+// The baseline against which the search is measured.
 TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
   DrawConfig config{{"human"}};
   config.profile.guided = 0.0, config.profile.uniform = 1.0;

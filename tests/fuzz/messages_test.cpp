@@ -1,4 +1,4 @@
-// What goes to a worker and comes back.
+// The messages that go to a worker and come back.
 #include "fuzz/messages.h"
 
 #include <gtest/gtest.h>

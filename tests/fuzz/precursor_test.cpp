@@ -1,4 +1,4 @@
-// Who names a failure that does not come alone.
+// The choice of the name of a failure that does not come alone.
 #include "fuzz/precursor.h"
 
 #include <gtest/gtest.h>
@@ -136,7 +136,7 @@ TEST(ShrinkToPrecursor, StaysWithWhatIsSteady) {
   EXPECT_EQ(shrunk.stopped, "fixpoint");
 }
 
-// Of the elbow it shows what the rule says, and beside it what else was planted.
+// A trial in which the elbow fails by a rule on the spec, and beside it all else that was planted.
 class PlantedMotion final : public Trial {
  public:
   explicit PlantedMotion(std::vector<Case> others) : others_(std::move(others)) {}

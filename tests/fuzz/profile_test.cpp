@@ -195,7 +195,7 @@ TEST(Profile, ABaseThatIsNotBuiltInIsRefused) {
             "no profile is called \"tamer\"; there are nightly, pr, smoke, tame, and files; did you mean \"tame\"?");
 }
 
-// What it finds is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.
+// Any finding is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.
 TEST(Profile, TameFindsNothing) {
   const Profile tame = load_profile("tame").value();
   StageEvaluator evaluator;

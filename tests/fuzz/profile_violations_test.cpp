@@ -1,4 +1,4 @@
-// What of a spec a profile would not have drawn, and shrinking that stays within it.
+// The parts of a spec that a profile would not have drawn, and shrinking that stays within it.
 #include "fuzz/profile_violations.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What ends its process only while something else is shrunk is found all the same.
+// A spec that ends its process only while something else is shrunk is found all the same.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>

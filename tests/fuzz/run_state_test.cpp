@@ -1,4 +1,4 @@
-// What a run keeps between rounds lies in the corpus, and so may be a stranger's.
+// The state that a run keeps between rounds lies in the corpus, and so may be a stranger's.
 #include "fuzz/run_state.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class KeptState : public testing::Test {
     EXPECT_TRUE(keep_state(corpus_, state_));
     return load_state(corpus_, state_.record, state_.plan);
   }
-  // Where it is refused, and that the message says what to do.
+  // Expects a refusal at this place, with a message that says what to do.
   void expect_refused(const std::string& code, const std::string& pointer) {
     const auto read = kept();
     ASSERT_FALSE(read);

@@ -1,4 +1,4 @@
-// What a run counts, and which failures it wants.
+// The counts of a run, and the failures that it wants.
 #include "fuzz/run_statistics.h"
 
 #include <gtest/gtest.h>

@@ -37,7 +37,7 @@ std::set<Family> families_in(const Corpus& corpus) {
   return families;
 }
 
-// Of a machine nobody knows how fast it is: the first of these runs that found something and did not get to shrink it.
+// The first of these runs that found something and did not get to shrink it: nobody knows how fast the machine is.
 RunResult run_out_of_time(const Corpus& corpus) {
   RunConfig config = config_of(-1, 2);
   config.shrink.before_run = [](const Spec&) { ::usleep(50'000); };
@@ -51,7 +51,7 @@ RunResult run_out_of_time(const Corpus& corpus) {
   return {};
 }
 
-// What time did not reach is neither lost nor another run's by its seed: whoever comes next makes buckets of it.
+// Failures that time did not reach are neither lost nor another run's by its seed: the next run makes buckets of them.
 TEST_F(TimedRuns, LeaveWhatTimeDidNotReachToTheNext) {
   const Corpus corpus = create(folder_ / "corpus");
   const RunResult first = run_out_of_time(corpus);

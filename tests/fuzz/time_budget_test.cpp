@@ -1,4 +1,4 @@
-// How a run divides its time.
+// The division of a run's time.
 #include "fuzz/time_budget.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What single actions promise, measured on the motion.
+// The promises of single actions, measured on the motion.
 #include <gtest/gtest.h>
 
 #include <cmath>

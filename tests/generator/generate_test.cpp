@@ -182,7 +182,7 @@ TEST(Generate, BallsStayUnitQuaternionsAndAllIsFinite) {
   }
 }
 
-// What docs/timeline.md says, by counting: in each layer the action that started last, of all so far, has the part
+// The rule of docs/timeline.md, by counting: in each layer the action that started last, of all so far, has the part
 // while it lasts.
 void expect_spans_fit(const Stage& stage) {
   const Motion motion = generate(stage);

@@ -108,8 +108,8 @@ RC_GTEST_PROP(Ik, ReachPutsTheTipOnEveryReachableTarget, ()) {
   }
 }
 
-// Where the smallest rotation is not unique. The elbow's bend follows from the distance alone, so a first reach tells
-// where the tip is when the shoulder is at rest.
+// The case in which the smallest rotation is not unique. The elbow's bend follows from the distance alone, so a first
+// reach tells where the tip is when the shoulder is at rest.
 TEST(Ik, ReachWorksOppositeToRest) {
   Limb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());

@@ -33,7 +33,7 @@ Motion play(std::vector<ActionUse> actions, int hold = 0) {
 }
 double elbow_at(const Motion& motion, int frame) { return coord(motion, frame, human(), kLayeredElbow); }
 
-// How far the wrist is from where `reach` should bring it.
+// The distance of the wrist from where `reach` should bring it.
 double miss_m(const Motion& motion, int frame) {
   std::vector<Rigid> world(human().joints().size());
   forward_kinematics(human(), motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);
@@ -256,8 +256,8 @@ TEST(Interrupts, LetAnAdditiveFadeThatTheyCut) {
   }
 }
 
-// What fades out hands nothing over at its end, but here it has not faded: the head was back at rest one frame after
-// the cut.
+// An action that fades out hands nothing over at its end, but here it has not faded: the head was back at rest one
+// frame after the cut.
 TEST(Interrupts, HoldACourseThatFadesOutWhereTheyCutIt) {
   ActionUse look = use("look_at", "head", 0, 60, {{"target_m", Vec3(1.0, 1.5, 2.0)}});
   look.blend_in_frames = look.blend_out_frames = 20;

@@ -1,4 +1,4 @@
-// How reach and weapon_hold choose: the swivel that a request leaves open, travels, and the room of a limb's bodies.
+// The choices of reach and weapon_hold: the swivel that is left open, travels, and the room of a limb's bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>

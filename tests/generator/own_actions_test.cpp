@@ -161,7 +161,7 @@ TEST(OwnActions, AVariantOnTheRightMirrorsItsPoints) {
   };
   EXPECT_EQ(play(use("point", "arm_right", 0, 30, {})),
             play(use("reach", "arm_right", 0, 30, {{"target_m", Vec3(-0.3, 1.4, 0.5)}, {"swivel_deg", -15.0}})));
-  // What a spec says itself is meant as it stands.
+  // A parameter that a spec gives itself is meant as it stands.
   EXPECT_EQ(play(use("point", "arm_right", 0, 30, {{"swivel_deg", 15.0}})),
             play(use("reach", "arm_right", 0, 30, {{"target_m", Vec3(-0.3, 1.4, 0.5)}, {"swivel_deg", 15.0}})));
 }

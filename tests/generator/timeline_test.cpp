@@ -1,4 +1,4 @@
-// How clips and sequences are laid out: stretching, speed, the queue.
+// The layout of clips and sequences: stretching, speed, the queue.
 #include "generator/timeline/timeline.h"
 
 #include <gtest/gtest.h>

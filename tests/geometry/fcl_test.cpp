@@ -95,7 +95,7 @@ double fcl_distance(const Posed& a, const Posed& b, fcl::GJKSolverType solver) {
   return result.min_distance;
 }
 
-// Of the deepest contact.
+// The depth of the deepest contact.
 double fcl_depth(const Posed& a, const Posed& b) {
   fcl::CollisionRequestd request(8, true);
   request.gjk_solver_type = fcl::GST_LIBCCD;

@@ -195,7 +195,7 @@ const Hostile kHostile[] = {
     {"projecting matrix",
      [](GlbBuilder& b) { b.root["nodes"][3]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
      "gltf.bad_node", "/nodes/3/matrix"},
-    // What exhausts memory, stack or patience.
+    // Files that exhaust memory, stack or patience.
     {"too many nodes",
      [](GlbBuilder& b) {
        b.root["nodes"] = Json::array_t(static_cast<std::size_t>(kMaxGltfNodes) + 1, Json::object());
@@ -217,7 +217,7 @@ const Hostile kHostile[] = {
        b.root["animations"][1]["samplers"][0]["output"] = 5;
      },
      "gltf.too_large", "/accessors/3/count"},
-    // What the file wants of us.
+    // Features that the file requires and the reader does not have.
     {"version 1.0", [](GlbBuilder& b) { b.root["asset"]["version"] = "1.0"; }, "gltf.unsupported", "/asset/version"},
     {"version 2.0x", [](GlbBuilder& b) { b.root["asset"]["version"] = "2.0x"; }, "gltf.unsupported", "/asset/version"},
     {"least version 2.1", [](GlbBuilder& b) { b.root["asset"]["minVersion"] = "2.1"; }, "gltf.unsupported",

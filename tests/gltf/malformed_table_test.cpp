@@ -19,7 +19,7 @@ const std::string kTableFolder = std::string(CONTORT_SOURCE_DIR) + "/../shared/a
 constexpr double kMostSeconds = 1.0;  // of CPU; the machine may be busy
 constexpr double kMost_MB = 512.0;
 
-// What the validator says: the worst severity, and the codes of its errors.
+// The validator's report: the worst severity, and the codes of its errors.
 struct Expected {
   std::string severity = "none";
   std::set<std::string> errors;

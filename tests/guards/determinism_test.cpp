@@ -1,6 +1,6 @@
-// What makes the same spec give other bits elsewhere stays out of the source: platform maths, clocks, chance, order.
-// A list of names, so it sees what is called and not what it does: a Quat made from Euler angles, or a glm function
-// found through its arguments under a name that is not listed, gets through. The golden hashes are the other half.
+// Code that gives the same spec other bits elsewhere stays out of the source: platform maths, clocks, chance, order. A
+// list of names, so it sees what is called and not what it does: a Quat made from Euler angles, or a glm function found
+// through its arguments under a name that is not listed, gets through. The golden hashes are the other half.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ struct Scope {
   bool maths = false, chance = false, clock = false, order = false;
 };
 
-// Where the clock may be looked at: for watchdogs and time budgets, and to wait for threads.
+// The files in which the clock may be looked at: for watchdogs and time budgets, and to wait for threads.
 constexpr std::array<std::string_view, 8> kClockFiles = {
     "process/clock.cpp",  "process/worker_pool.cpp", "process/broker.cpp", "process/program.cpp",
     "fuzz/case_work.cpp", "fuzz/parallel.cpp",       "fuzz/run.cpp",       "fuzz/trial.cpp"};

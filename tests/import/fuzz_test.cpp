@@ -1,4 +1,4 @@
-// What is drawn for figures of any size can be built: specs have limits of their own.
+// Specs that are drawn for figures of any size can be built: they have limits of their own.
 #include <gtest/gtest.h>
 
 #include "fuzz/draw.h"

@@ -1,4 +1,4 @@
-// What follows once an input was read, in bounded work: what `check`, `replay` and `generate` would do with it.
+// The work that follows once an input was read, bounded: what `check`, `replay` and `generate` would do with it.
 #pragma once
 
 #include "model/asset/asset.h"

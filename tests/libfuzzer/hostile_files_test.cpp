@@ -1,4 +1,4 @@
-// What libFuzzer found once, in regressions/<target>/, and its seeds: without libFuzzer, in every test run.
+// The inputs that libFuzzer found once, in regressions/<target>/, and its seeds: without libFuzzer, in every test run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ TEST(HostileFiles, EveryFolderOfRegressionsBelongsToATarget) {
   }
 }
 
-// Of every length, and with every byte in turn replaced: what a mutation would begin with, in every build.
+// Seeds of every length, and with every byte in turn replaced: what a mutation would begin with, in every build.
 TEST(HostileFiles, SeedsThatAreCutOrChangedAreAnswered) {
   for (const Target& target : all_targets()) {
     if (target.name == "spec" || target.name == "description" || target.name == "case") continue;  // slow, and JSON too

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kCountAt = 24, kHeaderBytes = 32, kHashBytes = 8;
 
-// Of the human's right arm, from shoulder to grip.
+// The geometry of the human's right arm, from shoulder to grip.
 const AimGeometry& geometry() {
   static const AimGeometry out = [] {
     const Result<Character> human = build_character({}, stock_library());

@@ -65,7 +65,7 @@ bool play_action(const ActionDesc& action, const Library& library) {
   return moved;
 }
 
-// Of the one description that the library has more than the stock.
+// Plays the one description that the library has more than the stock.
 bool play_newest(Library& library) {
   const auto is_new = [](const auto& known) {
     return [&known](const auto& entry) { return !known.contains(entry.first); };

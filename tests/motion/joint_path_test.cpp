@@ -17,7 +17,7 @@ struct Elbow {
   Elbow() : coords(fixtures::human().rest_coords().begin(), fixtures::human().rest_coords().end()) {
     path.begin(fixtures::human(), coords, kRate_hz);
   }
-  // Where the elbow gets to in the next frame; `behind` if that is not where it is wanted.
+  // The angle that the elbow reaches in the next frame, rad; `behind` if that is not where it is wanted.
   double follow(double wanted_rad) {
     coords[at()] = wanted_rad;
     behind = path.follow(part, coords);

@@ -1,4 +1,4 @@
-// What goes wrong: hostile names, missing and damaged files, no WebGL, no scripts.
+// Tests of what can go wrong: hostile names, missing and damaged files, no WebGL, no scripts.
 import assert from 'node:assert/strict';
 import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';

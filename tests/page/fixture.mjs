@@ -293,7 +293,7 @@ function writeSingle(file, viewer, cases) {
   writeFileSync(file, page(cases.map((one) => card(one, 'new')).join(''), cases.length, inline));
 }
 
-// What renders/report_rest.cpp writes of a card that the page has no room for.
+// The row that renders/report_rest.cpp writes for a card that the page has no room for.
 const lateCard = (one, number, state) => ({
   card: number, check: one.failure.check, subject: one.failure.subject, character: one.character,
   parts: one.failure.subject.split('/')[0], phase: phaseOf(one), state, gating: true, count: '12 cases, 2 buckets',

@@ -5,7 +5,7 @@
 //
 // --modules is the node_modules folder where `npm ci` was run with this folder's package.json.
 // Some tests only: node --test-name-pattern=WORDS run.mjs …
-// What a report has no case for is skipped, and said so.
+// Tests for which a report has no case are skipped, and the output says so.
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';

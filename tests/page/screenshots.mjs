@@ -26,7 +26,7 @@ async function webp(page, png) {
 
 const url = await urlOf('file', options.report);
 const cases = readCases(options.report);
-// What people see first: two parts of a body in each other, or else any failure.
+// The failure that people see first: two parts of a body in each other, or else any failure.
 const key = findCase(cases, (data) => data.check === 'self_collision') ?? findCase(cases, () => true);
 
 async function shoot(folder, name, opened) {

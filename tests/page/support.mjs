@@ -1,4 +1,4 @@
-// What the tests share: options, a browser, pages from a disk or from a server, and what a page did wrong.
+// The things that the tests share: options, a browser, pages from a disk or from a server, and what a page did wrong.
 import { spawnSync } from 'node:child_process';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -136,8 +136,8 @@ export async function ready(page, which = '0') {
   await settle(page);
 }
 
-// What axe-core calls serious or worse. Cards are laid out first: axe-core takes those that are off the screen, which the
-// browser has not laid out yet, to lie over each other.
+// The problems that axe-core calls serious or worse. Cards are laid out first: axe-core takes those that are off the
+// screen, which the browser has not laid out yet, to lie over each other.
 export async function seriousProblems(page) {
   await page.addStyleTag({ content: '* { content-visibility: visible !important; }' });
   await page.addScriptTag({ path: axePath() });

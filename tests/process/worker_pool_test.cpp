@@ -13,7 +13,7 @@
 namespace contort {
 namespace {
 
-// What the tests' workers can do, by task.
+// The work of the tests' workers, by task.
 std::string obey(const std::string& task, WorkerSlot& slot) {
   slot.note("doing " + task);
   if (task == "crash") ::raise(SIGSEGV);

@@ -1,4 +1,4 @@
-// What the viewer is told of a failure.
+// The data that the viewer gets of a failure.
 #include "renders/case_data.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What build servers read, read back: JUnit with an XML parser, SARIF against what GitHub asks for.
+// The files for build servers, read back: JUnit with an XML parser, SARIF against what GitHub asks for.
 #include "renders/ci_outputs.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What reports say that a failure needs.
+// The words in which reports say what a failure needs.
 #include "renders/needs.h"
 
 #include <gtest/gtest.h>

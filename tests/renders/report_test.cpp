@@ -51,7 +51,7 @@ std::size_t count(std::string_view text, std::string_view what) {
 
 bool contains(std::string_view text, std::string_view what) { return count(text, what) > 0; }
 
-// What a browser would take for markup: the page without its two fixed blocks.
+// The text that a browser would take for markup: the page without its two fixed blocks.
 std::string body_of(const std::string& html) { return html.substr(html.find("<body>")); }
 
 TEST(Html, EscapesText) {

@@ -1,4 +1,4 @@
-// Who may call, and what of the disk they may see.
+// The guard's decisions: who may call, and what of the disk they may see.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -61,7 +61,7 @@ TEST(Guard, RefusesPagesOfOtherServers) {
   EXPECT_EQ(code(admit(own, kOpen)), "");
 }
 
-// What a form of another page can send without asking first.
+// The requests that a form of another page can send without asking first.
 TEST(Guard, RefusesWritesThatAFormCouldSend) {
   for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x",
                            "application/json-seq", "application/jsonp", "text/plain; application/json"}) {

@@ -178,7 +178,7 @@ TEST(Serve, EveryDocumentedCallCanBeCalled) {
   }
 }
 
-// What was answered is on the disk, whenever the server is killed.
+// A write that was answered is on the disk, whenever the server is killed.
 TEST(ServeSlow, NoAcknowledgedWriteIsLostByAKill) {
   TempFolder folder;
   ASSERT_TRUE(Corpus::create(folder / "corpus"));
@@ -274,7 +274,7 @@ TEST(ServeSlow, StandsWhatItIsGiven) {
       default: return count(http.Get("/api/corpus"), true);
     }
   };
-  // Who sends a byte a second must not keep others waiting.
+  // A client that sends a byte a second must not keep others waiting.
   std::atomic<bool> over = false;
   std::vector<std::thread> threads;
   for (int t = 0; t < 16; ++t)

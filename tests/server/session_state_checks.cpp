@@ -1,4 +1,4 @@
-// What a session shows, without workers: a clock that is told the time, and motions that are made of letters.
+// The state that a session shows, without workers: a clock that is told the time, and motions that are made of letters.
 #include "server/session_state.h"
 
 #include <gtest/gtest.h>

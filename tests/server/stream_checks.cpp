@@ -1,4 +1,4 @@
-// What a stream sends of a session's state, event by event.
+// The events by which a stream sends a session's state.
 #include "server/stream.h"
 
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ AimCommand at(const std::string& slot, const Vec3& target_m) {
   return aim;
 }
 
-// What a terminal may ask for at a moment.
+// Draws a command that a terminal may give at a moment.
 Result<Spec> draw_command(const Spec& spec, const Moment& now) {
   switch (*rc::gen::inRange(0, 4)) {
     case 0: return with_sequence(spec, one("crouch", "waist", *rc::gen::inRange(20, 60)), Enter::end, true, now);

@@ -1,4 +1,4 @@
-// What a report can do while `contort serve` shows it: triage, jobs, and a list that changes when the report does.
+// The functions of a report while `contort serve` shows it: triage, jobs, and a list that changes when the report does.
 // The report is complete without this.
 import './live.css';
 import { finished, get, jobText, post, sentence } from '../src/api.js';

@@ -35,7 +35,7 @@ export class Refresh {
     const failures = document.getElementById('failures');
     const next = fresh.getElementById('failures');
     if (!failures || !next) throw new Error('it is no report');
-    // Of a report so long that further rows come from files, the list is made by loading the page.
+    // The list of a report so long that further rows come from files is made by loading the page.
     if (fresh.getElementById('rest')) return this.loadAnew();
     const before = new Set(keysOf(failures));
     const after = keysOf(next);
@@ -57,7 +57,7 @@ export class Refresh {
     return busy ? 'Report updated: load the page again to see it' : 'Report updated';
   }
 
-  // What the reader looks at, and where on the screen it is.
+  // The element that the reader looks at, and its place on the screen.
   anchor() {
     const focused = document.activeElement?.closest('.card, form') ? document.activeElement : null;
     const seen = focused?.closest('.card') ??

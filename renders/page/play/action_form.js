@@ -7,7 +7,7 @@ const kFirst = ['walk', 'run', 'aim', 'look_at', 'reach'];
 const kLong = new Set(['walk', 'run', 'aim', 'look_at', 'weapon_hold', 'touch']);
 const kPreset = 'preset';
 
-// What a name may be: points of objects, and those that aim.
+// The names to choose from: points of objects, and those that aim.
 function pointNames(app) {
   const aims = (app.model?.aims ?? []).flatMap((aim) => aim.points ?? []);
   return [...new Set(aims)];

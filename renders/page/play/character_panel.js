@@ -1,4 +1,5 @@
-// Who moves, out of which parts, carrying what. Every change begins a new take where the figure stands.
+// The panel of the character that moves, its parts, and what it carries. Every change begins a new take where the
+// figure stands.
 import { el } from '../src/dom.js';
 import { button, choice, form, numberField, panel } from './fields.js';
 import { attachmentsOf, characterEntry, loadsOf, partsOf, socketChoices } from './spec_edit.js';

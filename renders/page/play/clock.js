@@ -12,7 +12,7 @@ export class Clock {
     Object.assign(this, { rate, frameCount, playing: false, base: 0, since: 0 });
   }
 
-  // What the server said at `now`, in milliseconds.
+  // Takes over what the server said at `now`, in milliseconds.
   set({ frame, playing }, now) {
     const own = this.time(now);
     const off = frame - own;

@@ -1,4 +1,4 @@
-// What went wrong so far, and what can be done about it: look, save as a case, shrink, see it in the report.
+// The findings so far, and what can be done about them: look, save as a case, shrink, see them in the report.
 import { finished, jobText, post, sentence } from '../src/api.js';
 import { el } from '../src/dom.js';
 import { interval, margin } from '../src/format.js';
@@ -86,7 +86,7 @@ class Row {
     return this.guarded(async () => {
       const { job } = await post(`/api/corpus/${encodeURIComponent(this.bucket)}/shrink`, {});
       const done = await finished(job, (state) => this.say(jobText('Shrink', state)));
-      // What is minimal tells a bucket: shrinking may have moved the case to another.
+      // The minimal case tells the bucket: shrinking may have moved the case to another.
       if (typeof done.result?.bucket === 'string') this.bucket = done.result.bucket;
     });
   }

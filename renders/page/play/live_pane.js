@@ -81,7 +81,7 @@ export class LivePane extends Pane {
     };
   }
 
-  // Where the character stands and faces, for things that are put beside it.
+  // The place and heading of the character, for things that are put beside it.
   stance() {
     const root = this.order[0];
     if (!root) return { x: 0, z: 0, heading: 0 };

@@ -8,7 +8,7 @@ import { el } from '../src/dom.js';
 import { emptySpec } from './spec_edit.js';
 import { PlayView } from './view.js';
 
-const kLiked = 'mech';  // Of all characters the one with the most parts to swap.
+const kLiked = 'mech';  // The character with the most parts to swap.
 
 const wantedCase = () => new URLSearchParams(location.hash.slice(1)).get('case');
 

@@ -1,4 +1,4 @@
-// What the user's hand does, in the picture: an arrow while something is pushed, rings around what is aimed at.
+// Marks in the picture of what the user's hand does: an arrow while something is pushed, rings around what is aimed at.
 import { Mesh, MeshBasicMaterial, SphereGeometry, TorusGeometry, Group, Vector3 } from 'three';
 import { arrow, turnArrow } from '../src/response.js';
 

@@ -1,4 +1,4 @@
-// What plays, what waits, and forms for what comes next.
+// The panel of the queue: what plays, what waits, and forms for what comes next.
 import { el } from '../src/dom.js';
 import { ActionForm } from './action_form.js';
 import { button, checkField, form, labelled, panel } from './fields.js';

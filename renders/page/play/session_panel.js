@@ -1,4 +1,4 @@
-// What a session gives back: its spec, its motion; and a fresh start.
+// The panel of what a session gives back: its spec, its motion; and a fresh start.
 import { copyText } from '../src/copy.js';
 import { el } from '../src/dom.js';
 import { button, choice, panel } from './fields.js';

@@ -1,4 +1,4 @@
-// What the forms need to know about a spec and the catalogue. Names of docs/schema/spec.schema.json.
+// The facts about a spec and the catalogue that the forms need. Names of docs/schema/spec.schema.json.
 import { list } from '../src/case_data.js';
 
 export const kFormat = 'contort.spec/1';

@@ -1,4 +1,4 @@
-// What a session's stream has sent of the present take: frames of each mode, margins, spans.
+// The data that a session's stream has sent of the present take: frames of each mode, margins, spans.
 import { list, readCurve, readMark, readSpan, finite, shown } from '../src/case_data.js';
 import { bytesOf } from '../src/figure.js';
 
@@ -39,7 +39,7 @@ export class Tracks {
   addFrames(data) {
     const track = this.track(data);
     if (!track || !(data.count > 0)) return;
-    // What was sent of an older revision from here on is void. Frames of one revision may come in any order: those that
+    // The frames of an older revision from here on are void. Frames of one revision may come in any order: those that
     // are waited for first.
     if (data.revision > track.revision) track.frames.length = Math.min(track.frames.length, data.from);
     track.revision = Math.max(track.revision, whole(data.revision, 0));
@@ -61,7 +61,7 @@ export class Tracks {
     if (size) this.put(track, from, Math.floor(buffer.byteLength / 4 / size), new Uint8Array(buffer), false);
   }
 
-  // Where frames around this one were never sent: {mode, from, count}; null: nowhere.
+  // The frames to ask for around this one, if it was never sent: {mode, from, count}; null: none.
   gap(frame) {
     for (const [mode, { frames }] of this.of) {
       if (frames[frame] || frames.length === 0) continue;

@@ -45,7 +45,7 @@ export class Figure {
     this.root.updateMatrixWorld(true);
   }
 
-  // Of each joint in `order` seven numbers, its place and rotation against its parent: what a server sends.
+  // Poses the joints in `order` by seven numbers each, place and rotation against the parent: what a server sends.
   pose(order, values) {
     order.forEach((joint, i) => {
       joint?.position.fromArray(values, 7 * i);
@@ -106,7 +106,7 @@ export async function loadModel(glb) {
   return new Figure(await new GLTFLoader().parseAsync(bytesOf(glb).buffer, ''), 1);
 }
 
-// Where the figure is at every frame, smoothed over half a second, so that a camera that goes along does not shake.
+// The place of the figure at every frame, smoothed over half a second, so that a camera that goes along does not shake.
 export function pathOf(figure, frameCount) {
   const stride = Math.max(1, Math.ceil(frameCount / 400));
   const raw = [];

@@ -98,7 +98,7 @@ export class HeatMap {
     c.clearRect(0, 0, this.axis.width, this.curves.length * kRow);
     this.curves.forEach((curve, row) => {
       c.fillStyle = this.colours.grid;
-      c.fillRect(0, row * kRow + kRow / 2 - 1, this.axis.width, 1);  // Where nothing was judged.
+      c.fillRect(0, row * kRow + kRow / 2 - 1, this.axis.width, 1);  // This line stays where nothing was judged.
     });
     this.paintColumns(0, this.end);
     if (document.activeElement !== this.canvas) return;

@@ -1,4 +1,4 @@
-// What the failure is about, in red and seen through other parts; colliders; the ghost.
+// The marks of a failure: its parts, in red and seen through other parts; colliders; the ghost.
 import {
   GreaterDepth, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry,
 } from 'three';

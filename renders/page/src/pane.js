@@ -20,7 +20,7 @@ export class Pane {
     return pane;
   }
 
-  // Where the picture's middle is at a frame.
+  // The path of the picture's middle: its place at every frame.
   makePath() {
     return pathOf(this.figure, this.motion.frameCount);
   }

@@ -144,7 +144,7 @@ export class Stage {
   follow(middle) {
     const shift = middle.clone().sub(this.controls.target);
     if (!this.way || shift.lengthSq() === 0) return;
-    // What the reader moved sideways stays moved: only the way of the figure is added.
+    // A picture that the reader moved sideways stays moved: only the way of the figure is added.
     const step = middle.clone().sub(this.followed ?? middle);
     this.followed = middle.clone();
     this.camera.position.add(step);
@@ -228,7 +228,8 @@ export class Stage {
     this.drawing.draw(views, height);
   }
 
-  // What is under a place on the screen: the pane, its camera, and the place as three.js's rays want it. Null outside.
+  // The data for picking at a place on the screen: the pane, its camera, and the place as three.js's rays want it. Null
+  // outside.
   at(clientX, clientY) {
     const box = this.drawing.canvas.getBoundingClientRect();
     const width = box.width / Math.max(1, this.panes.length);

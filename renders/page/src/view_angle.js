@@ -2,7 +2,7 @@
 import { Raycaster, Vector3 } from 'three';
 
 const kProbes = 16;
-const kHeight = 0.22;  // Of the direction's vertical part: a little from above.
+const kHeight = 0.22;  // The direction's vertical part: a little from above.
 
 function direction(azimuth) {
   return new Vector3(Math.sin(azimuth), kHeight, Math.cos(azimuth)).normalize();

@@ -49,7 +49,7 @@ DrawList list_of(std::vector<DrawInstance> instances) {
   return list;
 }
 
-// How much redder than green the picture is, summed up.
+// The redness of the picture: its excess of red over green, summed up.
 long redness(const Image& image) {
   long sum = 0;
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) sum += std::max(0, image.rgb[i] - image.rgb[i + 1] - 20);
