@@ -131,9 +131,9 @@ class Generation {
   void keep_clear(const Playback& playback, const Limb& limb) {
     Posture& shown = s_.postures.shown;
     for (const int p : limb.parts) s_.held_off[at(p)] = 0;
-    if (std::ranges::none_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); })) return;
     const auto last = at(limb.parts.back());
     s_.rules.room().hold(last, held_socket(playback, at(limb.parts.front())));
+    if (std::ranges::none_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); })) return;
     if (!s_.clearance.keep(last, 1.0 / stage_.rate_hz, s_.before, shown, s_.rules.world())) return;
     for (const int p : limb.parts) s_.held_off[at(p)] = 1, s_.path.correct(at(p), shown.coords);
   }

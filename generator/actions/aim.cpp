@@ -29,7 +29,6 @@ void for_coords(const RuleInput& in, Copy copy) {
 }
 
 bool has_room(const RuleInput& in, const Posture& posture) {
-  constexpr double kTooNear_m = 1e-4;
   const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
   for (const int j : in.room.limb_of(part).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
   return in.room.room_m(part, in.world) >= -kTooNear_m;
@@ -62,7 +61,7 @@ void solve(const RuleInput& in, Posture& posture) {
     return aim(in.character, in.aim->chain, *in.aim->table, in.world, target, posture.coords);
   };
   if (body.begun != in.took_over) {
-    if (!from_table().reached || has_room(in, posture) || !find_room(in, target, posture)) from_table();
+    if (from_table().reached && !has_room(in, posture) && !find_room(in, target, posture)) from_table();
     for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
     body.begun = in.took_over;
   }

@@ -60,8 +60,6 @@ double elbow_height(const RuleInput& in) {
 
 // The cost of joints out of range and of bodies too near; 0 where there are none. Places the limb in in.world.
 double cost_of_faults(const RuleInput& in, const Posture& posture) {
-  // At rest many pairs have exactly the gap that they may have, so that only the least bit decides on which side.
-  constexpr double kTooNear_m = 1e-4;
   place_limb(in, posture);
   const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
   const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;

@@ -13,7 +13,6 @@ namespace contort {
 
 namespace {
 
-constexpr double kTooNear_m = 1e-4;  // at rest many pairs have exactly the gap that they must have
 // A limb may lose a third of its room in a frame, so it slows down before it stops. Beyond 7 cm it needs no care.
 constexpr double kApproach = 0.65;
 constexpr double kCreep_m = 0.003;  // in a frame, which is slow enough to stop at once

@@ -52,6 +52,7 @@ std::vector<Limb> limbs_of(const Character& character) {
 
 void LimbRoom::begin(const Character& character) {
   character_ = &character;
+  std::ranges::fill(held_, -1);
   if (character_hash_ == character.hash() && !limbs_.empty()) return;
   character_hash_ = character.hash();
   begin_bodies();

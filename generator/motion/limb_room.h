@@ -21,6 +21,9 @@ struct Limb {
 // Every part but the root part is in one limb. Limbs are in the order of their first parts.
 std::vector<Limb> limbs_of(const Character& character);
 
+// A limb that lacks this much room still counts as clear: at rest many pairs have exactly the gap that they must have.
+inline constexpr double kTooNear_m = 1e-4;
+
 class LimbRoom {
  public:
   // Measures the figure at rest: bodies may be as near as they are there. The character must outlive this object. Does

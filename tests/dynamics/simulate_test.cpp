@@ -54,7 +54,7 @@ ImpactDesc any_blow(const Character& character, double most_N_s, std::mt19937_64
   return blow;
 }
 
-// The number of figures that end lying after such blows; every one must stay finite and within reach of where it was.
+// Counts the figures that lie on the ground after such blows; every figure must stay finite and near to where it was.
 int fallen_of(const std::string& name, int count, double most_N_s) {
   Spec spec = standing(name, Mode::dynamic, 60);
   const auto character = std::make_shared<const Character>(fixtures::built(spec.character));

@@ -1,4 +1,4 @@
-// The making of a run's cases: even draws, crowded ones, and what they hold.
+// A run draws some cases evenly, some crowded ones, and varies those that it has: these tests say which.
 #include "fuzz/lineage.h"
 
 #include <gtest/gtest.h>

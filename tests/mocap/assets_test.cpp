@@ -51,7 +51,7 @@ double number_before(const std::string& facts, const std::string& what) {
 
 ClipSpeeds speeds_of(const Asset& asset) { return check_clip_speeds(asset, kLimits).at(0); }
 
-// The speed of a joint between a frame and the next one, deg/s; -1 where there is none.
+// The speed of a joint between a frame and the next one, deg/s; -1 if the file does not animate the joint.
 double speed_at(const Asset& asset, const std::string& joint, std::size_t frame) {
   for (const ChannelSpeeds& speeds : joint_speeds(asset.clips[0]))
     if (asset.nodes[static_cast<std::size_t>(speeds.node)].name == joint && frame < speeds.between_keys.size())
