@@ -19,7 +19,8 @@ Connections::Seat::~Seat() {
 bool Connections::Seat::waits_for_request(Time since) {
   const std::lock_guard lock(all_.mutex_);
   if (all_.closed_ || doing_ == Doing::leaving) return false;
-  doing_ = Doing::waiting_for_request, since_ = since;
+  if (doing_ != Doing::waiting_for_request) since_ = since;  // a new connection has waited since it came
+  doing_ = Doing::waiting_for_request;
   return true;
 }
 

@@ -71,6 +71,7 @@ TEST(Connections, InAFullServerTheClientWithMostMakesRoom) {
   Pair a1, a2, a3, b1, c1;
   const Seat s1 = seat_of(all, a1, "a"), s2 = seat_of(all, a2, "a"), s3 = seat_of(all, a3, "a"),
              s4 = seat_of(all, b1, "b");
+  for (const Seat* seat : {&s1, &s2, &s3, &s4}) (*seat)->works();
   EXPECT_TRUE(s4->waits_for_request(at(0)));
   EXPECT_TRUE(s1->waits_for_request(at(5)));
   EXPECT_TRUE(s2->waits_for_request(at(4)));
@@ -110,6 +111,18 @@ TEST(Connections, OneThatHasSentNothingYetIsNotAtWork) {
   EXPECT_TRUE(first.is_over());
   EXPECT_FALSE(second.is_over());
   EXPECT_FALSE(third.is_over());
+}
+
+// The thread of the first connection starts after that of the second one: it has waited longer all the same.
+TEST(Connections, ANewOneHasWaitedSinceItCameHoweverLateItsThreadSaysSo) {
+  Connections all(10, 2);
+  Pair first, second, third;
+  const Seat a = seat_of(all, first, "a"), b = seat_of(all, second, "a");
+  EXPECT_TRUE(b->waits_for_request(now()));
+  EXPECT_TRUE(a->waits_for_request(now() + std::chrono::seconds(1)));
+  const Seat c = seat_of(all, third, "a");
+  EXPECT_TRUE(first.is_over());
+  EXPECT_FALSE(second.is_over());
 }
 
 TEST(Connections, AtTheEndNobodyIsWaitedFor) {
