@@ -163,5 +163,28 @@ TEST(LimbRoom, IsNegativeWhereBodiesOverlapAndNeverAtRest) {
   EXPECT_LT(room.room_m(arm, world), 0.0) << "the arm is in the trunk";
 }
 
+// A hand on the foregrip overlaps the rifle: it may, as long as it holds it, and not in a motion made after that.
+TEST(LimbRoom, AHandMayTouchWhatItHoldsUntilTheNextMotion) {
+  Spec spec;
+  spec.character.attachments = {{"rifle", "hand_right", "grip"}};
+  spec.sequences = {sequence({use("reach", "arm_right", 0, 40, {{"target_m", Vec3(-0.12, 1.28, 0.28)}}),
+                              use("weapon_hold", "arm_left", 40, 20, {})})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  const Character& human = *stage->character;
+  const Motion motion = generate(*stage);
+  std::vector<Rigid> world(human.joints().size());
+  forward_kinematics(human, motion.root[60], motion.row(60), world);
+  const auto arm = static_cast<std::size_t>(human.find_part("arm_left"));
+  LimbRoom room;
+  room.begin(human);
+  room.begin_frame(world);
+  EXPECT_LT(room.room_m(arm, world), -0.001);
+  room.hold(arm, human.find_socket("object:rifle/foregrip"));
+  EXPECT_GT(room.room_m(arm, world), 0.0);
+  room.begin(human);
+  EXPECT_LT(room.room_m(arm, world), -0.001);
+}
+
 }  // namespace
 }  // namespace contort

@@ -59,21 +59,5 @@ TEST(Promises, AHeadThatIsToFaceBackwardsTurnsAsFarAsItsRangeAndSaysSo) {
   EXPECT_EQ(intent.unmet[0].why, Shortfall::joint_range);
 }
 
-// A hand that holds an object may touch it, in that motion and while it holds.
-TEST(Promises, AMotionKnowsNothingOfTheOneMadeBeforeIt) {
-  Spec spec;
-  spec.character.attachments = {{"rifle", "hand_right", "grip"}};
-  spec.sequences = {sequence({use("weapon_hold", "arm_left", 0, 40, {})})};
-  const auto character = std::make_shared<const Character>(fixtures::built(spec.character));
-  const Stage hold = *build_stage(spec, character);
-  spec.sequences = {sequence({use("reach", "arm_left", 0, 40, {{"target_m", Vec3(-0.25, 0.9, 0.15)}})})};
-  const Stage reach = *build_stage(spec, character);
-  GenerateScratch scratch;
-  Motion after;
-  generate(hold, scratch, after);
-  generate(reach, scratch, after);
-  EXPECT_EQ(motion_hash(after), motion_hash(generate(reach)));
-}
-
 }  // namespace
 }  // namespace contort
