@@ -13,10 +13,10 @@ namespace contort {
 
 namespace {
 
-// A limb may lose a third of its room in a frame, so it slows down before it stops. Beyond 7 cm it needs no care.
+// A limb may lose a third of its room in a frame, so it slows down before it stops.
 constexpr double kApproach = 0.65;
+constexpr double kSlowsDown_m = kApproach * kRoomBand_m;  // with more room it has not lost too much of any
 constexpr double kCreep_m = 0.003;  // in a frame, which is slow enough to stop at once
-constexpr double kSlowsDown_m = 0.07;
 constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.0};
 constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets out of the way
 constexpr int kRounds = 2;
@@ -36,11 +36,11 @@ struct Clearance::Case {
   std::span<Rigid> world;
   double enough_m = -kTooNear_m;
 
-  double room_m() const {
+  void place() const {
     for (const int j : limb.joints) forward_kinematics(character, shown.coords, j, j + 1, world);
     for (const int j : limb.carried) forward_kinematics(character, shown.coords, j, j + 1, world);
-    return room.room_m(part, world);
   }
+  double room_m() const { return place(), room.room_m(part, world); }
   // A blend along the edge of a range may be longer than its ends are apart.
   bool is_slow() const {
     return std::ranges::all_of(limb.joints, [&](int j) {
@@ -123,12 +123,12 @@ bool Clearance::keep(std::size_t part, double frame_s, const Posture& before, Po
   const double room_m = now.room_m();
   now.enough_m = std::max(-kTooNear_m, std::min(kApproach * room_m, room_m - kCreep_m));
   now.go(1.0);
-  if (wanted_m >= now.enough_m) return now.room_m(), false;
+  if (wanted_m >= now.enough_m) return now.place(), false;
   if (now.stop_on_the_way())
     now.slide();
   else
     now.get_out();
-  now.room_m();
+  now.place();
   ++kept_;
   return true;
 }

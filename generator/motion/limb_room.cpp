@@ -13,7 +13,6 @@ namespace contort {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kBand_m = 0.08;   // pairs that are farther apart have room enough
 // The gaps that are wanted, where the figure at rest has as much. Hands hold objects.
 constexpr double kSafe_m = 0.008;
 constexpr double kSafeInHands_m = 0.001;
@@ -136,14 +135,14 @@ double LimbRoom::distance_m(int pair, int limb, std::span<const Rigid> world) {
   const std::array<int, 2> bodies{judged.body_a, judged.body_b};
   const std::array<Rigid, 2> at_now{where(bodies[0], limb, world), where(bodies[1], limb, world)};
   const Vec3 apart = at_now[1] * ball_center_m_[at(bodies[1])] - at_now[0] * ball_center_m_[at(bodies[0])];
-  const double reach = ball_radius_m_[at(bodies[0])] + ball_radius_m_[at(bodies[1])] + kBand_m;
+  const double reach = ball_radius_m_[at(bodies[0])] + ball_radius_m_[at(bodies[1])] + kRoomBand_m;
   if (glm::dot(apart, apart) > reach * reach) return kFar;
   for (std::size_t i = 0; i < 2; ++i) {
     const Body& own = character_->bodies()[at(bodies[i])];
     for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
       place(at_now[i], own_[at(c)], world_[at(c)]);
   }
-  return collider_distance_m(judged, kBand_m);
+  return collider_distance_m(judged, kRoomBand_m);
 }
 
 std::size_t LimbRoom::part_of(int body) const {
@@ -166,7 +165,7 @@ void LimbRoom::hold(std::size_t part, int socket) {
 
 double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
   const int limb = limb_of_[part];
-  double least = kBand_m;
+  double least = kRoomBand_m;
   for (const int p : pairs_[at(limb)]) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))

@@ -23,6 +23,7 @@ std::vector<Limb> limbs_of(const Character& character);
 
 // A limb that lacks this much room still counts as clear: at rest many pairs have exactly the gap that they must have.
 inline constexpr double kTooNear_m = 1e-4;
+inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measured
 
 class LimbRoom {
  public:
