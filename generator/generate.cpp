@@ -43,7 +43,7 @@ class Generation {
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
-    s_.held_off.assign(character_.parts().size(), 0);
+    s_.shift.assign(character_.parts().size(), Shift::none), s_.shift_count = 0;
     stand_up();
   }
 
@@ -57,7 +57,8 @@ class Generation {
     s_.postures.start_from(start);
     s_.path.begin(character_, start.coords, stage_.rate_hz);
     s_.clearance.begin(character_, s_.rules.room());
-    s_.before = start;
+    s_.past.before = s_.past.earlier = start;
+    s_.past.frame_s = 1.0 / stage_.rate_hz;
   }
 
   // The queue ran dry hold_frames ago.
@@ -72,6 +73,8 @@ class Generation {
     const Playback playback(timeline_, s_.queue.history(), stage_.rate_hz, frame);
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
+    remember_soles(playback);
+    note_feet(playback);
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
       note_lag(playback, p);
       record_aim(playback, p);
@@ -79,7 +82,8 @@ class Generation {
     signal();
     std::ranges::copy(s_.postures.shown.coords, motion_.row(frame).begin());
     motion_.root[at(frame)] = s_.postures.shown.root;
-    s_.before.coords = s_.postures.shown.coords;
+    std::swap(s_.past.earlier, s_.past.before);
+    s_.past.before.coords = s_.postures.shown.coords;
     motion_.frame_count = frame + 1;
   }
 
@@ -109,7 +113,7 @@ class Generation {
     add_additives(playback, p);
     follow(playback, p);
     s_.rules.place(p, layers.shown);
-    if (p != 0 && at(limb_at(p).parts.back()) == p) keep_clear(playback, limb_at(p));
+    if (p != 0 && at(limb_at(p).parts.back()) == p) finish_limb(playback, limb_at(p));
   }
 
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
@@ -127,19 +131,60 @@ class Generation {
     return holds ? static_cast<int>(planned(playback, ik).params[0]) : -1;
   }
 
+  bool acts(const Playback& playback, const Limb& limb) const {
+    return std::ranges::any_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); });
+  }
+
+  // As of now for limbs that are finished, else with the shift of the frame before.
+  LegUse use_of(const Playback& playback, const Limb& limb) const {
+    if (acts(playback, limb)) return LegUse::acts;
+    const bool is_placed = std::ranges::any_of(limb.parts, [&](int p) {
+      return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
+    });
+    if (is_placed) return LegUse::placed;
+    const Shift shift = s_.shift[at(limb.parts.back())];
+    return shift == Shift::lifted || shift == Shift::held_off ? LegUse::acts : LegUse::idle;
+  }
+
   // All parts of the limb are placed.
-  void keep_clear(const Playback& playback, const Limb& limb) {
-    Posture& shown = s_.postures.shown;
-    for (const int p : limb.parts) s_.held_off[at(p)] = 0;
-    const auto last = at(limb.parts.back());
-    s_.rules.room().hold(last, held_socket(playback, at(limb.parts.front())));
-    if (std::ranges::none_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); })) return;
-    if (!s_.clearance.keep(last, 1.0 / stage_.rate_hz, s_.before, shown, s_.rules.world())) return;
-    for (const int p : limb.parts) s_.held_off[at(p)] = 1, s_.path.correct(at(p), shown.coords);
+  void finish_limb(const Playback& playback, const Limb& limb) {
+    const LegUse use = use_of(playback, limb);
+    shift(limb, Shift::none);
+    s_.rules.room().hold(at(limb.parts.back()), held_socket(playback, at(limb.parts.front())));
+    if (use == LegUse::acts) keep_clear(limb);
+    if (use == LegUse::idle) plant(limb);
+  }
+
+  void shift(const Limb& limb, Shift shift) {
+    for (const int p : limb.parts) s_.shift[at(p)] = shift;
+    s_.shift_count += shift != Shift::none;
+  }
+
+  void plant(const Limb& limb) {
+    const StandingFeet& feet = s_.rules.feet();
+    for (const int leg : limb.legs)
+      if (limb.is_its_own(stage_.legs[at(leg)]) && feet.is_planted(at(leg)) &&
+          feet.plant(at(leg), s_.rules.world(), s_.postures.shown.coords))
+        shift(limb, Shift::planted);
+  }
+
+  void note_feet(const Playback& playback) {
+    for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
+      s_.rules.feet().note(leg, use_of(playback, limb_at(at(stage_.legs[leg].part))), s_.rules.world());
+  }
+
+  void keep_clear(const Limb& limb) {
+    switch (s_.clearance.keep(at(limb.parts.back()), s_.past, s_.postures.shown, s_.rules.world())) {
+      case Clearance::Kept::as_wanted: return;
+      case Clearance::Kept::foot_lifted: return shift(limb, Shift::lifted);
+      case Clearance::Kept::elsewhere: break;
+    }
+    shift(limb, Shift::held_off);
+    for (const int p : limb.parts) s_.path.correct(at(p), s_.postures.shown.coords);
   }
 
   // A part's posture with ik in the frame before, without additives.
-  const Posture& seen(std::size_t p) const { return s_.held_off[p] != 0 ? s_.before : s_.postures.plain; }
+  const Posture& seen(std::size_t p) const { return s_.shift[p] != Shift::none ? s_.past.before : s_.postures.plain; }
 
   // An ik action has ended: the base is what it reached.
   void settle(std::size_t p) {
@@ -164,8 +209,15 @@ class Generation {
     s_.spans.hold(playback.frame(), planned(playback, hold), begins);
     move(playback, hold, p, s_.postures.from_ik, s_.postures.base, s_.postures.plain);
     if (begins && takes_its_time(planned(playback, hold))) s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
-    if (p == 0 && moves_legs(playback, hold)) s_.carry.remember(s_.rules.body(planned(playback, hold)).frame);
+    if (p == 0) remember_soles(playback);
     fade(playback, hold, p);
+  }
+
+  // When the root has moved, and again when the feet have: heels may have had to rise.
+  void remember_soles(const Playback& playback) {
+    const LayerHold& hold = s_.stacks[0].ik();
+    if (hold.action >= 0 && moves_legs(playback, hold))
+      s_.carry.remember(s_.rules.body(planned(playback, hold)).frame);
   }
 
   // out = from `from` towards what the rule makes of `beneath`.
@@ -241,7 +293,7 @@ class Generation {
     const bool has_ik = ik.action >= 0;
     if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0))
       s_.lags.note(playback.frame(), p, std::nullopt);
-    else if (s_.held_off[p] != 0)
+    else if (s_.shift[p] == Shift::held_off)
       s_.lags.note(playback.frame(), p, Shortfall::clearance);
     else if (s_.behind[p] != 0)
       s_.lags.note(playback.frame(), p, Shortfall::joint_speed);
@@ -256,7 +308,7 @@ class Generation {
   bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
     const LayerHold& ik = s_.stacks[p].ik();
     return ik.action >= 0 && planned(playback, ik).use == aim.use && come_in(playback, ik) >= 1.0 && s_.added[p] == 0 &&
-           s_.behind[p] == 0 && s_.held_off[p] == 0;
+           s_.behind[p] == 0 && s_.shift[p] == Shift::none;
   }
 
   // Whether an aim is fully in force.

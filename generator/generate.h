@@ -26,6 +26,14 @@ struct LayerPostures {
   void start_from(const Posture& posture) { base = plain = shown = from_overwrite = from_ik = posture; }
 };
 
+// The reason for which a part is elsewhere than its layers have it.
+enum class Shift : char {
+  none,
+  planted,   // its foot stays where it stood
+  lifted,    // its foot is lifted over the ground
+  held_off,  // bodies would have come too near
+};
+
 // Memory that generate() reuses from call to call; any Stage may follow any other. After the first frame of a motion
 // nothing allocates.
 struct GenerateScratch {
@@ -39,8 +47,9 @@ struct GenerateScratch {
   JointPath path;                  // of the joints that are shown
   std::vector<char> behind;        // by part: a joint is still on its way to where it is wanted
   Clearance clearance;
-  Posture before;                  // what was shown in the frame before
-  std::vector<char> held_off;      // by part: bodies would have come too near
+  Past past;                       // what was shown
+  std::vector<Shift> shift;        // by part
+  int shift_count = 0;             // of limbs in frames, since the motion began
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion

@@ -35,12 +35,13 @@ const QueueSpan* run_of(const Motion& motion, const ActionSpan& span) {
   return found == motion.queue.end() ? nullptr : &*found;
 }
 
-// The last lag of a part, or of one that hangs on it, in a frame; null where all are where they are wanted.
+// The lag of a part, or of one that hangs on it, in a frame; null where all are where they are wanted. Parts that hang on
+// the root part have wishes of their own.
 const Lag* lag_at(const Character& character, std::span<const Lag> lags, int part, int frame) {
   const auto concerns = [&](const Lag& lag) {
     if (frame < lag.first_frame || frame > lag.last_frame) return false;
     int p = lag.part;
-    while (p > part) p = carrier_of(character, p);
+    while (part > 0 && p > part) p = carrier_of(character, p);
     return p == part;
   };
   const auto found = std::ranges::find_if(lags, concerns);
@@ -61,7 +62,8 @@ class Goals {
     if (promise == Promise::arrives) add_arrival(*action, span, *run);
     if (promise == Promise::none && action->def->timing == Timing::goal)
       add_unmet_end(*action, span, *run);
-    if (promise == Promise::holds || promise == Promise::aims) add_while_in_force(*action, span);
+    if (promise == Promise::holds || promise == Promise::aims || action->def->spread == Spread::legs)
+      add_while_in_force(*action, span);
   }
 
  private:

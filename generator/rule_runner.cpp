@@ -15,7 +15,8 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
   const double duration_s = (action.end - action.start) / action.scale / rate_hz;
   const double u = progress(action, content);
   const double missed_s = std::min(duration_s, action.speed * (came - action.start) / action.scale / rate_hz);
-  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s};
+  const double takes_s = (action.end - action.start) / action.speed / rate_hz;
+  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s, takes_s};
 }
 
 // Legs that walk must not be clamped one joint at a time: their feet would leave the ground that they stand on.
@@ -26,10 +27,12 @@ bool keeps_ranges(const ActionDef& def) { return def.layer != Layer::overwrite &
 void RuleRunner::begin(const Stage& stage) {
   const Character& character = *stage.character;
   stage_ = &stage;
-  room_.begin(character);
+  feet_.begin(character, stage.legs, stage.environment);
+  room_.begin(character, stage.environment, feet_);
   bodies_.assign(at(stage.timeline.use_count), {});
   feedback_.assign(character.parts().size(), {});
   world_.resize(character.joints().size());
+  scratch_world_.resize(world_.size()), scratch_row_.resize(at(character.coord_count()));
 }
 
 void RuleRunner::start_from(const Posture& posture) {
@@ -63,8 +66,8 @@ const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, s
   copy_part(character, part, beneath, target_);
   if (action.def->layer != Layer::overwrite) place(part, target_);  // a chain may hang on a joint of its own part
   const ActionTime time = time_of(action, call.came, call.content, playback.rate_hz());
-  action.def->rule({character, character.parts()[part], action.params, world_, time, stage_->start,
-                    stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
+  action.def->rule({character, character.parts()[part], action.params, world_, {scratch_world_, scratch_row_}, time,
+                    stage_->start, stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
                     action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
                     feedback_[part], room_},
                    target_);

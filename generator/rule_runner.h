@@ -35,6 +35,7 @@ class RuleRunner {
 
   const Posture& made() const { return target_; }  // by the last run
   LimbRoom& room() { return room_; }
+  StandingFeet& feet() { return feet_; }
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
   std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
   std::span<Rigid> world() { return world_; }                       // by joint
@@ -43,10 +44,13 @@ class RuleRunner {
   void move_root(const Rigid& root);
 
   const Stage* stage_ = nullptr;
+  StandingFeet feet_;
   LimbRoom room_;
   std::vector<WholeBody> bodies_;  // by use of an action
   std::vector<Feedback> feedback_;
   std::vector<Rigid> world_;
+  std::vector<Rigid> scratch_world_;
+  std::vector<double> scratch_row_;
   Posture target_;
 };
 

@@ -15,6 +15,7 @@
 #include "generator/motion/aim_ik.h"
 #include "generator/motion/gait.h"
 #include "generator/motion/limb_room.h"
+#include "generator/motion/stand_on.h"
 #include "model/character/character.h"
 #include "model/core/result.h"
 #include "model/generator.h"
@@ -56,6 +57,7 @@ struct ActionTime {
   double duration_s = 0.0;  // of its period
   double since_s = 0.0;     // since it took the part; later than its start where it was cut and went on
   double left_s = 0.0;      // from then to its end
+  double takes_s = 0.0;     // from its start to its end, as it is played
 };
 
 // The data that an aiming action has from the start.
@@ -75,6 +77,7 @@ struct WholeBody {
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   double swivel_rad = 0.0;                    // of a limb whose request leaves it open
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
+  double deepest_bend = 1.0;                  // share of the way down that legs can go, [0, 1]
 };
 
 // The data that a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the
@@ -84,6 +87,7 @@ struct RuleInput {
   const Part& part;                // the one to move
   std::span<const double> params;  // in the order of ActionDef::params; a vector takes three
   std::span<Rigid> world;
+  TrialSpace scratch;
   const ActionTime& time;
   const Rigid& world_from_start;  // where the character stood at first
   const Environment& environment;

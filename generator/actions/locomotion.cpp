@@ -4,6 +4,7 @@
 #include "generator/actions/action.h"
 #include "generator/motion/place_foot.h"
 #include "generator/motion/foot_roll.h"
+#include "generator/motion/stand_on.h"
 #include "model/core/detmath.h"
 
 namespace contort {
@@ -85,15 +86,19 @@ const GaitFrame& frame_of(const RuleInput& in, Make make) {
   return body.frame;
 }
 
+enum class Heels { stay, may_rise };
+
 template <class Make>
-void follow(const RuleInput& in, Posture& posture, Make make) {
+void follow(const RuleInput& in, Posture& posture, Heels heels, Make make) {
   const GaitFrame& frame = frame_of(in, make);
   const int part = static_cast<int>(&in.part - in.character.parts().data());
   if (part == 0) posture.root = frame.root;
   for (std::size_t i = 0; i < in.legs.size(); ++i) {
     const Leg& leg = in.legs[i];
-    const Rigid& sole = frame.feet[i].world_from_sole;
-    if (leg.part == part) place_foot(in.character, leg, in.world, sole, posture.coords);
+    Rigid& sole = in.body.frame.feet[i].world_from_sole;
+    if (leg.part == part && heels == Heels::stay) place_foot(in.character, leg, in.world, sole, posture.coords);
+    if (leg.part == part && heels == Heels::may_rise)
+      sole = stand_on(in.character, leg, in.world, sole, posture.coords).world_from_sole;
     if (leg.foot_part == part && leg.part != part)
       level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
     if (leg.part == part || leg.foot_part == part) in.feedback.contact = in.body.lands[i];
@@ -102,19 +107,28 @@ void follow(const RuleInput& in, Posture& posture, Make make) {
 
 void go(const RuleInput& in, GaitParams params, Posture& posture) {
   params.lead = static_cast<int>(in.params[0]);
-  follow(in, posture, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
+  follow(in, posture, Heels::stay, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
 }
 
 // The knees' angle goes with `share`, not the hips' height: that would have knees start from straight with a jerk. Two
 // bones of one length and a knee of angle k reach cos(k/2) of their length.
-void bend(const RuleInput& in, double share, Posture& posture) {
-  const double lowest_rad = det::acos(1.0 - in.params[0]);
-  follow(in, posture, [&](Gait& gait) {
-    GaitFrame frame = gait.stand(1.0 - det::cos(share * lowest_rad));
-    frame.root.p_m += frame.root.q * Vec3(0.0, 0.0, -share * in.params[2]);
-    frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), share * in.params[1] * kRadPerDeg);
-    return frame;
-  });
+GaitFrame bent(const RuleInput& in, Gait& gait, double share) {
+  GaitFrame frame = gait.stand(1.0 - det::cos(share * det::acos(1.0 - in.params[0])));
+  frame.root.p_m += frame.root.q * Vec3(0.0, 0.0, -share * in.params[2]);
+  frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), share * in.params[1] * kRadPerDeg);
+  return frame;
+}
+
+// `peak` is the greatest rate of `share`, in whole ways for each duration.
+void bend(const RuleInput& in, double share, double peak, Posture& posture) {
+  WholeBody& body = in.body;
+  if (is_root(in) && body.begun != in.took_over) {
+    begin_course(in);
+    const Bend way{[&](double part) { return bent(in, body.gait, part); }, in.time.takes_s, peak};
+    body.deepest_bend = deepest_bend(in.character, in.room, way, in.world, in.scratch, posture.coords);
+  }
+  follow(in, posture, Heels::may_rise, [&](Gait& gait) { return bent(in, gait, body.deepest_bend * share); });
+  if (is_root(in)) in.feedback.at_range_end = body.deepest_bend < 1.0;
 }
 
 }  // namespace
@@ -134,13 +148,13 @@ void run_rule(const RuleInput& in, Posture& posture) {
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }
 bool crouch_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void crouch_rule(const RuleInput& in, Posture& posture) {
-  bend(in, minimum_jerk(in.time.progress), posture);
+  bend(in, minimum_jerk(in.time.progress), 1.875, posture);
 }
 
 std::vector<ParamDef> squat_params(const Character&, const Part&) { return params_of_bend(); }
 bool squat_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void squat_rule(const RuleInput& in, Posture& posture) {
-  bend(in, 0.5 - 0.5 * det::cos(2.0 * kPi * in.time.progress), posture);
+  bend(in, 0.5 - 0.5 * det::cos(2.0 * kPi * in.time.progress), kPi, posture);
 }
 
 }  // namespace contort

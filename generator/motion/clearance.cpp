@@ -17,9 +17,11 @@ namespace {
 constexpr double kApproach = 0.65;
 constexpr double kSlowsDown_m = kApproach * kRoomBand_m;  // with more room it has not lost too much of any
 constexpr double kCreep_m = 0.003;  // in a frame, which is slow enough to stop at once
-constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.0};
+constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.0};
 constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets out of the way
 constexpr int kRounds = 2;
+constexpr double kRise_s = 0.022;  // from rest to the greatest speed
+constexpr double kLifted = 0.7;    // of a joint's greatest speed, while a foot is lifted
 constexpr double kMore_m = 1e-5;  // rounding must not choose
 
 }  // namespace
@@ -27,64 +29,108 @@ constexpr double kMore_m = 1e-5;  // rounding must not choose
 struct Clearance::Case {
   const Character& character;
   LimbRoom& room;
+  const StandingFeet& feet;
   const Limb& limb;
   std::size_t part;
-  double frame_s;
-  const Posture& before;
+  const Past& past;
   const Posture& wanted;
   Posture& shown;
+  Posture& saved;
   std::span<Rigid> world;
   double enough_m = -kTooNear_m;
+  bool is_lifted = false;
 
-  void place() const {
+  // A foot of the limb's own that stands is lifted, and those on legs that it carries stay where they stood.
+  void place() {
     for (const int j : limb.joints) forward_kinematics(character, shown.coords, j, j + 1, world);
     for (const int j : limb.carried) forward_kinematics(character, shown.coords, j, j + 1, world);
+    is_lifted = false;
+    for (const int leg : limb.legs)
+      if (limb.is_its_own(feet.legs()[at(leg)]))
+        is_lifted = feet.lift(at(leg), world, shown.coords);
+      else if (feet.is_planted(at(leg)))
+        feet.plant(at(leg), world, shown.coords);
   }
-  double room_m() const { return place(), room.room_m(part, world); }
-  // A blend along the edge of a range may be longer than its ends are apart.
-  bool is_slow() const {
-    return std::ranges::all_of(limb.joints, [&](int j) {
-      const Joint& joint = character.joint(j);
-      return joint_way(joint, before.coords.data() + joint.coord, shown.coords.data() + joint.coord) <=
-             joint.max_speed * frame_s;
+  // Where a foot is lifted, or stays where it stood, joints are faster than the way that the limb was to go.
+  bool concerns_feet() const {
+    return std::ranges::any_of(limb.legs, [&](int leg) {
+      return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));
     });
   }
-  bool is_clear() const { return room_m() >= enough_m; }
+  double room_m() { return place(), room.room_m(part, world); }
 
-  void go(double share) const {
-    for (const int p : limb.parts) blend_part(character, at(p), before, wanted, share, shown);
+  // Joints of the limb, and of legs that it carries and that stay where they stand.
+  template <class Test>
+  bool all_joints(Test test) const {
+    if (!std::ranges::all_of(limb.joints, test)) return false;
+    return limb.carried.empty() || std::ranges::all_of(limb.legs, [&](int leg) {
+      if (!feet.is_planted(at(leg)) || limb.is_its_own(feet.legs()[at(leg)])) return true;
+      return std::ranges::all_of(feet.legs()[at(leg)].joints, test);
+    });
   }
 
-  // The greatest share of the way that is clear.
-  bool stop_on_the_way() const {
-    return std::ranges::any_of(kShares, [&](double share) { return go(share), is_slow() && is_clear(); });
+  // A blend along the edge of a range may be longer than its ends are apart. The knee of a leg that starts from straight
+  // gets fast at once, and must be able to stop at once.
+  bool is_slow() const {
+    const double share = is_lifted ? kLifted : 1.0;
+    return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
+  }
+  bool is_smooth() const {
+    return all_joints([&](int j) {
+      const Joint& joint = character.joint(j);
+      const double *earlier = past.earlier.coords.data(), *before = past.before.coords.data();
+      const Vec3 last = joint_way_vector(joint, earlier + joint.coord, before + joint.coord);
+      return length(step_of(j) - last) <= greatest_step(j) * past.frame_s / kRise_s;
+    });
+  }
+  Vec3 step_of(int j) const {
+    const Joint& joint = character.joint(j);
+    return joint_way_vector(joint, past.before.coords.data() + joint.coord, shown.coords.data() + joint.coord);
+  }
+  double greatest_step(int j) const { return character.joint(j).max_speed * past.frame_s; }
+  bool is_clear() { return room_m() >= enough_m; }
+
+  void go(double share) const {
+    for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
+  }
+
+  // The greatest share of the way that is clear, and smooth if there is one.
+  bool stop_on_the_way() {
+    const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
+    return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
+           std::ranges::any_of(kShares, is_good);
   }
 
   // Joints that may go where they are wanted go there, one by one, those that carry the others first.
-  void slide() const {
+  void slide() {
     for (const int j : limb.joints) {
+      save();
       const Joint& joint = character.joint(j);
-      std::array<double, 4> was{};
-      const auto coords = shown.coords.begin() + joint.coord;
-      std::copy_n(coords, coord_size(joint.kind), was.begin());
-      std::copy_n(wanted.coords.begin() + joint.coord, coord_size(joint.kind), coords);
-      if (!is_slow() || !is_clear()) std::copy_n(was.begin(), coord_size(joint.kind), coords);
+      std::copy_n(wanted.coords.begin() + joint.coord, coord_size(joint.kind), shown.coords.begin() + joint.coord);
+      if (!is_clear() || !is_slow() || !is_smooth()) restore();
     }
+    place();
+  }
+
+  void save() {
+    for (const int p : limb.parts) copy_part(character, at(p), shown, saved);
+  }
+  void restore() {
+    for (const int p : limb.parts) copy_part(character, at(p), saved, shown);
   }
 
   // Turns one joint to either side, about each of its axes, and keeps what gives more room.
-  void yield(const Joint& joint, double step, double& most_m) const {
+  void yield(const Joint& joint, double step, double& most_m) {
     const int axes = joint.kind == JointKind::ball ? 3 : 1;
     for (int i = 0; i < 2 * axes; ++i) {
-      std::array<double, 4> was{};
-      const auto coords = shown.coords.begin() + joint.coord;
-      std::copy_n(coords, coord_size(joint.kind), was.begin());
-      turn(joint, i / 2, i % 2 == 0 ? step : -step, &*coords);
-      clamp_to_range(joint, &*coords);
+      save();
+      double* coords = shown.coords.data() + joint.coord;
+      turn(joint, i / 2, i % 2 == 0 ? step : -step, coords);
+      clamp_to_range(joint, coords);
       if (const double now_m = room_m(); now_m > most_m + kMore_m && is_slow())
         most_m = now_m;
       else
-        std::copy_n(was.begin(), coord_size(joint.kind), coords);
+        restore();
     }
   }
 
@@ -99,38 +145,38 @@ struct Clearance::Case {
     coords[0] = q.w, coords[1] = q.x, coords[2] = q.y, coords[3] = q.z;
   }
 
-  void get_out() const {
+  void get_out() {
     double most_m = room_m();
     for (int round = 0; round < kRounds && most_m < -kTooNear_m; ++round)
       for (const int j : limb.joints)
         if (const Joint& joint = character.joint(j); most_m < -kTooNear_m)
-          yield(joint, kYield / kRounds * joint.max_speed * frame_s, most_m);
+          yield(joint, kYield / kRounds * joint.max_speed * past.frame_s, most_m);
+    place();
   }
 };
 
 void Clearance::begin(const Character& character, LimbRoom& room) {
-  character_ = &character, room_ = &room, kept_ = 0;
+  character_ = &character, room_ = &room;
   wanted_.coords.assign(at(character.coord_count()), 0.0);
+  saved_ = wanted_;
 }
 
-bool Clearance::keep(std::size_t part, double frame_s, const Posture& before, Posture& shown, std::span<Rigid> world) {
+Clearance::Kept Clearance::keep(std::size_t part, const Past& past, Posture& shown, std::span<Rigid> world) {
   const Limb& limb = room_->limb_of(part);
-  Case now{*character_, *room_, limb, part, frame_s, before, wanted_, shown, world};
-  const double wanted_m = now.room_m();
-  if (wanted_m >= kSlowsDown_m) return false;
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
+  Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, world};
+  const double wanted_m = now.room_m();
+  const bool is_easy = !now.concerns_feet() || (now.is_slow() && now.is_smooth());
+  const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;
+  if (wanted_m >= kSlowsDown_m && is_easy) return as_wanted;
   now.go(0.0);
   const double room_m = now.room_m();
   now.enough_m = std::max(-kTooNear_m, std::min(kApproach * room_m, room_m - kCreep_m));
   now.go(1.0);
-  if (wanted_m >= now.enough_m) return now.place(), false;
-  if (now.stop_on_the_way())
-    now.slide();
-  else
-    now.get_out();
   now.place();
-  ++kept_;
-  return true;
+  if (wanted_m >= now.enough_m && is_easy) return as_wanted;
+  now.stop_on_the_way() ? now.slide() : now.get_out();
+  return Kept::elsewhere;
 }
 
 }  // namespace contort

@@ -9,18 +9,24 @@
 
 namespace contort {
 
+// Where the figure was in the two frames before this one.
+struct Past {
+  Posture before;
+  Posture earlier;
+  double frame_s = 0.0;
+};
+
 class Clearance {
  public:
   // The character and the room must outlive this object; the room is begun.
   void begin(const Character& character, LimbRoom& room);
 
-  // `shown` holds where the joints of the part's limb are to go from `before`, where they were in the frame before, and
-  // then where they go. True if that is elsewhere. `world` holds the transforms of all joints; those of the limb and of
-  // what it carries are brought up to date. Joints get out of the way at a third of their greatest speed.
-  bool keep(std::size_t part, double frame_s, const Posture& before, Posture& shown, std::span<Rigid> world);
+  enum class Kept { as_wanted, foot_lifted, elsewhere };
 
-  // The number of times that keep() has changed something since begin().
-  int kept() const { return kept_; }
+  // `shown` holds where the joints of the part's limb are to go, and then where they go. A foot that stands is lifted.
+  // `world` holds the transforms of all joints; those of the limb and of what it carries are brought up to date. Joints
+  // get out of the way at a third of their greatest speed.
+  Kept keep(std::size_t part, const Past& past, Posture& shown, std::span<Rigid> world);
 
  private:
   struct Case;  // one call
@@ -28,7 +34,7 @@ class Clearance {
   const Character* character_ = nullptr;
   LimbRoom* room_ = nullptr;
   Posture wanted_;
-  int kept_ = 0;
+  Posture saved_;
 };
 
 }  // namespace contort

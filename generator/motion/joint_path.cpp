@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "generator/motion/joint_clamp.h"
+#include "generator/motion/way.h"
 #include "model/core/index.h"
 
 namespace contort {
@@ -24,12 +25,6 @@ struct Limits {
 Limits limits_of(const Joint& joint, bool is_behind, double frame_s) {
   const double speed = kShare * joint.max_speed * frame_s;
   return {speed, speed * std::min(1.0, frame_s / (is_behind ? kGentle_s : kShortest_s))};
-}
-
-// The way from a to b: rad as a rotation vector in a's frame, or m in x.
-Vec3 way(const Joint& joint, const double* a, const double* b) {
-  if (joint.kind != JointKind::ball) return Vec3(b[0] - a[0], 0.0, 0.0);
-  return to_rotation_vector(glm::conjugate(quat_at(a)) * quat_at(b));
 }
 
 void go(const Joint& joint, const double* from, const Vec3& step, double* out) {
@@ -71,7 +66,7 @@ void go_inside(const Joint& joint, const double* now, const Vec3& step, bool sta
     go(joint, now, share * step, out);
     if (!stays_inside) return;
     clamp_to_range(joint, out);
-    if (length(way(joint, now, out)) <= most) return;
+    if (length(joint_way_vector(joint, now, out)) <= most) return;
   }
 }
 
@@ -91,8 +86,8 @@ bool JointPath::follow_joint(int j, double* coords) {
   const Joint& joint = character_->joint(j);
   const double* now = now_.data() + joint.coord;
   State& state = joints_[at(j)];
-  const Vec3 left = way(joint, now, coords);
-  const Vec3 wanted_speed = way(joint, wanted_.data() + joint.coord, coords);
+  const Vec3 left = joint_way_vector(joint, now, coords);
+  const Vec3 wanted_speed = joint_way_vector(joint, wanted_.data() + joint.coord, coords);
   const Limits limits = limits_of(joint, state.is_behind, frame_s_);
   const bool is_there = length(left) <= limits.speed && length(left - state.speed) <= limits.change &&
                         length(left - wanted_speed) <= limits.change;
@@ -108,7 +103,7 @@ bool JointPath::follow_joint(int j, double* coords) {
   if (stays_inside && joint.kind != JointKind::ball) aim.x = stopping_in_range(joint, now[0], aim.x, gentle.change);
   const Vec3 step = state.speed + shortened(aim - state.speed, gentle.change);
   go_inside(joint, now, step, stays_inside, coords);
-  state = {way(joint, now, coords), true};
+  state = {joint_way_vector(joint, now, coords), true};
   return true;
 }
 
@@ -140,7 +135,7 @@ void JointPath::pass(std::size_t part, std::span<const double> coords) {
   for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
     const Joint& joint = character_->joint(j);
     if (joint.kind == JointKind::root) continue;
-    const Vec3 step = way(joint, now_.data() + joint.coord, coords.data() + joint.coord);
+    const Vec3 step = joint_way_vector(joint, now_.data() + joint.coord, coords.data() + joint.coord);
     const double most = limits_of(joint, false, frame_s_).speed;
     joints_[at(j)] = {is_finite(step) ? shortened(step, most) : Vec3(0.0), false};
   }
@@ -153,7 +148,7 @@ void JointPath::correct(std::size_t part, std::span<const double> coords) {
     const Joint& joint = character_->joint(j);
     if (joint.kind == JointKind::root) continue;
     State& state = joints_[at(j)];
-    state = {state.speed + way(joint, now_.data() + joint.coord, coords.data() + joint.coord), true};
+    state = {state.speed + joint_way_vector(joint, now_.data() + joint.coord, coords.data() + joint.coord), true};
   }
   std::copy_n(coords.begin() + own.first_coord, own.coord_count, now_.begin() + own.first_coord);
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "model/core/index.h"
+#include "model/geometry/solid_points.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
@@ -16,6 +17,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 // The gaps that are wanted, where the figure at rest has as much. Hands hold objects.
 constexpr double kSafe_m = 0.008;
 constexpr double kSafeInHands_m = 0.001;
+constexpr double kSink_m = 0.002;  // of feet that stand, on ground that is not quite level
 
 int child_count(const Character& character, int part) {
   int count = 0;
@@ -25,7 +27,7 @@ int child_count(const Character& character, int part) {
 
 }  // namespace
 
-std::vector<Limb> limbs_of(const Character& character) {
+std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs) {
   std::vector<Limb> limbs;
   std::vector<std::size_t> limb_of(character.parts().size());
   std::vector<std::set<std::size_t>> carriers;  // of a limb: the limbs that carry it
@@ -45,12 +47,17 @@ std::vector<Limb> limbs_of(const Character& character) {
       limb.joints.push_back(j);
       for (const std::size_t c : carriers[limb_of[at(p)]]) limbs[c].carried.push_back(j);
     }
+    for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+      if (legs[leg].foot_part != p) continue;
+      limb.legs.push_back(static_cast<int>(leg));
+      for (const std::size_t c : carriers[limb_of[at(p)]]) limbs[c].legs.push_back(static_cast<int>(leg));
+    }
   }
   return limbs;
 }
 
-void LimbRoom::begin(const Character& character) {
-  character_ = &character;
+void LimbRoom::begin(const Character& character, const Environment& environment, const StandingFeet& feet) {
+  character_ = &character, environment_ = &environment, feet_ = &feet;
   std::ranges::fill(held_, -1);
   if (character_hash_ == character.hash() && !limbs_.empty()) return;
   character_hash_ = character.hash();
@@ -59,8 +66,9 @@ void LimbRoom::begin(const Character& character) {
 }
 
 void LimbRoom::begin_bodies() {
-  own_.clear(), ball_center_m_.clear(), ball_radius_m_.clear();
+  own_.clear(), core_m_.clear(), ball_center_m_.clear(), ball_radius_m_.clear();
   for (const Collider& collider : character_->colliders()) own_.push_back(solid_of(collider));
+  for (const Solid& solid : own_) core_m_.push_back(core_points(solid));
   world_ = own_;
   for (const Body& body : character_->bodies()) {
     const std::span<const Solid> solids = std::span(own_).subspan(at(body.first_collider), at(body.collider_count));
@@ -82,7 +90,7 @@ bool LimbRoom::is_moved_by(int limb, int other) const {
 }
 
 void LimbRoom::begin_pairs() {
-  limbs_ = limbs_of(*character_);
+  limbs_ = limbs_of(*character_, feet_->legs());
   held_.assign(limbs_.size(), -1);
   limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {}), safe_m_.clear();
   for (std::size_t l = 0; l < limbs_.size(); ++l)
@@ -97,9 +105,27 @@ void LimbRoom::begin_pairs() {
     const bool is_in_hands = (is_object(pair.body_a) && has_grip(b)) || (is_object(pair.body_b) && has_grip(a));
     safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, -1, before_)));
   }
+  begin_ground();
+}
+
+void LimbRoom::begin_ground() {
+  const Environment level;
+  bodies_.assign(limbs_.size(), {}), safe_over_ground_m_.clear();
+  for (int b = 0; b < static_cast<int>(character_->bodies().size()); ++b) {
+    const int limb = limb_of_[part_of(b)];
+    for (int l = 0; l < static_cast<int>(limbs_.size()); ++l)
+      if (l == limb || (is_moved_by(l, limb) && !is_leg(limb))) bodies_[at(l)].push_back(b);
+    const double at_rest_m = over_ground_m(b, before_[at(character_->bodies()[at(b)].joint)], level);
+    safe_over_ground_m_.push_back(std::min(kSafe_m, at_rest_m - kSink_m));
+  }
 }
 
 bool LimbRoom::is_object(int body) const { return character_->bodies()[at(body)].name.starts_with("object:"); }
+
+bool LimbRoom::is_leg(int limb) const {
+  const auto is_of_limb = [&](const Leg& leg) { return limb_of_[at(leg.part)] == limb; };
+  return limb >= 0 && std::ranges::any_of(feet_->legs(), is_of_limb);
+}
 
 bool LimbRoom::has_grip(int limb) const {
   return limb >= 0 && std::ranges::any_of(character_->sockets(), [&](const Socket& socket) {
@@ -145,6 +171,19 @@ double LimbRoom::distance_m(int pair, int limb, std::span<const Rigid> world) {
   return collider_distance_m(judged, kRoomBand_m);
 }
 
+// Infinite beyond the band.
+double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Environment& environment) {
+  const Vec3 center = world_from_body * ball_center_m_[at(body)];
+  const double high_enough_m = ball_radius_m_[at(body)] + kRoomBand_m;
+  if (environment.nearest_ground(center).distance_m > high_enough_m) return kFar;
+  double least = kFar;
+  const Body& own = character_->bodies()[at(body)];
+  for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
+    for (const Vec3& point : core_m_[at(c)])
+      least = std::min(least, environment.nearest_ground(world_from_body * point).distance_m - own_[at(c)].radius_m);
+  return least;
+}
+
 std::size_t LimbRoom::part_of(int body) const {
   return at(character_->joint(character_->bodies()[at(body)].joint).part);
 }
@@ -171,6 +210,13 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
       least = std::min(least, distance_m(p, limb, world) - safe_m_[at(p)]);
   }
+  for (const int b : bodies_[at(limb)]) {
+    const Rigid& world_from_body = world[at(character_->bodies()[at(b)].joint)];
+    least = std::min(least, over_ground_m(b, world_from_body, *environment_) - safe_over_ground_m_[at(b)]);
+  }
+  for (const int leg : limbs_[at(limb)].legs)
+    if (limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]) || feet_->is_planted(at(leg)))
+      least = std::min(least, feet_->room_m(at(leg), world));
   return least;
 }
 

@@ -2,10 +2,12 @@
 // postures by it.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "generator/motion/standing_feet.h"
 #include "model/character/character.h"
 #include "model/geometry/distance.h"
 
@@ -16,10 +18,13 @@ struct Limb {
   std::vector<int> parts;    // carriers first
   std::vector<int> joints;   // of these parts
   std::vector<int> carried;  // joints of the parts that it carries
+  std::vector<int> legs;     // that it is or carries: indices of find_legs()
+
+  bool is_its_own(const Leg& leg) const { return std::ranges::find(parts, leg.part) != parts.end(); }
 };
 
 // Every part but the root part is in one limb. Limbs are in the order of their first parts.
-std::vector<Limb> limbs_of(const Character& character);
+std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs);
 
 // A limb that lacks this much room still counts as clear: at rest many pairs have exactly the gap that they must have.
 inline constexpr double kTooNear_m = 1e-4;
@@ -27,10 +32,12 @@ inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measu
 
 class LimbRoom {
  public:
-  // Measures the figure at rest: bodies may be as near as they are there. The character must outlive this object. Does
-  // nothing if the character is the same as before.
-  void begin(const Character& character);
+  // Measures the figure at rest: bodies may be as near as they are there. Everything that is given must outlive this
+  // object. Measures nothing if the character is the same as before.
+  void begin(const Character& character, const Environment& environment, const StandingFeet& feet);
 
+  const StandingFeet& feet() const { return *feet_; }
+  std::span<const Limb> limbs() const { return limbs_; }
   const Limb& limb_of(std::size_t part) const { return limbs_[static_cast<std::size_t>(limb_of_[part])]; }
 
   // The transforms of all joints before a frame moves any but the root. Limbs of the same kind see each other there, or
@@ -40,9 +47,10 @@ class LimbRoom {
   // The limb of this part holds the object with this socket, and may touch it; -1: none. Until it is said otherwise.
   void hold(std::size_t part, int socket);
 
-  // The least distance of the bodies of this part's limb, and of what it carries, from others and from each other, beyond
-  // what they must have, m; negative where they are too near, and at most 0.08. `world` holds the transforms of all
-  // joints; of parts that have not moved yet in this frame those of the frame before. Not for the root part.
+  // The least distance of the bodies of this part's limb, and of what it carries, from others, from each other and from
+  // the ground, beyond what they must have, and of what its feet have to spare, m; negative where they are too near, and
+  // at most 0.08. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
+  // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
 
  private:
@@ -50,15 +58,20 @@ class LimbRoom {
   std::size_t part_of(int body) const;
   bool is_object(int body) const;
   bool holds(int body, int object) const;
+  bool is_leg(int limb) const;
   bool has_grip(int limb) const;
   const std::string& kind_of(int limb) const;
   void begin_bodies();
   void begin_pairs();
+  void begin_ground();
   const Rigid& where(int body, int limb, std::span<const Rigid> world) const;
   double distance_m(int pair, int limb, std::span<const Rigid> world);
   double collider_distance_m(const JudgedPair& pair, double band_m) const;
+  double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment);
 
   const Character* character_ = nullptr;
+  const Environment* environment_ = nullptr;
+  const StandingFeet* feet_ = nullptr;
   std::uint64_t character_hash_ = 0;
   std::vector<Limb> limbs_;
   std::vector<int> limb_of_;              // by part; -1 of the root part
@@ -66,6 +79,9 @@ class LimbRoom {
   std::vector<std::vector<int>> pairs_;   // by limb: judged pairs whose distance it changes
   std::vector<int> held_;                 // by limb: the body of what it holds, or -1
   std::vector<double> safe_m_;            // by judged pair: the gap that it must have
+  std::vector<std::vector<int>> bodies_;  // by limb: its own and those that it carries, but those of legs
+  std::vector<double> safe_over_ground_m_;  // by body
+  std::vector<std::vector<Vec3>> core_m_;  // by collider: the points that span its core, in its joint's frame
   std::vector<Solid> own_;                // colliders in their joints' frames
   std::vector<Solid> world_;              // placed
   std::vector<Vec3> ball_center_m_;       // by body: of a ball that holds it, in its joint's frame

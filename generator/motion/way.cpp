@@ -28,6 +28,12 @@ double joint_way(const Joint& joint, const double* a, const double* b) {
   return rotation_angle(glm::conjugate(quat_at(a)) * quat_at(b));
 }
 
+Vec3 joint_way_vector(const Joint& joint, const double* a, const double* b) {
+  if (joint.kind == JointKind::root) return Vec3(0.0);
+  if (joint.kind != JointKind::ball) return Vec3(b[0] - a[0], 0.0, 0.0);
+  return to_rotation_vector(glm::conjugate(quat_at(a)) * quat_at(b));
+}
+
 double way_s(const Rigid& from, const Rigid& to) {
   return std::max(time_s(length(to.p_m - from.p_m), kPlace_m_s),
                   time_s(rotation_angle(glm::conjugate(from.q) * to.q), kTurn_rad_s));

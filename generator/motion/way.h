@@ -10,6 +10,9 @@ namespace contort {
 // coordinates.
 double joint_way(const Joint& joint, const double* a, const double* b);
 
+// The same with its direction: a rotation vector in a's frame for a ball, else (x, 0, 0).
+Vec3 joint_way_vector(const Joint& joint, const double* a, const double* b);
+
 // Seconds for a minimum-jerk blend in which no joint of the part is faster than half of its greatest speed; 0 where
 // both postures are the same. For the root part also the way of the root: 1 m/s and 2 rad/s at most.
 double way_s(const Character& character, std::size_t part, const Posture& from, const Posture& to);

@@ -86,6 +86,10 @@ void number_rows(std::vector<Leg>& legs) {
   }
 }
 
+void append_joints(const Part& part, Leg& leg) {
+  for (int j = part.first_joint; j < part.first_joint + part.joint_count; ++j) leg.joints.push_back(j);
+}
+
 }  // namespace
 
 int find_sole(const Character& character, int leg_part) {
@@ -108,6 +112,8 @@ std::vector<Leg> find_legs(const Character& character) {
     leg.foot_part =
         character.joints()[static_cast<std::size_t>(character.sockets()[static_cast<std::size_t>(leg.sole)].joint)]
             .part;
+    append_joints(part, leg);
+    if (leg.foot_part != leg.part) append_joints(character.parts()[static_cast<std::size_t>(leg.foot_part)], leg);
     find_ankles(character, part.reach.front(), leg);
     measure(character, part.reach.front(), world, leg);
     legs.push_back(leg);

@@ -15,6 +15,7 @@ struct Leg {
   int part = 0;       // has the reach chain
   int foot_part = 0;  // has the sole; may be the same
   int sole = 0;       // socket
+  std::vector<int> joints;      // of both parts, carriers first
   std::array<int, 3> ankles{};  // joints between the chain's tip and the sole
   int ankle_count = 0;
   bool has_ankle_pair = false;  // two, one on the other: solved exactly

@@ -133,7 +133,7 @@ TEST(LimbRoom, ALimbIsAChainOfPartsUpToABranch) {
   };
   std::size_t parts = 0;
   bool has_arm = false;
-  for (const contort::Limb& limb : limbs_of(*human)) {
+  for (const contort::Limb& limb : limbs_of(*human, {})) {
     parts += limb.parts.size();
     has_arm = has_arm || slots(limb) == std::vector<std::string>{"arm_left", "hand_left"};
   }
@@ -141,14 +141,24 @@ TEST(LimbRoom, ALimbIsAChainOfPartsUpToABranch) {
   EXPECT_TRUE(has_arm);
 }
 
+// A figure on level ground of which no foot was seen to stand.
+struct RestingRoom {
+  explicit RestingRoom(const Character& character) { begin(character); }
+  void begin(const Character& character) { room.begin(character, level, feet); }
+
+  Environment level;
+  StandingFeet feet;
+  LimbRoom room;
+};
+
 TEST(LimbRoom, IsNegativeWhereBodiesOverlapAndNeverAtRest) {
   const Result<Character> human = build_character({"human", {}, {}}, stock_library());
   ASSERT_TRUE(human);
   std::vector<double> coords(human->rest_coords().begin(), human->rest_coords().end());
   std::vector<Rigid> world(human->joints().size());
   const auto arm = static_cast<std::size_t>(human->find_part("arm_left"));
-  LimbRoom room;
-  room.begin(*human);
+  RestingRoom begun(*human);
+  LimbRoom& room = begun.room;
   forward_kinematics(*human, human->rest_root(), coords, world);
   room.begin_frame(world);
   EXPECT_GE(room.room_m(arm, world), 0.0);
@@ -176,13 +186,13 @@ TEST(LimbRoom, AHandMayTouchWhatItHoldsUntilTheNextMotion) {
   std::vector<Rigid> world(human.joints().size());
   forward_kinematics(human, motion.root[60], motion.row(60), world);
   const auto arm = static_cast<std::size_t>(human.find_part("arm_left"));
-  LimbRoom room;
-  room.begin(human);
+  RestingRoom begun(human);
+  LimbRoom& room = begun.room;
   room.begin_frame(world);
   EXPECT_LT(room.room_m(arm, world), -0.001);
   room.hold(arm, human.find_socket("object:rifle/foregrip"));
   EXPECT_GT(room.room_m(arm, world), 0.0);
-  room.begin(human);
+  begun.begin(human);
   EXPECT_LT(room.room_m(arm, world), -0.001);
 }
 

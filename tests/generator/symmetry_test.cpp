@@ -14,7 +14,8 @@ namespace contort {
 namespace {
 
 constexpr double kLaw = 1e-9;
-constexpr int kSpecs = 150;
+constexpr int kSpecs = 400;
+constexpr int kLeast = 50;  // that must be judged
 
 template <class Visit>
 void for_sequences(Spec& spec, Visit visit) {
@@ -40,15 +41,15 @@ Spec drawn(std::int64_t index) {
   return spec;
 }
 
-// `was_hindered` is set where bodies kept a limb off: that is decided frame by frame, and by thresholds, of which rounding
-// may be on either side.
+// `was_hindered` is set where bodies kept a limb off, or a foot was lifted over the ground or stayed where it stood: that
+// is decided frame by frame, and by thresholds, of which rounding may be on either side.
 Motion play(const Spec& spec, bool& was_hindered, const Library& library = stock_library()) {
   const Result<Stage> stage = build_stage(spec, library);
   EXPECT_TRUE(stage.ok()) << (stage.ok() ? "" : to_line(stage.issue())) << pretty_spec(spec);
   Motion motion;
   GenerateScratch scratch;
   if (stage) generate(*stage, scratch, motion);
-  was_hindered = was_hindered || scratch.clearance.kept() > 0;
+  was_hindered = was_hindered || scratch.shift_count > 0;
   return motion;
 }
 
@@ -85,7 +86,7 @@ TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
         ASSERT_NEAR(there.row(f)[c], here.row(f)[c], kLaw) << "spec " << i << " frame " << f;
     }
   }
-  EXPECT_GT(judged, kSpecs / 3);
+  EXPECT_GE(judged, kLeast);
 }
 
 // Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Blends have
@@ -125,7 +126,7 @@ TEST(Symmetry, ClipsOfHalfTheSpeedTakeTheSamePosturesAtTwiceTheTime) {
     ++judged;
     expect_twice_as_slow(plain, slow, plain.frame_count - spec.hold_frames, i);
   }
-  EXPECT_GT(judged, kSpecs / 3);
+  EXPECT_GE(judged, kLeast);
 }
 
 // walk and run have a pace of their own, speed_m_s: a longer period of theirs is a longer way.
@@ -150,7 +151,7 @@ TEST(Symmetry, ActionsOfTwiceThePeriodTakeTheSamePosturesAtTwiceTheTime) {
     ++judged;
     expect_twice_as_slow(plain, slow, plain.frame_count - spec.hold_frames, i);
   }
-  EXPECT_GT(judged, kSpecs / 3);
+  EXPECT_GE(judged, kLeast);
 }
 
 std::string other_side(std::string slot) {
@@ -248,7 +249,7 @@ TEST(Symmetry, AMirroredSpecGivesTheMirroredMotion) {
       if (HasFatalFailure()) return;
     }
   }
-  EXPECT_GT(judged, kSpecs / 3);
+  EXPECT_GE(judged, kLeast);
 }
 
 // By how much the muzzle misses a target, given as seen from where the character stood at first, in the last frame.

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "generator/execute.h"
 #include "model/core/detmath.h"
+#include "model/core/index.h"
 #include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
@@ -19,6 +21,7 @@ struct Stood {
 
   Rigid root(int frame) const { return motion.root[static_cast<std::size_t>(frame)]; }
   double knee_deg(int frame) const { return fixtures::coord(motion, frame, *character, "leg_left/knee") * kDegPerRad; }
+  double ankle_rad(int frame) const { return fixtures::coord(motion, frame, *character, "foot_left/ankle_flex"); }
   Rigid sole(int frame) const {
     std::vector<Rigid> world(character->joints().size());
     forward_kinematics(*character, root(frame), motion.row(frame), world);
@@ -35,13 +38,13 @@ Stood stood(const StartDesc& start, std::vector<ActionUse> actions) {
   return {generate(*stage), stage->character};
 }
 
-ActionUse squat(double lean_deg, double back_m) {
-  return use("squat", "waist", 0, 90, {{"share", 0.3}, {"lean_deg", lean_deg}, {"back_m", back_m}});
+ActionUse squat(double lean_deg, double back_m, double share = 0.3) {
+  return use("squat", "waist", 0, 90, {{"share", share}, {"lean_deg", lean_deg}, {"back_m", back_m}});
 }
 
 TEST(Stand, ASquatBendsTheKneesLikeACosine) {
-  const Stood at = stood({}, {squat(0.0, 0.0)});
-  const double lowest_deg = 2.0 * std::acos(1.0 - 0.3) * kDegPerRad;  // two nearly equal bones
+  const Stood at = stood({}, {squat(0.0, 0.0, 0.15)});
+  const double lowest_deg = 2.0 * std::acos(1.0 - 0.15) * kDegPerRad;  // two nearly equal bones
   EXPECT_NEAR(at.knee_deg(45), lowest_deg, 1.0);
   for (int f = 5; f < 90; f += 5)
     EXPECT_NEAR(at.knee_deg(f), lowest_deg * (0.5 - 0.5 * std::cos(2.0 * kPi * f / 90.0)), 1.0) << f;
@@ -58,8 +61,39 @@ TEST(Stand, ASquatLeansAndSitsBackWhileTheFeetStay) {
   }
 }
 
+// With hips above the feet an ankle does not bend as far as a deep squat asks.
+TEST(Stand, HeelsRiseInADeepSquatAndToesStay) {
+  const Stood at = stood({}, {squat(0.0, 0.0, 0.45)});
+  const Leg leg = find_legs(*at.character).front();
+  const Vec3 toes(0.0, 0.0, leg.high_m.z), heel(0.0, 0.0, leg.low_m.z);
+  EXPECT_GT((at.sole(45) * heel).y, 0.05);
+  for (int f = 0; f <= 90; ++f) {
+    EXPECT_LT(length(at.sole(f) * toes - at.sole(0) * toes), 1e-6) << f;
+    EXPECT_LE(at.ankle_rad(f), fixtures::joint(*at.character, "foot_left/ankle_flex").high + 1e-9) << f;
+  }
+  EXPECT_NEAR(at.root(0).p_m.y - at.root(45).p_m.y, 0.45 * leg.length_m, 1e-3) << "as deep as it was asked for";
+}
+
+// Deeper than the knee bends, and faster than it turns.
+TEST(Stand, ASquatThatJointsDoNotAllowIsAsDeepAsTheyDoAndUnmet) {
+  for (const int frames : {90, 12}) {
+    Spec spec;
+    spec.sequences = {sequence({use("squat", "waist", 0, frames, {{"share", 0.6}})})};
+    const Result<Stage> stage = build_stage(spec, stock_library());
+    ASSERT_TRUE(stage);
+    const Intent intent = intent_of(*stage);
+    ASSERT_EQ(intent.unmet.size(), 1U) << frames;
+    EXPECT_EQ(intent.unmet[0].why, Shortfall::joint_range) << frames;
+    const Motion motion = generate(*stage);
+    const double down_m = motion.root[0].p_m.y - motion.root[at(frames / 2)].p_m.y;
+    EXPECT_GT(down_m, frames == 90 ? 0.4 : 0.03);
+    EXPECT_LT(down_m, 0.55);
+  }
+}
+
 TEST(Stand, HipsStandAheadOfTheFeetAndLowerFromTheFirstFrameOn) {
-  const Stood plain = stood({}, {squat(0.0, 0.0)}), changed = stood({{}, 30.0, 0.05, 0.02}, {squat(0.0, 0.0)});
+  const std::vector<ActionUse> shallow{squat(0.0, 0.0, 0.05)};
+  const Stood plain = stood({}, shallow), changed = stood({{}, 30.0, 0.05, 0.02}, shallow);
   const Vec3 forward(std::sin(30.0 * kRadPerDeg), 0.0, std::cos(30.0 * kRadPerDeg));
   const Vec3 left(forward.z, 0.0, -forward.x);
   for (const int f : {0, 45, 90}) {

@@ -1,0 +1,115 @@
+#include "generator/motion/stand_on.h"
+
+#include <algorithm>
+#include <array>
+
+#include "generator/motion/foot_roll.h"
+#include "generator/motion/joint_clamp.h"
+#include "generator/motion/place_foot.h"
+#include "generator/motion/way.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kInRange = 1e-10;  // rad or m
+constexpr double kStands_m = 1e-3;  // a sole that is missed by less is reached
+
+bool is_in_range(const Joint& joint, std::span<const double> row) {
+  if (joint.kind == JointKind::root) return true;
+  const double* coords = row.data() + joint.coord;
+  std::array<double, 4> clamped{};
+  std::copy_n(coords, coord_size(joint.kind), clamped.begin());
+  clamp_to_range(joint, clamped.data());
+  return joint_way(joint, coords, clamped.data()) <= kInRange;
+}
+
+bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& sole,
+          std::span<double> row) {
+  place_foot(character, leg, world, sole, row);
+  for (const int j : leg.joints) forward_kinematics(character, row, j, j + 1, world);
+  const double missed_m = length(world_from_socket(character, world, leg.sole).p_m - sole.p_m);
+  return missed_m <= kStands_m &&
+         std::ranges::all_of(leg.joints, [&](int j) { return is_in_range(character.joint(j), row); });
+}
+
+// The smallest angle at which `is_good` holds, where it holds from there on for a while; negative if there is none.
+template <class Good>
+double least_angle(Good is_good) {
+  constexpr double kStep_rad = 0.1, kMost_rad = 1.2;
+  constexpr int kAngleHalvings = 13;
+  double high = kStep_rad;
+  while (high <= kMost_rad && !is_good(high)) high += kStep_rad;
+  if (high > kMost_rad) return -1.0;
+  double low = high - kStep_rad;
+  for (int i = 0; i < kAngleHalvings; ++i) (is_good(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+  return high;
+}
+
+// The longest time that a joint takes from one row to another at its greatest speed.
+double slowest_s(const Character& character, std::span<const Leg> legs, std::span<const double> from,
+                 std::span<const double> to) {
+  double longest = 0.0;
+  for (const Leg& leg : legs)
+    for (const int j : leg.joints) {
+      const Joint& joint = character.joint(j);
+      const double way = joint_way(joint, from.data() + joint.coord, to.data() + joint.coord);
+      longest = std::max(longest, way / joint.max_speed);
+    }
+  return longest;
+}
+
+// Whether all legs fit below the frame's root.
+bool stand_bent(const Character& character, std::span<const Leg> legs, const GaitFrame& frame,
+                std::span<const Rigid> world, std::span<Rigid> scratch, std::span<double> row) {
+  const Rigid moved = frame.root * inverse(world[0]);
+  std::ranges::transform(world, scratch.begin(), [&](const Rigid& joint) { return moved * joint; });
+  bool all_fit = true;
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    all_fit = stand_on(character, legs[i], scratch, frame.feet[i].world_from_sole, row).fits && all_fit;
+  return all_fit;
+}
+
+bool has_room(LimbRoom& room, std::span<const Rigid> world) {
+  room.begin_frame(world);
+  return std::ranges::all_of(room.limbs(), [&](const Limb& limb) {
+    return room.room_m(at(limb.parts.back()), world) >= -kTooNear_m;
+  });
+}
+
+}  // namespace
+
+Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
+               std::span<double> row) {
+  const auto risen = [&](double angle_rad) { return world_from_sole * rolled_sole(leg, angle_rad, 0.0); };
+  const auto is_good = [&](double angle_rad) { return fits(character, leg, world, risen(angle_rad), row); };
+  if (is_good(0.0)) return {world_from_sole, true};
+  const double angle_rad = least_angle(is_good);
+  const Rigid sole = angle_rad > 0.0 ? risen(angle_rad) : world_from_sole;
+  return {sole, fits(character, leg, world, sole, row)};
+}
+
+double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
+                    const TrialSpace& scratch, std::span<double> row) {
+  constexpr int kStops = 24;
+  constexpr double kOfSpeed = 0.8;
+  const std::span<const Leg> legs = room.feet().legs();
+  const std::span<double> before = scratch.row;
+  double slowest_s_per_way = 0.0;
+  bool needs_room = true;
+  for (int n = 0; n <= kStops; ++n) {
+    const double share = static_cast<double>(n) / kStops;
+    const bool fit = stand_bent(character, legs, bend.frame_at(share), world, scratch.world, row);
+    if (n > 0) slowest_s_per_way = std::max(slowest_s_per_way, kStops * slowest_s(character, legs, before, row));
+    const bool fast = share * bend.peak * slowest_s_per_way > kOfSpeed * bend.takes_s;
+    if (n == 0) needs_room = has_room(room, scratch.world);
+    if (n > 0 && (!fit || fast || (needs_room && !has_room(room, scratch.world))))
+      return static_cast<double>(n - 1) / kStops;
+    std::ranges::copy(row, before.begin());
+  }
+  return 1.0;
+}
+
+}  // namespace contort

@@ -1,0 +1,42 @@
+// Feet that stay on the ground under hips that move.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "generator/motion/gait.h"
+#include "generator/motion/limb_room.h"
+#include "model/motion/legs.h"
+
+namespace contort {
+
+struct Stood {
+  Rigid world_from_sole;
+  bool fits = false;  // the sole is there, and all joints of leg and foot keep their ranges
+};
+
+// As place_foot, for a sole that lies flat. Where leg and ankle do not bend as far as that asks, the heel rises about the
+// toes, as little as it must; where no rise helps, the sole stays flat.
+Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
+               std::span<double> row);
+
+// Hips on their way down over feet that stand, and back up.
+struct Bend {
+  std::function<GaitFrame(double)> frame_at;  // for a share of the way, [0, 1]
+  double takes_s = 0.0;                       // from begin to end
+  double peak = 1.0;                          // the greatest rate of the share, in whole ways for each such time
+};
+
+// Memory for trials, as long as a character's joints and coordinates.
+struct TrialSpace {
+  std::span<Rigid> world;
+  std::span<double> row;
+};
+
+// The largest share of the way on which legs and feet keep their joints' ranges and speeds, and no limb loses its room,
+// [0, 1]. `world` is where the character is seen; its joints go along with the root. Coordinates of legs and feet in `row`
+// are scratch. The room's frame is begun anew.
+double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
+                    const TrialSpace& scratch, std::span<double> row);
+
+}  // namespace contort

@@ -1,0 +1,103 @@
+#include "generator/motion/standing_feet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "generator/motion/joint_clamp.h"
+#include "generator/motion/place_foot.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kTouches_m = 0.003;  // over the ground
+constexpr double kFree_m = 0.03;      // over the ground: a foot that is as high stands no more
+constexpr double kLift_m = 0.006;     // of a foot that goes far
+constexpr double kFar_m = 0.02;       // from there on
+constexpr double kThere = 1e-9;        // m and rad: a foot that is so near is where it stood
+constexpr double kRounding_m = 0.0005;     // into the ground, for rounding
+
+std::array<Vec3, 4> corners_of(const Leg& leg) {
+  return {Vec3(leg.low_m.x, 0.0, leg.low_m.z), Vec3(leg.low_m.x, 0.0, leg.high_m.z),
+          Vec3(leg.high_m.x, 0.0, leg.low_m.z), Vec3(leg.high_m.x, 0.0, leg.high_m.z)};
+}
+
+// The height that a point must have at this distance from where it stood. It begins flat, so that the knee, which starts
+// from straight, begins slowly.
+double lift_at(double distance_m) { return kLift_m * minimum_jerk(std::min(1.0, distance_m / kFar_m)); }
+
+}  // namespace
+
+void StandingFeet::begin(const Character& character, std::span<const Leg> legs, const Environment& environment) {
+  character_ = &character, legs_ = legs, environment_ = &environment;
+  stood_.fill(std::nullopt), use_.fill(LegUse::idle);
+}
+
+double StandingFeet::height_m(std::size_t leg, const Rigid& sole) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& corner : corners_of(legs_[leg])) {
+    const Vec3 at = sole * corner;
+    least = std::min(least, at.y - environment_->height_at(at.x, at.z));
+  }
+  return least;
+}
+
+bool StandingFeet::is_planted(std::size_t leg) const {
+  return stood_[leg] && use_[leg] == LegUse::idle && carrier_of(*character_, legs_[leg].part) != 0;
+}
+
+void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> world) {
+  const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
+  const double height = height_m(leg, sole);
+  use_[leg] = use;
+  if (is_planted(leg) || (use == LegUse::acts && stood_[leg] && height <= kFree_m)) return;
+  stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
+}
+
+void StandingFeet::put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {
+  place_foot(*character_, legs_[leg], world, sole, row);
+  for (const int j : legs_[leg].joints) {
+    clamp_to_range(character_->joint(j), row.data() + character_->joint(j).coord);
+    forward_kinematics(*character_, row, j, j + 1, world);
+  }
+}
+
+bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
+  const bool is_there = length(sole.p_m - stood_[leg]->p_m) < kThere &&
+                        rotation_angle(glm::conjugate(sole.q) * stood_[leg]->q) < kThere;
+  if (!is_there) put(leg, *stood_[leg], world, row);
+  return !is_there;
+}
+
+double StandingFeet::spare_m(std::size_t leg, const Rigid& sole) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& corner : corners_of(legs_[leg])) {
+    const Vec3 now = sole * corner, was = *stood_[leg] * corner;
+    const double distance_m = std::sqrt((now.x - was.x) * (now.x - was.x) + (now.z - was.z) * (now.z - was.z));
+    const double ground_m = environment_->height_at(now.x, now.z);
+    const double stood_m = std::min(0.0, was.y - environment_->height_at(was.x, was.z));
+    least = std::min(least, now.y - ground_m - stood_m + kRounding_m - lift_at(distance_m));
+  }
+  return least;
+}
+
+double StandingFeet::room_m(std::size_t leg, std::span<const Rigid> world) const {
+  if (!stood_[leg]) return std::numeric_limits<double>::infinity();
+  return spare_m(leg, world_from_socket(*character_, world, legs_[leg].sole));
+}
+
+bool StandingFeet::lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  if (!stood_[leg]) return false;
+  Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
+  const double missing_m = -spare_m(leg, sole);
+  if (missing_m <= 0.0) return false;
+  sole.p_m.y += missing_m;
+  put(leg, sole, world, row);
+  return true;
+}
+
+}  // namespace contort

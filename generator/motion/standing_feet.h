@@ -1,0 +1,59 @@
+// Feet that stand: they stay where they are while a trunk moves their hips, and are lifted before an action of their own
+// leg moves them over the ground.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "model/motion/legs.h"
+#include "model/world/environment.h"
+
+namespace contort {
+
+enum class LegUse {
+  idle,
+  placed,  // by a course, or by an author's key poses
+  acts,    // it has another action, or is on its way back from one
+};
+
+// Legs are named by their index in find_legs(). World coordinates.
+class StandingFeet {
+ public:
+  // Everything that is given must outlive this object. No foot stands until it was seen.
+  void begin(const Character& character, std::span<const Leg> legs, const Environment& environment);
+
+  // Ends a frame. A foot that has an action of its own stands where it stood until it is well above the ground, and so
+  // does an idle one on a leg that the root part does not carry. Any other foot stands where it is, if it touches the
+  // ground.
+  void note(std::size_t leg, LegUse use, std::span<const Rigid> world);
+
+  // Whether the foot must stay where it stood, although what carries its leg may move. As of the frame before.
+  bool is_planted(std::size_t leg) const;
+  bool stands(std::size_t leg) const { return stood_[leg].has_value(); }
+  std::span<const Leg> legs() const { return legs_; }
+
+  // Puts the foot where it stood, as nearly as the joints' ranges allow. Writes the coordinates of leg and foot, and
+  // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
+  bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
+
+  // Lifts the foot by what it lacks to move over the ground without sliding. True if that was anything.
+  bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
+
+  // The height that the foot has to spare, m: a foot that goes elsewhere must be the higher the farther it is from where
+  // it stood. Infinite for a foot that does not stand.
+  double room_m(std::size_t leg, std::span<const Rigid> world) const;
+
+ private:
+  void put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const;
+  double height_m(std::size_t leg, const Rigid& sole) const;
+  double spare_m(std::size_t leg, const Rigid& sole) const;
+
+  const Character* character_ = nullptr;
+  std::span<const Leg> legs_;
+  const Environment* environment_ = nullptr;
+  std::array<std::optional<Rigid>, kMaxLegs> stood_;
+  std::array<LegUse, kMaxLegs> use_{};
+};
+
+}  // namespace contort
