@@ -5,6 +5,7 @@
 
 #include "generator/additive.h"
 #include "generator/condition.h"
+#include "generator/motion/arm_swing.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/way.h"
 
@@ -43,6 +44,9 @@ class Generation {
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
+    s_.free_arm.assign(character_.parts().size(), 0);
+    for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
+      s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);
     s_.shift.assign(character_.parts().size(), Shift::none), s_.shift_count = 0;
     stand_up();
   }
@@ -110,10 +114,23 @@ class Generation {
     else
       copy_part(character_, p, layers.base, layers.plain);
     copy_part(character_, p, layers.plain, layers.shown);
+    if (s_.free_arm[p] != 0 && stack.ik().action < 0 && stack.overwrite().action < 0) swing(playback, p);
     add_additives(playback, p);
     follow(playback, p);
     s_.rules.place(p, layers.shown);
     if (p != 0 && at(limb_at(p).parts.back()) == p) finish_limb(playback, limb_at(p));
+  }
+
+  // Arms that have nothing to do swing with the gait.
+  void swing(const Playback& playback, std::size_t p) {
+    const LayerHold& gait = s_.stacks[0].ik();
+    if (gait.action < 0 || !moves_legs(playback, gait)) return;
+    ArmSwing swing = s_.rules.body(planned(playback, gait)).frame.arms[character_.parts()[p].side == Side::left ? 0 : 1];
+    const double share = come_in(playback, gait) * left_of(playback, gait);
+    swing.forward_rad *= share, swing.out_rad *= share, swing.elbow_rad *= share;
+    if (swing == ArmSwing{}) return;
+    s_.rules.place(p, s_.postures.shown);
+    swing_arm(character_, static_cast<int>(p), swing, s_.rules.world(), s_.postures.shown);
   }
 
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
@@ -295,7 +312,7 @@ class Generation {
       s_.lags.note(playback.frame(), p, std::nullopt);
     else if (s_.shift[p] == Shift::held_off)
       s_.lags.note(playback.frame(), p, Shortfall::clearance);
-    else if (s_.behind[p] != 0)
+    else if (s_.behind[p] != 0 || (has_ik && s_.rules.feedback()[p].is_slower))
       s_.lags.note(playback.frame(), p, Shortfall::joint_speed);
     else if (has_ik && s_.rules.feedback()[p].at_range_end)
       s_.lags.note(playback.frame(), p, Shortfall::joint_range);

@@ -48,6 +48,7 @@ struct GenerateScratch {
   std::vector<char> behind;        // by part: a joint is still on its way to where it is wanted
   Clearance clearance;
   Past past;                       // what was shown
+  std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
   int shift_count = 0;             // of limbs in frames, since the motion began
   RootCarry carry;

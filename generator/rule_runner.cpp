@@ -16,7 +16,7 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
   const double u = progress(action, content);
   const double missed_s = std::min(duration_s, action.speed * (came - action.start) / action.scale / rate_hz);
   const double takes_s = (action.end - action.start) / action.speed / rate_hz;
-  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s, takes_s};
+  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s, takes_s, 1.0 / rate_hz};
 }
 
 // Legs that walk must not be clamped one joint at a time: their feet would leave the ground that they stand on.

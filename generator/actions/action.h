@@ -48,6 +48,7 @@ struct Feedback {
   bool impact = false;
   double shortfall = 0.0;  // of what was asked for, in its own unit (m, rad, m/s, share); 0: met
   bool at_range_end = false;  // a joint was wanted farther than it goes
+  bool is_slower = false;     // joints cannot go as fast as was asked for
 };
 
 // The progress of an action at a frame, in time of its content.
@@ -58,6 +59,7 @@ struct ActionTime {
   double since_s = 0.0;     // since it took the part; later than its start where it was cut and went on
   double left_s = 0.0;      // from then to its end
   double takes_s = 0.0;     // from its start to its end, as it is played
+  double frame_s = 0.0;     // of the motion; each takes duration_s / takes_s times as much of the content
 };
 
 // The data that an aiming action has from the start.
@@ -76,7 +78,9 @@ struct WholeBody {
   std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   double swivel_rad = 0.0;                    // of a limb whose request leaves it open
+  Quat faced = kNoRotation;                   // where a course faced at its first begin, in the world
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
+  double pace = 1.0;                          // share of its speed that legs can go, [0, 1]
   double deepest_bend = 1.0;                  // share of the way down that legs can go, [0, 1]
 };
 

@@ -4,6 +4,7 @@
 #include "generator/actions/action.h"
 #include "generator/motion/place_foot.h"
 #include "generator/motion/foot_roll.h"
+#include "generator/motion/pace.h"
 #include "generator/motion/stand_on.h"
 #include "model/core/detmath.h"
 
@@ -33,7 +34,8 @@ ParamDef lead() {
 std::vector<ParamDef> params_of_gait(double fastest_m_s, double preset_m_s) {
   return {lead(), number("speed_m_s", 0.0, fastest_m_s, preset_m_s, "Of the way between start and stop."),
           number("heading_deg", -180.0, 180.0, 0.0,
-                 "Where it goes, from where the character faces; 90 is to its left. It keeps facing the same way.")};
+                 "Where it goes, from where the character faces; 90 is to its left. It turns there as it starts; slow walks go "
+                 "sideways or backward.")};
 }
 
 std::vector<ParamDef> params_of_bend() {
@@ -69,6 +71,7 @@ void begin_course(const RuleInput& in) {
                      std::span(in.body.seen_soles).first(in.legs.size()));
   in.body.first_soles = in.body.gait.first_soles();
   in.body.begun = in.took_over;
+  if (in.time.left_s > in.time.duration_s - 1e-9) in.body.faced = in.stands_at.q;
 }
 
 // The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
@@ -86,28 +89,68 @@ const GaitFrame& frame_of(const RuleInput& in, Make make) {
   return body.frame;
 }
 
-enum class Heels { stay, may_rise };
-
 template <class Make>
-void follow(const RuleInput& in, Posture& posture, Heels heels, Make make) {
+void follow(const RuleInput& in, Posture& posture, Make make) {
   const GaitFrame& frame = frame_of(in, make);
   const int part = static_cast<int>(&in.part - in.character.parts().data());
   if (part == 0) posture.root = frame.root;
   for (std::size_t i = 0; i < in.legs.size(); ++i) {
     const Leg& leg = in.legs[i];
     Rigid& sole = in.body.frame.feet[i].world_from_sole;
-    if (leg.part == part && heels == Heels::stay) place_foot(in.character, leg, in.world, sole, posture.coords);
-    if (leg.part == part && heels == Heels::may_rise)
-      sole = stand_on(in.character, leg, in.world, sole, posture.coords).world_from_sole;
+    if (leg.part == part) sole = stand_on(in.character, leg, in.world, sole, posture.coords).world_from_sole;
     if (leg.foot_part == part && leg.part != part)
       level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
     if (leg.part == part || leg.foot_part == part) in.feedback.contact = in.body.lands[i];
   }
 }
 
-void go(const RuleInput& in, GaitParams params, Posture& posture) {
+// Where the course goes, from where it faces now: one that was cut had turned before.
+double heading_rad(const RuleInput& in) {
+  const WholeBody& body = in.body;
+  if (body.begun < 0) return in.params[2] * kRadPerDeg;
+  const Quat turned = glm::conjugate(body.faced) * body.gait.world_from_start().q;
+  return wrap_angle(in.params[2] * kRadPerDeg - 2.0 * det::atan2(turned.y, turned.w));
+}
+
+using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad);
+
+// A straight walk needs no trial up to this square root of its Froude number.
+constexpr double kEasy = 0.4;
+
+bool is_easy(const RuleInput& in, const GaitParams& params) {
+  return in.environment.is_level() && params.heading_rad == 0.0 && params.turn_rad == 0.0 && !params.trot &&
+         in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy;
+}
+
+GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {
+  GaitParams params = params_for(in.legs, pace * in.params[1], heading_rad(in));
   params.lead = static_cast<int>(in.params[0]);
-  follow(in, posture, Heels::stay, [&](Gait& gait) { return gait.at(params, in.time.since_s, in.time.left_s); });
+  return params;
+}
+
+void begin_gait(const RuleInput& in, ParamsFor params_for, Posture& posture) {
+  WholeBody& body = in.body;
+  begin_course(in);
+  const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
+  const auto frame_at = [&](Gait& gait, double pace, double time_s) {
+    return gait.at(params_at(in, params_for, pace), time_s, lasts_s);
+  };
+  body.pace = 1.0;
+  if (step_s > 0.0 && !is_easy(in, params_at(in, params_for, 1.0)))
+    body.pace = fitting_pace(in.character, in.room, body.gait, {frame_at, lasts_s, step_s, in.time.frame_s}, in.world,
+                             in.scratch, posture.coords);
+}
+
+void go(const RuleInput& in, ParamsFor params_for, Posture& posture) {
+  WholeBody& body = in.body;
+  if (is_root(in) && body.begun != in.took_over) begin_gait(in, params_for, posture);
+  const GaitParams params = params_at(in, params_for, body.pace);
+  follow(in, posture, [&](Gait& gait) {
+    return body.pace > 0.0 ? gait.at(params, in.time.since_s, in.time.left_s) : gait.stand(0.0);
+  });
+  if (!is_root(in)) return;
+  const GaitTiming timing(params, in.legs, in.time.left_s);
+  in.feedback.is_slower = body.pace < 1.0 || timing.turn_rad() != params.turn_rad;
 }
 
 // The knees' angle goes with `share`, not the hips' height: that would have knees start from straight with a jerk. Two
@@ -124,10 +167,11 @@ void bend(const RuleInput& in, double share, double peak, Posture& posture) {
   WholeBody& body = in.body;
   if (is_root(in) && body.begun != in.took_over) {
     begin_course(in);
-    const Bend way{[&](double part) { return bent(in, body.gait, part); }, in.time.takes_s, peak};
-    body.deepest_bend = deepest_bend(in.character, in.room, way, in.world, in.scratch, posture.coords);
+    const auto frame_at = [&](double part) { return bent(in, body.gait, part); };
+    body.deepest_bend = deepest_bend(in.character, in.room, {frame_at, in.time.takes_s, peak}, in.world, in.scratch,
+                                     posture.coords);
   }
-  follow(in, posture, Heels::may_rise, [&](Gait& gait) { return bent(in, gait, body.deepest_bend * share); });
+  follow(in, posture, [&](Gait& gait) { return bent(in, gait, body.deepest_bend * share); });
   if (is_root(in)) in.feedback.at_range_end = body.deepest_bend < 1.0;
 }
 
@@ -136,13 +180,13 @@ void bend(const RuleInput& in, double share, double peak, Posture& posture) {
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
 bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void walk_rule(const RuleInput& in, Posture& posture) {
-  go(in, walk_params(in.legs, in.params[1], in.params[2] * kRadPerDeg), posture);
+  go(in, contort::walk_params, posture);
 }
 
 std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
 bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void run_rule(const RuleInput& in, Posture& posture) {
-  go(in, run_params(in.legs, in.params[1], in.params[2] * kRadPerDeg), posture);
+  go(in, run_params, posture);
 }
 
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }

@@ -10,6 +10,7 @@ namespace contort {
 
 namespace {
 
+constexpr double kGap = 0.9;    // of the gap at home: as near as feet come to each other sideways
 constexpr double kBend = 0.01;  // of a moving leg's length: a knee never snaps straight
 
 // The weight with which a runner's leg holds the hips down, [0, 1]: none while it swings, when its foot may trail.
@@ -52,23 +53,82 @@ void Gait::begin(const Character& character, std::span<const Leg> legs, const En
         first_sole(environment, legs[i], world_from_start, i < seen_soles.size() ? &seen_soles[i] : nullptr);
 }
 
-Vec3 Gait::travel(const GaitParams& params, double distance_m) const {
-  const det::SinCos heading = det::sincos(params.heading_rad);
-  return world_from_start_.q * (distance_m * Vec3(heading.sin, 0.0, heading.cos));
+Vec3 Gait::direction(const GaitParams& params, double turned_rad) const {
+  const det::SinCos heading = det::sincos(params.heading_rad + turned_rad);
+  return world_from_start_.q * Vec3(heading.sin, 0.0, heading.cos);
+}
+
+// The way while the body turns, by Simpson's rule: it goes where it faces, or at its heading to that.
+Vec3 Gait::turning_way(const GaitParams& params, const GaitTiming& timing, double time_s) const {
+  constexpr int kSteps = 16;
+  const double step_s = time_s / kSteps;
+  Vec3 sum(0.0);
+  for (int n = 0; n <= kSteps; ++n) {
+    const double weight = n == 0 || n == kSteps ? 1.0 : n % 2 == 1 ? 4.0 : 2.0;
+    const double t = n * step_s;
+    sum += weight * timing.speed_m_s(t) * direction(params, timing.turn_rad() * timing.turned(t));
+  }
+  return sum * (step_s / 3.0);
+}
+
+Rigid Gait::course(const GaitParams& params, const GaitTiming& timing, double time_s) const {
+  const double t = std::max(0.0, time_s), turning_s = std::min(t, timing.turn_s());
+  const Vec3 curve = turning_s > 0.0 ? turning_way(params, timing, turning_s) : Vec3(0.0);
+  const double straight_m = timing.travelled_m(t) - timing.travelled_m(turning_s);
+  const double turned_rad = timing.turn_rad() * timing.turned(t);
+  return {world_from_start_.q * axis_angle(Vec3(0, 1, 0), turned_rad),
+          world_from_start_.p_m + curve + straight_m * direction(params, turned_rad)};
+}
+
+// A foothold without care for the other feet: the home place under the course in the middle of the stance.
+Rigid Gait::nominal(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const {
+  if (timing.lifted_s(leg, step - 1) < 0.0) return first_soles_[static_cast<std::size_t>(&leg - legs_.data())];
+  const Rigid at = course(params, timing, timing.middle_s(leg, step));
+  return {at.q, home_of(leg, at)};
+}
+
+// By how much two feet of a row, one of which comes down beside the other, would be nearer sideways than at home, m.
+double Gait::missing_gap_m(const Leg& leg, const Rigid& foot, const Leg& other, const Rigid& beside) const {
+  const double home_gap_m = std::fabs(leg.home_m.x - other.home_m.x);
+  const double side = leg.side == 0 ? 1.0 : -1.0;
+  const Vec3 apart_m = foot.p_m - beside.p_m;
+  const double gap_m =
+      std::min(side * (glm::conjugate(foot.q) * apart_m).x, side * (glm::conjugate(beside.q) * apart_m).x);
+  return std::max(0.0, kGap * home_gap_m - gap_m);
+}
+
+// Feet keep beside each other in turns and sidesteps: both of two that would come too near give way, by half each, or
+// one all the way where the other stands from the beginning.
+double Gait::apart_m(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const {
+  if (params.turn_rad == 0.0 && params.heading_rad == 0.0) return 0.0;
+  const Rigid foot = nominal(params, timing, leg, step);
+  double most_m = 0.0;
+  for (const Leg& other : legs_) {
+    if (other.row != leg.row || other.side == leg.side) continue;
+    const int beside = timing.cycle(other, timing.lands_s(leg, step)).step;
+    for (const int s : {beside, beside + 1}) {
+      const double share = timing.lifted_s(other, s - 1) < 0.0 ? 1.0 : 0.5;
+      most_m = std::max(most_m, share * missing_gap_m(leg, foot, other, nominal(params, timing, other, s)));
+    }
+  }
+  return most_m;
 }
 
 // A foot stands where it was first until its first swing begins, and is home again from the step on whose middle comes
 // after the end.
 Rigid Gait::foothold(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const {
-  if (timing.lifted_s(leg, step - 1) < 0.0) return first_soles_[static_cast<std::size_t>(&leg - legs_.data())];
-  const Vec3 way = travel(params, timing.travelled_m(timing.middle_s(leg, step)));
-  return stand_at(*environment_, leg, world_from_start_.q, home_of(leg, world_from_start_) + way, travel(params, 1.0));
+  const Rigid at = nominal(params, timing, leg, step);
+  if (timing.lifted_s(leg, step - 1) < 0.0) return at;
+  const double apart = apart_m(params, timing, leg, step) * (leg.side == 0 ? 1.0 : -1.0);
+  return stand_at(*environment_, leg, at.q, at * Vec3(apart, 0.0, 0.0),
+                  direction(params, timing.turn_rad() * timing.turned(timing.middle_s(leg, step))));
 }
 
 void Gait::take_step(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int number,
                      Step& step) const {
   if (step.number == number) return;
   step.number = number;
+  step.rise = params.rise, step.fall = params.fall, step.late = params.late;
   step.from = foothold(params, timing, leg, number);
   // A swing that began before the course did is not made: the foot stands where it is.
   step.to = timing.lifted_s(leg, number) >= 0.0 ? foothold(params, timing, leg, number + 1) : step.from;
@@ -78,7 +138,7 @@ void Gait::take_step(const GaitParams& params, const GaitTiming& timing, const L
 }
 
 // Over the feet, upright or along their slope.
-Rigid Gait::root_over(std::span<const Vec3> feet, const Vec3& travel_m, double lower_m) const {
+Rigid Gait::root_over(std::span<const Vec3> feet, const Rigid& course, double lower_m) const {
   const Rigid& rest = character_->rest_root();
   double mean_y = 0.0, mean_z = 0.0;
   const double count = std::max<double>(1.0, static_cast<double>(legs_.size()));
@@ -86,8 +146,7 @@ Rigid Gait::root_over(std::span<const Vec3> feet, const Vec3& travel_m, double l
   const double pitch_rad = row_count(legs_) > 1 ? slope_rad(legs_, feet, mean_y, mean_z) : 0.0;
   const Quat tilt = axis_angle(Vec3(1, 0, 0), pitch_rad);
   const Vec3 pivot(0.0, 0.0, mean_z);  // on the ground between the feet
-  Rigid root{world_from_start_.q * tilt * rest.q,
-             world_from_start_ * (pivot + tilt * (rest.p_m - pivot)) + travel_m};
+  Rigid root{course.q * tilt * rest.q, course * (pivot + tilt * (rest.p_m - pivot))};
   root.p_m.y = (pivot + tilt * (rest.p_m - pivot)).y + mean_y - lower_m;
   return root;
 }
@@ -115,12 +174,25 @@ GaitFrame Gait::stand(double lower_share) {
   }
   std::array<double, kMaxLegs> holds;
   holds.fill(1.0);
-  frame.root = root_over(feet, Vec3(0.0), 0.0);
+  frame.root = root_over(feet, world_from_start_, 0.0);
   lower_to_reach(holds, 0.0, frame);
   frame.stands_at = world_from_start_;
   // From where the legs reach, wherever that is: without a kink.
   frame.root.p_m.y -= lower_share * least_length_m(legs_);
   return frame;
+}
+
+// An arm is farthest back when the foot of its own side comes down.
+void Gait::swing_arms(const GaitParams& params, const GaitTiming& timing, double time_s, double moving,
+                      GaitFrame& frame) const {
+  constexpr double kOut_rad = 8.0 * kRadPerDeg;  // so that hands pass the thighs
+  if (params.arm_swing_rad == 0.0) return;
+  for (const Leg& leg : legs_) {
+    const double since = timing.since_landing(leg, time_s);
+    frame.arms[static_cast<std::size_t>(leg.side)] = {
+        moving * (-params.arm_back_rad - params.arm_swing_rad * det::cos(2.0 * kPi * since)), moving * kOut_rad,
+        moving * params.elbow_rad};
+  }
 }
 
 GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
@@ -139,10 +211,10 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
                                 params.toes_up_rad * moving),
                      cycle.swing == 0.0 || step.bump_m == 0.0};
   }
+  swing_arms(params, timing, time_s, moving, frame);
   const double bounce_m = params.bounce_m * root_beat(params, time_s / params.cycle_s) * timing.step_share(time_s);
-  const Vec3 way = travel(params, timing.travelled_m(time_s));
-  frame.stands_at = {world_from_start_.q, world_from_start_.p_m + way};
-  frame.root = root_over(feet, way, moving * (params.lower_m - bounce_m));
+  frame.stands_at = course(params, timing, time_s);
+  frame.root = root_over(feet, frame.stands_at, moving * (params.lower_m - bounce_m));
   lower_to_reach(holds, moving, frame);
   return frame;
 }

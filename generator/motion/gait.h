@@ -19,10 +19,19 @@ struct FootTarget {
   bool stands = true;
 };
 
+// How far an arm is from how it hangs.
+struct ArmSwing {
+  double forward_rad = 0.0;
+  double out_rad = 0.0;
+  double elbow_rad = 0.0;
+  bool operator==(const ArmSwing&) const = default;
+};
+
 struct GaitFrame {
   Rigid root;
   Rigid stands_at;  // a turn about +Y and a place on the plane y = 0: where the course has come to
   std::array<FootTarget, kMaxLegs> feet;
+  std::array<ArmSwing, 2> arms;  // left and right
 };
 
 // The gait that is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
@@ -43,10 +52,17 @@ class Gait {
   GaitFrame at(const GaitParams& params, double time_s, double duration_s);
 
  private:
+  Rigid nominal(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const;
+  double missing_gap_m(const Leg& leg, const Rigid& foot, const Leg& other, const Rigid& beside) const;
+  double apart_m(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const;
   Rigid foothold(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const;
   void take_step(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int number, Step& step) const;
-  Vec3 travel(const GaitParams& params, double distance_m) const;
-  Rigid root_over(std::span<const Vec3> feet, const Vec3& travel_m, double lower_m) const;
+  Vec3 direction(const GaitParams& params, double turned_rad) const;
+  Vec3 turning_way(const GaitParams& params, const GaitTiming& timing, double time_s) const;
+  Rigid course(const GaitParams& params, const GaitTiming& timing, double time_s) const;
+  void swing_arms(const GaitParams& params, const GaitTiming& timing, double time_s, double moving,
+                  GaitFrame& frame) const;
+  Rigid root_over(std::span<const Vec3> feet, const Rigid& course, double lower_m) const;
   void lower_to_reach(std::span<const double> holds, double bend, GaitFrame& frame) const;
 
   const Character* character_ = nullptr;

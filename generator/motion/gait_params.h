@@ -9,7 +9,8 @@ namespace contort {
 
 struct GaitParams {
   double speed_m_s = 1.0;    // >= 0, of the root; 0 stands
-  double heading_rad = 0.0;  // of travel, from where the character faces; it keeps facing the same way
+  double heading_rad = 0.0;  // of travel, from where the body faces at that time
+  double turn_rad = 0.0;     // of the body, while it starts
   double cycle_s = 1.0;      // > 0, between two steps of one foot
   double duty = 0.6;         // (0, 1): the share of the cycle in which a foot stands
   double under = 0.5;        // (0, 1): of the stance, when the hips have come over the foot
@@ -20,14 +21,25 @@ struct GaitParams {
   double bounce_m = 0.0;     // of the root, twice in a cycle: up between the feet (run), or down there where < 0 (walk)
   double heel_up_rad = 0.0;  // >= 0, of a sole when it leaves the ground over its toes
   double toes_up_rad = 0.0;  // >= 0, of a sole that comes down on its heel
+  double arm_swing_rad = 0.0;  // of the arms, to either side of their middle; 0: they hang
+  double arm_back_rad = 0.0;   // of this middle, behind how they hang
+  double elbow_rad = 0.0;      // of the elbows, more than at rest
+  double rise = 0.25;        // (0, 1): the share of a swing in which the foot gets as fast as it is,
+  double fall = 0.25;        // and in which it slows down; together at most 1
+  double late = 0.0;         // [-1, 1]: by how much it is lifted more in the second half of its swing than in the first
 };
 
 // Sensible parameters for a speed on these legs: longer legs step more slowly, as pendulums do (Froude number).
+// `heading_rad` is the way from where the character faces at first. It turns there, but for walks that are slow enough
+// to be made sideways or backward.
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
 GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
 
 // The share of the bounce, [0, 1], at so many cycles after a stance began: 0 where the hips are over the foot.
 double root_beat(const GaitParams& params, double cycles);
+
+// v / sqrt(g l) with the shortest leg's length l.
+double root_of_froude(std::span<const Leg> legs, double speed_m_s);
 
 double least_length_m(std::span<const Leg> legs);  // 1 where there is none
 int row_count(std::span<const Leg> legs);            // at least 1

@@ -13,6 +13,18 @@ double ramped_s(double time_s, double ramp_s) {
   return ramp_s * (u * u * u - 0.5 * u * u * u * u) + std::max(0.0, time_s - ramp_s);
 }
 
+double ramp(double u) { return u * u * (3.0 - 2.0 * u); }
+
+// The integral of a speed that rises to 1 within up_s, and falls to 0 within down_s before end_s.
+double eased_s(double time_s, double end_s, double up_s, double down_s) {
+  const double t = std::clamp(time_s, 0.0, end_s);
+  if (t <= end_s - down_s) return ramped_s(t, up_s);
+  return ramped_s(end_s - down_s, up_s) + ramped_s(down_s, down_s) - ramped_s(end_s - t, down_s);
+}
+
+constexpr double kTurn_rad = 40.0 * kRadPerDeg;        // of the body in a cycle, at most
+constexpr double kTurnOfMany_rad = 36.0 * kRadPerDeg;  // of one with several rows of legs
+
 }  // namespace
 
 // The root begins so slowly that no foot is left behind at home by more than half a stance before its first swing: a
@@ -28,12 +40,22 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
   down_s_ = std::min(0.6 * params.cycle_s, moving_s_ - up_s_);
   const double hurry = wanted_s / std::max(up_s_, 1e-9);  // above 1 on a way too short for the speed
   if (hurry > 1.0) speed_m_s_ /= hurry * hurry;
+  // Feet turn with the body, step by step.
+  const double most_rad_s = (rows_ > 1 ? kTurnOfMany_rad : kTurn_rad) / params.cycle_s;
+  turn_s_ = params.turn_rad == 0.0 ? 0.0 : std::min(moving_s_, std::fabs(params.turn_rad) / most_rad_s + turn_ramp_s());
+  const double most_rad = most_rad_s * std::max(0.0, turn_s_ - turn_ramp_s());
+  turn_rad_ = std::clamp(params.turn_rad, -most_rad, most_rad);
 }
 
 double GaitTiming::phase(const Leg& leg) const {
   const int side = leg.side == params_.lead ? 0 : 1;
   if (params_.trot) return 0.5 * ((side + leg.row) % 2);
   return 0.5 * side + 0.5 * leg.row / rows_;
+}
+
+double GaitTiming::since_landing(const Leg& leg, double time_s) const {
+  const double cycles = time_s / params_.cycle_s + phase(leg);
+  return cycles - std::floor(cycles);
 }
 
 FootCycle GaitTiming::cycle(const Leg& leg, double time_s) const {
@@ -50,6 +72,8 @@ double GaitTiming::first_lift_s(const Leg& leg) const {
   return (cycles < 0.0 ? cycles + 1.0 : cycles) * params_.cycle_s;
 }
 
+double GaitTiming::lands_s(const Leg& leg, int step) const { return (step - phase(leg)) * params_.cycle_s; }
+
 double GaitTiming::lifted_s(const Leg& leg, int step) const {
   return (step + params_.duty - phase(leg)) * params_.cycle_s;
 }
@@ -59,10 +83,20 @@ double GaitTiming::middle_s(const Leg& leg, int step) const {
 }
 
 double GaitTiming::travelled_m(double time_s) const {
-  const double t = std::clamp(time_s, 0.0, moving_s_);
-  if (t <= moving_s_ - down_s_) return speed_m_s_ * ramped_s(t, up_s_);
-  const double whole = ramped_s(moving_s_ - down_s_, up_s_) + ramped_s(down_s_, down_s_);
-  return speed_m_s_ * (whole - ramped_s(moving_s_ - t, down_s_));
+  return speed_m_s_ * eased_s(time_s, moving_s_, up_s_, down_s_);
+}
+
+double GaitTiming::speed_m_s(double time_s) const {
+  if (time_s <= 0.0 || time_s >= moving_s_) return 0.0;
+  const double rise = up_s_ > 0.0 ? ramp(std::min(1.0, time_s / up_s_)) : 1.0;
+  const double fall = down_s_ > 0.0 ? ramp(std::min(1.0, (moving_s_ - time_s) / down_s_)) : 1.0;
+  return speed_m_s_ * std::min(rise, fall);
+}
+
+double GaitTiming::turned(double time_s) const {
+  if (turn_s_ <= 0.0) return 1.0;
+  const double ramp_s = std::min(turn_ramp_s(), 0.5 * turn_s_);
+  return eased_s(time_s, turn_s_, ramp_s, ramp_s) / eased_s(turn_s_, turn_s_, ramp_s, ramp_s);
 }
 
 double GaitTiming::step_share(double time_s) const {

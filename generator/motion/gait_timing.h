@@ -21,18 +21,27 @@ class GaitTiming {
   GaitTiming(const GaitParams& params, std::span<const Leg> legs, double duration_s);
 
   FootCycle cycle(const Leg& leg, double time_s) const;
+  double since_landing(const Leg& leg, double time_s) const;  // as a share of the cycle, [0, 1)
 
-  // When a foot is lifted from a stance, and when the hips come over it; negative before the course began.
+  // When a stance begins, when its foot is lifted, and when the hips come over it; negative before the course began.
+  double lands_s(const Leg& leg, int step) const;
   double lifted_s(const Leg& leg, int step) const;
   double middle_s(const Leg& leg, int step) const;
 
   // The root's way. It ends a cycle early, so that every foot has the time to come home.
   double travelled_m(double time_s) const;
 
+  // The root's speed, and the share of the body's turn that is made, [0, 1].
+  double speed_m_s(double time_s) const;
+  double turned(double time_s) const;
+  double turn_rad() const { return turn_rad_; }  // as much of the wanted turn as there is time for
+  double turn_s() const { return turn_s_; }      // that it takes
+
   // The way of half a cycle about a time, as a share of that at full speed.
   double step_share(double time_s) const;
 
  private:
+  double turn_ramp_s() const { return 0.5 * params_.cycle_s; }  // in which a turn gets as fast as it is, and slow again
   double phase(const Leg& leg) const;
   double first_lift_s(const Leg& leg) const;
 
@@ -42,6 +51,8 @@ class GaitTiming {
   double moving_s_ = 0.0;  // then the root stands again
   double up_s_ = 0.0;      // for which its speed rises
   double down_s_ = 0.0;    // and falls
+  double turn_rad_ = 0.0;
+  double turn_s_ = 0.0;
 };
 
 }  // namespace contort

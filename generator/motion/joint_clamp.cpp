@@ -98,6 +98,16 @@ void clamp_to_range(const Joint& joint, double* coords) {
   coords[0] = std::clamp(coords[0], joint.low, joint.high);
 }
 
+bool is_in_range(const Joint& joint, std::span<const double> row) {
+  constexpr double kInRange = 1e-10;
+  if (joint.kind == JointKind::root) return true;
+  const double* coords = row.data() + joint.coord;
+  std::array<double, 4> clamped{};
+  std::copy_n(coords, coord_size(joint.kind), clamped.begin());
+  clamp_to_range(joint, clamped.data());
+  return joint_way(joint, coords, clamped.data()) <= kInRange;
+}
+
 bool clamp_part(const Character& character, std::size_t part, Posture& posture) {
   constexpr double kMoved = 1e-4;
   bool moved = false;

@@ -1,6 +1,8 @@
 // A joint's range: clamping, and how far inside of it a posture is. The check that judges ranges has its own arithmetic.
 #pragma once
 
+#include <span>
+
 #include "model/character/character.h"
 #include "model/motion/motion.h"
 
@@ -24,6 +26,9 @@ void set_swing_twist(const Joint& ball, const SwingTwist& at, double* coords);
 // that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. What is not a
 // number goes to the middle of the range.
 void clamp_to_range(const Joint& joint, double* coords);
+
+// Whether the joint is in its range, 1e-10 rad or m forgiven. `row` is a whole posture.
+bool is_in_range(const Joint& joint, std::span<const double> row);
 
 // Moves all joints of a part into their ranges; true if one of them was moved by more than 1e-4 rad or m.
 bool clamp_part(const Character& character, std::size_t part, Posture& posture);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "generator/motion/arm_swing.h"
 #include "model/core/index.h"
 #include "model/geometry/solid_points.h"
 #include "model/motion/kinematics.h"
@@ -17,6 +18,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 // The gaps that are wanted, where the figure at rest has as much. Hands hold objects.
 constexpr double kSafe_m = 0.008;
 constexpr double kSafeInHands_m = 0.001;
+constexpr double kTouch_m = 0.001;
 constexpr double kSink_m = 0.002;  // of feet that stand, on ground that is not quite level
 
 int child_count(const Character& character, int part) {
@@ -105,6 +107,8 @@ void LimbRoom::begin_pairs() {
     const bool is_in_hands = (is_object(pair.body_a) && has_grip(b)) || (is_object(pair.body_b) && has_grip(a));
     safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, -1, before_)));
   }
+  swings_.clear();
+  for (const Limb& limb : limbs_) swings_.push_back(is_free_arm(*character_, feet_->legs(), limb.parts.front()));
   begin_ground();
 }
 
@@ -218,6 +222,17 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
     if (limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]) || feet_->is_planted(at(leg)))
       least = std::min(least, feet_->room_m(at(leg), world));
   return least;
+}
+
+bool LimbRoom::swings(int limb) const { return limb >= 0 && swings_[at(limb)] != 0; }
+
+bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
+  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
+    const JudgedPair& pair = character_->judged_pairs()[at(p)];
+    const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)];
+    return !swings(a) && !swings(b) && !holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a) &&
+           distance_m(p, -1, world) < std::min(kTouch_m, safe_m_[at(p)]);
+  });
 }
 
 // Whether the limb with one body holds the other one.

@@ -53,6 +53,10 @@ class LimbRoom {
   // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
 
+  // Whether bodies of this part's limb are within a millimetre of others, or deeper, where all joints are as in `world`.
+  // Arms that swing with a gait get out of the way, and do not count.
+  bool touches(std::size_t part, std::span<const Rigid> world);
+
  private:
   bool is_moved_by(int limb, int other) const;
   std::size_t part_of(int body) const;
@@ -60,6 +64,7 @@ class LimbRoom {
   bool holds(int body, int object) const;
   bool is_leg(int limb) const;
   bool has_grip(int limb) const;
+  bool swings(int limb) const;
   const std::string& kind_of(int limb) const;
   void begin_bodies();
   void begin_pairs();
@@ -77,6 +82,7 @@ class LimbRoom {
   std::vector<int> limb_of_;              // by part; -1 of the root part
   std::vector<Rigid> before_;             // by joint
   std::vector<std::vector<int>> pairs_;   // by limb: judged pairs whose distance it changes
+  std::vector<char> swings_;              // by limb: it is an arm that swings with a gait
   std::vector<int> held_;                 // by limb: the body of what it holds, or -1
   std::vector<double> safe_m_;            // by judged pair: the gap that it must have
   std::vector<std::vector<int>> bodies_;  // by limb: its own and those that it carries, but those of legs

@@ -1,7 +1,6 @@
 #include "generator/motion/stand_on.h"
 
 #include <algorithm>
-#include <array>
 
 #include "generator/motion/foot_roll.h"
 #include "generator/motion/joint_clamp.h"
@@ -14,17 +13,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kInRange = 1e-10;  // rad or m
 constexpr double kStands_m = 1e-3;  // a sole that is missed by less is reached
-
-bool is_in_range(const Joint& joint, std::span<const double> row) {
-  if (joint.kind == JointKind::root) return true;
-  const double* coords = row.data() + joint.coord;
-  std::array<double, 4> clamped{};
-  std::copy_n(coords, coord_size(joint.kind), clamped.begin());
-  clamp_to_range(joint, clamped.data());
-  return joint_way(joint, coords, clamped.data()) <= kInRange;
-}
 
 bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& sole,
           std::span<double> row) {
@@ -39,7 +28,7 @@ bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, co
 template <class Good>
 double least_angle(Good is_good) {
   constexpr double kStep_rad = 0.1, kMost_rad = 1.2;
-  constexpr int kAngleHalvings = 13;
+  constexpr int kAngleHalvings = 28;
   double high = kStep_rad;
   while (high <= kMost_rad && !is_good(high)) high += kStep_rad;
   if (high > kMost_rad) return -1.0;

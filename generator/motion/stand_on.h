@@ -1,11 +1,11 @@
 // Feet that stay on the ground under hips that move.
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "generator/motion/gait.h"
 #include "generator/motion/limb_room.h"
+#include "model/core/function_ref.h"
 #include "model/motion/legs.h"
 
 namespace contort {
@@ -22,9 +22,9 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
 
 // Hips on their way down over feet that stand, and back up.
 struct Bend {
-  std::function<GaitFrame(double)> frame_at;  // for a share of the way, [0, 1]
-  double takes_s = 0.0;                       // from begin to end
-  double peak = 1.0;                          // the greatest rate of the share, in whole ways for each such time
+  FunctionRef<GaitFrame(double)> frame_at;  // for a share of the way, [0, 1]
+  double takes_s = 0.0;                     // from begin to end
+  double peak = 1.0;                        // the greatest rate of the share, in whole ways for each such time
 };
 
 // Memory for trials, as long as a character's joints and coordinates.

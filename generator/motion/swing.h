@@ -13,6 +13,7 @@ struct Step {
   Rigid to;
   double bump_m = 0.0;     // how high it is lifted over the straight way
   double margin = 0.0;     // the share of the swing before it goes forward, and after
+  double rise = 0.25, fall = 0.25, late = 0.0;  // of GaitParams
   double landed_up = 0.0;  // shares of the largest roll, [0, 1]: of the toes when it came to `from`,
   double leaves_up = 0.0;  // of the heel when it leaves there,
   double lands_up = 0.0;   // of the toes when it comes to `to`

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "tests/stage_evaluator.h"
-#include "generator/generate.h"
+#include "generator/execute.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
 
@@ -21,6 +21,7 @@ struct Walked {
   double travel_m = 0.0;  // of the root
   int steps = 0;          // swings of all feet
   int range_findings = 0;
+  bool is_unmet = false;  // the generator says that legs cannot go so fast
 };
 
 EnvironmentDesc noise_field() {
@@ -112,6 +113,7 @@ class Walks : public ::testing::Test {
       }
     }
     out.travel_m = length(motion.root.back().p_m - motion.root.front().p_m);
+    out.is_unmet = !intent_of(stage).unmet.empty();
     StageEvaluator evaluator;
     for (const Finding& finding : evaluator.judge(*stage.character, motion, "joint_range")) {
       ++out.range_findings;
@@ -142,8 +144,10 @@ TEST_F(Walks, FeetStandStillAndStayAboveTheGround) {
                   walked.travel_m, walked.steps, walked.range_findings);
       EXPECT_LT(walked.slide_m, 5e-3) << character << " on " << ground;
       EXPECT_LT(walked.depth_m, 5e-3) << character << " on " << ground;
-      EXPECT_GT(walked.steps, 4) << character << " on " << ground;
-      EXPECT_GT(walked.travel_m, 2.5) << character << " on " << ground;
+      EXPECT_EQ(walked.range_findings, 0) << character << " on " << ground;
+      EXPECT_TRUE(walked.is_unmet || walked.steps > 4) << character << " on " << ground;
+      EXPECT_TRUE(walked.is_unmet || walked.travel_m > 2.5) << character << " on " << ground;
+      EXPECT_FALSE(walked.is_unmet && ground == "level") << character;
     }
 }
 

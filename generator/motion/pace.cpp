@@ -1,0 +1,94 @@
+#include "generator/motion/pace.h"
+
+#include <algorithm>
+#include <array>
+
+#include "generator/motion/joint_clamp.h"
+#include "generator/motion/place_foot.h"
+#include "generator/motion/way.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr std::array kPaces = {1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1};
+constexpr double kOfSpeed = 0.985;         // of a joint's greatest speed: room for what the frames in between do
+constexpr double kShortestRise_s = 0.0205;  // from rest to a joint's greatest speed
+constexpr int kMostJoints = 64;            // of legs that are tried
+
+class Trial {
+ public:
+  Trial(const Character& character, LimbRoom& room, const CourseTrial& course, std::span<const Rigid> world,
+        const TrialSpace& scratch, std::span<double> row)
+      : character_(character), room_(room), course_(course), world_(world), scratch_(scratch), row_(row) {}
+
+  bool fits(Gait gait, double pace) {
+    steps_ = {};
+    is_first_ = true, knows_step_ = false;
+    const int frames = static_cast<int>(course_.lasts_s / course_.step_s);
+    for (int n = 0; n <= frames; ++n) {
+      place(course_.frame_at(gait, pace, n * course_.step_s));
+      if (!keeps_joints() || !has_room()) return false;
+      std::ranges::copy(row_, scratch_.row.begin());
+      knows_step_ = !is_first_, is_first_ = false;
+    }
+    return true;
+  }
+
+ private:
+  std::span<const Leg> legs() const { return room_.feet().legs(); }
+
+  void place(const GaitFrame& frame) {
+    const Rigid moved = frame.root * inverse(world_[0]);
+    std::ranges::transform(world_, scratch_.world.begin(), [&](const Rigid& joint) { return moved * joint; });
+    for (std::size_t i = 0; i < legs().size(); ++i) {
+      stand_on(character_, legs()[i], scratch_.world, frame.feet[i].world_from_sole, row_);
+    }
+  }
+
+  bool keeps_joints() {
+    int index = 0;
+    for (const Leg& leg : legs())
+      for (const int j : leg.joints)
+        if (!keeps_joint(character_.joint(j), steps_[at(std::min(index++, kMostJoints - 1))])) return false;
+    return true;
+  }
+
+  bool keeps_joint(const Joint& joint, Vec3& last_step) {
+    if (!is_in_range(joint, row_)) return false;
+    if (is_first_) return true;
+    const Vec3 step = joint_way_vector(joint, scratch_.row.data() + joint.coord, row_.data() + joint.coord);
+    const double most = kOfSpeed * joint.max_speed * course_.frame_s;
+    const bool is_smooth = !knows_step_ || length(step - last_step) <= most * course_.frame_s / kShortestRise_s;
+    last_step = step;
+    return length(step) <= most && is_smooth;
+  }
+
+  bool has_room() {
+    return std::ranges::none_of(legs(),
+                                [&](const Leg& leg) { return room_.touches(at(leg.foot_part), scratch_.world); });
+  }
+
+  const Character& character_;
+  LimbRoom& room_;
+  const CourseTrial& course_;
+  std::span<const Rigid> world_;
+  const TrialSpace& scratch_;
+  std::span<double> row_;
+  std::array<Vec3, kMostJoints> steps_{};  // of joints of legs, in the frame before
+  bool is_first_ = true;
+  bool knows_step_ = false;
+};
+
+}  // namespace
+
+double fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
+                    std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
+  Trial trial(character, room, course, world, scratch, row);
+  const auto found = std::ranges::find_if(kPaces, [&](double pace) { return trial.fits(begun, pace); });
+  return found == kPaces.end() ? 0.0 : *found;
+}
+
+}  // namespace contort
