@@ -86,12 +86,12 @@ struct Tracked {
   double drift_m = 0.0;    // of a sole
 };
 
-// A squat of 1.5 s and a second of rest at 30 Hz.
+// A squat of 1.5 s on flat feet and a second of rest at 30 Hz.
 Stage squat() {
   Spec spec;
   spec.rate_hz = 30.0;
   spec.hold_frames = 30;
-  spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}})})};
+  spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}, {"lean_deg", 25.0}, {"back_m", 0.12}})})};
   const Result<Stage> stage = build_stage(spec, stock_library());
   EXPECT_TRUE(stage.ok());
   return *stage;
