@@ -21,6 +21,7 @@ constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.0};
 constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets out of the way
 constexpr int kRounds = 2;
 constexpr double kRise_s = 0.022;  // from rest to the greatest speed
+constexpr double kCoast = 0.35;   // of its last step: the way of a joint that stops as soon as it can
 constexpr double kLifted = 0.7;    // of a joint's greatest speed, while a foot is lifted
 constexpr double kMore_m = 1e-5;  // rounding must not choose
 
@@ -51,6 +52,13 @@ struct Clearance::Case {
       else if (feet.is_planted(at(leg)))
         feet.plant(at(leg), world, shown.coords);
   }
+  // Whether a leg that the limb carries keeps its foot where it stood.
+  bool plants() const {
+    return std::ranges::any_of(limb.legs, [&](int leg) {
+      return feet.is_planted(at(leg)) && !limb.is_its_own(feet.legs()[at(leg)]);
+    });
+  }
+
   // Where a foot is lifted, or stays where it stood, joints are faster than the way that the limb was to go.
   bool concerns_feet() const {
     return std::ranges::any_of(limb.legs, [&](int leg) {
@@ -72,7 +80,7 @@ struct Clearance::Case {
   // A blend along the edge of a range may be longer than its ends are apart. The knee of a leg that starts from straight
   // gets fast at once, and must be able to stop at once.
   bool is_slow() const {
-    const double share = is_lifted ? kLifted : 1.0;
+    const double share = is_lifted || plants() ? kLifted : 1.0;
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
   bool is_smooth() const {
@@ -82,6 +90,17 @@ struct Clearance::Case {
       const Vec3 last = joint_way_vector(joint, earlier + joint.coord, before + joint.coord);
       return length(step_of(j) - last) <= greatest_step(j) * past.frame_s / kRise_s;
     });
+  }
+  // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
+  bool can_stop() {
+    const double most = past.frame_s / kRise_s;
+    if (all_joints([&](int j) { return length(step_of(j)) <= most * greatest_step(j); })) return true;
+    save();
+    for (const int p : limb.parts) blend_part(character, at(p), past.before, saved, 1.0 + kCoast, shown);
+    const bool is_clear_there = room_m() >= -kTooNear_m;
+    restore();
+    place();
+    return is_clear_there;
   }
   Vec3 step_of(int j) const {
     const Joint& joint = character.joint(j);
@@ -97,7 +116,8 @@ struct Clearance::Case {
   // The greatest share of the way that is clear, and smooth if there is one.
   bool stop_on_the_way() {
     const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
-    return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
+    return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth() && can_stop(); }) ||
+           std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
            std::ranges::any_of(kShares, is_good);
   }
 
@@ -166,7 +186,7 @@ Clearance::Kept Clearance::keep(std::size_t part, const Past& past, Posture& sho
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, world};
   const double wanted_m = now.room_m();
-  const bool is_easy = !now.concerns_feet() || (now.is_slow() && now.is_smooth());
+  const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;
   if (wanted_m >= kSlowsDown_m && is_easy) return as_wanted;
   now.go(0.0);

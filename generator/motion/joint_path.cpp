@@ -58,6 +58,19 @@ double stopping_in_range(const Joint& joint, double now, double speed, double ch
 // Rounding puts a joint at the end of its range a little beyond.
 bool is_inside(const Joint& joint, const double* coords) { return normalised_margin(joint, coords) >= -1e-6; }
 
+// A ball that comes to the edge of its range goes on along it, in another direction: it slows down before, so that it can
+// turn at once.
+Vec3 braking_at_edge(const Joint& ball, const double* now, const Vec3& aim, double speed, const Limits& limits) {
+  constexpr double kTurns = 0.3;  // of the greatest speed
+  const double wanted = length(aim);
+  if (!(wanted > kTurns * limits.speed) || !(limits.change > 0.0)) return aim;
+  const double coast = 0.5 * speed * speed / limits.change;
+  std::array<double, 4> ahead{};
+  go(ball, now, aim * ((wanted + coast) / wanted), ahead.data());
+  if (is_inside(ball, ahead.data())) return aim;
+  return shortened(aim, std::max(kTurns * limits.speed, speed - limits.change));
+}
+
 // Goes a step, along the edge of the range where it would leave that. Where the edge would make it longer than the joint
 // can go, it is shortened, at last to nothing.
 void go_inside(const Joint& joint, const double* now, const Vec3& step, bool stays_inside, double* out) {
@@ -101,6 +114,8 @@ bool JointPath::follow_joint(int j, double* coords) {
   Vec3 aim = shortened(shortened(wanted_speed, gentle.speed) + towards, gentle.speed);
   const bool stays_inside = is_inside(joint, now) && is_inside(joint, coords);
   if (stays_inside && joint.kind != JointKind::ball) aim.x = stopping_in_range(joint, now[0], aim.x, gentle.change);
+  if (stays_inside && joint.kind == JointKind::ball)
+    aim = braking_at_edge(joint, now, aim, length(state.speed), gentle);
   const Vec3 step = state.speed + shortened(aim - state.speed, gentle.change);
   go_inside(joint, now, step, stays_inside, coords);
   state = {joint_way_vector(joint, now, coords), true};

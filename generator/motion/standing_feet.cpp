@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "generator/motion/ik.h"
 #include "generator/motion/joint_clamp.h"
 #include "generator/motion/place_foot.h"
+#include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 
@@ -52,13 +54,14 @@ bool StandingFeet::is_planted(std::size_t leg) const {
 void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> world) {
   const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
   const double height = height_m(leg, sole);
+  const bool stays_idle = use_[leg] == LegUse::idle && use == LegUse::idle;
   use_[leg] = use;
-  if (is_planted(leg) || (use == LegUse::acts && stood_[leg] && height <= kFree_m)) return;
+  if ((stays_idle && is_planted(leg)) || (use == LegUse::acts && stood_[leg] && height <= kFree_m)) return;
   stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
 }
 
-void StandingFeet::put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {
-  place_foot(*character_, legs_[leg], world, sole, row);
+// Joints that are out of their ranges are brought back.
+void StandingFeet::place(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
   for (const int j : legs_[leg].joints) {
     clamp_to_range(character_->joint(j), row.data() + character_->joint(j).coord);
     forward_kinematics(*character_, row, j, j + 1, world);
@@ -69,8 +72,10 @@ bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<doub
   const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
   const bool is_there = length(sole.p_m - stood_[leg]->p_m) < kThere &&
                         rotation_angle(glm::conjugate(sole.q) * stood_[leg]->q) < kThere;
-  if (!is_there) put(leg, *stood_[leg], world, row);
-  return !is_there;
+  if (is_there) return false;
+  place_foot(*character_, legs_[leg], world, *stood_[leg], row);
+  place(leg, world, row);
+  return true;
 }
 
 double StandingFeet::spare_m(std::size_t leg, const Rigid& sole) const {
@@ -90,13 +95,33 @@ double StandingFeet::room_m(std::size_t leg, std::span<const Rigid> world) const
   return spare_m(leg, world_from_socket(*character_, world, legs_[leg].sole));
 }
 
+// The swivel of the leg's chain as it stands in `world`: its twist about the line from hip to ankle, as seen from the
+// posture of swivel 0. Straight legs have one, too.
+double StandingFeet::swivel_of(const ReachChain& chain, const Vec3& ankle, std::span<Rigid> world,
+                               std::span<double> row) const {
+  const Rigid upper = world[at(chain.upper_last)];
+  const Vec3 line = unit_or(ankle - world[at(chain.upper)].p_m, Vec3(0, -1, 0));
+  reach_for(*character_, chain, world, ankle, 0.0, row);
+  forward_kinematics(*character_, row, chain.upper, chain.upper_last + 1, world);
+  const Quat turn = upper.q * glm::conjugate(world[at(chain.upper_last)].q);
+  return 2.0 * det::atan2(glm::dot(Vec3(turn.x, turn.y, turn.z), line), turn.w);
+}
+
 bool StandingFeet::lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  constexpr int kRounds = 6;  // the sole turns with the leg, which may lower an end of it
   if (!stood_[leg]) return false;
-  Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
-  const double missing_m = -spare_m(leg, sole);
+  const Rigid wanted = world_from_socket(*character_, world, legs_[leg].sole);
+  double missing_m = -spare_m(leg, wanted), lifted_m = 0.0;
   if (missing_m <= 0.0) return false;
-  sole.p_m.y += missing_m;
-  put(leg, sole, world, row);
+  const ReachChain& chain = character_->parts()[at(legs_[leg].part)].reach.front();
+  const Vec3 ankle = world_from_socket(*character_, world, chain.tip).p_m;
+  const double swivel_rad = swivel_of(chain, ankle, world, row);
+  for (int round = 0; round < kRounds && missing_m > 1e-9; ++round) {
+    lifted_m += missing_m;
+    reach_for(*character_, chain, world, ankle + Vec3(0.0, lifted_m, 0.0), swivel_rad, row);
+    place(leg, world, row);
+    missing_m = -room_m(leg, world);
+  }
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "generator/execute.h"
+#include "generator/motion/limb_room.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 #include "tests/character/stock.h"
@@ -72,7 +73,7 @@ TEST(StandingFeet, AFootIsLiftedTheMoreTheFartherItGoes) {
     human.turn(human.legs[0].part, angle_rad);
     ASSERT_LT(human.feet.room_m(0, human.world), 0.0) << angle_rad;
     ASSERT_TRUE(human.feet.lift(0, human.world, human.row)) << angle_rad;
-    EXPECT_GE(human.feet.room_m(0, human.world), -1e-9) << angle_rad;
+    EXPECT_GE(human.feet.room_m(0, human.world), -kTooNear_m) << angle_rad;
     EXPECT_GT(human.sole(0).p_m.y, lifted_m) << angle_rad;
     lifted_m = human.sole(0).p_m.y;
   }
