@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "generator/motion/ik.h"
 #include "generator/motion/joint_clamp.h"
 #include "generator/motion/place_foot.h"
-#include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 
@@ -60,8 +58,8 @@ void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> worl
   stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
 }
 
-// Joints that are out of their ranges are brought back.
-void StandingFeet::place(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+void StandingFeet::put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {
+  place_foot(*character_, legs_[leg], world, sole, row);
   for (const int j : legs_[leg].joints) {
     clamp_to_range(character_->joint(j), row.data() + character_->joint(j).coord);
     forward_kinematics(*character_, row, j, j + 1, world);
@@ -72,10 +70,8 @@ bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<doub
   const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
   const bool is_there = length(sole.p_m - stood_[leg]->p_m) < kThere &&
                         rotation_angle(glm::conjugate(sole.q) * stood_[leg]->q) < kThere;
-  if (is_there) return false;
-  place_foot(*character_, legs_[leg], world, *stood_[leg], row);
-  place(leg, world, row);
-  return true;
+  if (!is_there) put(leg, *stood_[leg], world, row);
+  return !is_there;
 }
 
 double StandingFeet::spare_m(std::size_t leg, const Rigid& sole) const {
@@ -95,33 +91,13 @@ double StandingFeet::room_m(std::size_t leg, std::span<const Rigid> world) const
   return spare_m(leg, world_from_socket(*character_, world, legs_[leg].sole));
 }
 
-// The swivel of the leg's chain as it stands in `world`: its twist about the line from hip to ankle, as seen from the
-// posture of swivel 0. Straight legs have one, too.
-double StandingFeet::swivel_of(const ReachChain& chain, const Vec3& ankle, std::span<Rigid> world,
-                               std::span<double> row) const {
-  const Rigid upper = world[at(chain.upper_last)];
-  const Vec3 line = unit_or(ankle - world[at(chain.upper)].p_m, Vec3(0, -1, 0));
-  reach_for(*character_, chain, world, ankle, 0.0, row);
-  forward_kinematics(*character_, row, chain.upper, chain.upper_last + 1, world);
-  const Quat turn = upper.q * glm::conjugate(world[at(chain.upper_last)].q);
-  return 2.0 * det::atan2(glm::dot(Vec3(turn.x, turn.y, turn.z), line), turn.w);
-}
-
 bool StandingFeet::lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
-  constexpr int kRounds = 6;  // the sole turns with the leg, which may lower an end of it
   if (!stood_[leg]) return false;
-  const Rigid wanted = world_from_socket(*character_, world, legs_[leg].sole);
-  double missing_m = -spare_m(leg, wanted), lifted_m = 0.0;
+  Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
+  const double missing_m = -spare_m(leg, sole);
   if (missing_m <= 0.0) return false;
-  const ReachChain& chain = character_->parts()[at(legs_[leg].part)].reach.front();
-  const Vec3 ankle = world_from_socket(*character_, world, chain.tip).p_m;
-  const double swivel_rad = swivel_of(chain, ankle, world, row);
-  for (int round = 0; round < kRounds && missing_m > 1e-9; ++round) {
-    lifted_m += missing_m;
-    reach_for(*character_, chain, world, ankle + Vec3(0.0, lifted_m, 0.0), swivel_rad, row);
-    place(leg, world, row);
-    missing_m = -room_m(leg, world);
-  }
+  sole.p_m.y += missing_m;
+  put(leg, sole, world, row);
   return true;
 }
 

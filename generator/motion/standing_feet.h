@@ -37,8 +37,7 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // Lifts the foot by what it lacks to move over the ground without sliding, as nearly as 0.1 mm: hip and knee bend in
-  // the plane of the leg, and the sole turns with them. True if that was anything.
+  // Lifts the foot by what it lacks to move over the ground without sliding. True if that was anything.
   bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
   // The height that the foot has to spare, m: a foot that goes elsewhere must be the higher the farther it is from where
@@ -46,8 +45,7 @@ class StandingFeet {
   double room_m(std::size_t leg, std::span<const Rigid> world) const;
 
  private:
-  void place(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
-  double swivel_of(const ReachChain& chain, const Vec3& ankle, std::span<Rigid> world, std::span<double> row) const;
+  void put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const;
   double height_m(std::size_t leg, const Rigid& sole) const;
   double spare_m(std::size_t leg, const Rigid& sole) const;
 
