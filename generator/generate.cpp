@@ -212,7 +212,10 @@ class Generation {
 
   void begin(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& present, Posture& from) {
     copy_part(character_, p, present, from);
-    if (p == 0 && moves_legs(playback, hold)) s_.rules.body(planned(playback, hold)).seen_soles = s_.carry.soles();
+    if (p != 0 || !moves_legs(playback, hold)) return;
+    std::array<Rigid, kMaxLegs>& seen = s_.rules.body(planned(playback, hold)).seen_soles;
+    seen = s_.carry.soles_in(s_.rules.world());
+    s_.shift_count += seen != s_.carry.soles();
   }
 
   void overwrite(const Playback& playback, std::size_t p, bool begins) {
@@ -283,7 +286,15 @@ class Generation {
     s_.spans.additive(playback.frame(), call.action);
     s_.added[p] = 1;
     const Posture& moved = s_.rules.run(playback, call, p, shown, shown, s_.carry.stands_at());
-    blend_part(character_, p, shown, moved, weight, shown);
+    blend_part(character_, p, shown, moved, weight * freedom(playback, p), shown);
+  }
+
+  // The share of an additive that a part shows.
+  double freedom(const Playback& playback, std::size_t p) const {
+    const LayerHold& course = s_.stacks[0].ik();
+    if (course.action < 0 || !moves_legs(playback, course)) return 1.0;
+    const GaitFrame& frame = s_.rules.body(planned(playback, course)).frame;
+    return freedom_of(frame, stage_.legs, stage_.environment, static_cast<int>(p));
   }
 
   static bool is_cut(const Playback& playback, const LayerHold& hold) {

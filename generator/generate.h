@@ -50,7 +50,7 @@ struct GenerateScratch {
   Past past;                       // what was shown
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
-  int shift_count = 0;             // of limbs in frames, since the motion began
+  int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion

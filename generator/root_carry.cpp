@@ -1,6 +1,7 @@
 #include "generator/root_carry.h"
 
 #include "generator/motion/place_foot.h"
+#include "generator/motion/way.h"
 
 #include "model/motion/kinematics.h"
 
@@ -35,6 +36,16 @@ void RootCarry::begin(const Stage& stage, std::span<Rigid> world, Posture& postu
 void RootCarry::remember(const GaitFrame& frame) {
   stands_at_ = frame.stands_at;
   for (std::size_t i = 0; i < stage_->legs.size(); ++i) soles_[i] = frame.feet[i].world_from_sole;
+}
+
+std::array<Rigid, kMaxLegs> RootCarry::soles_in(std::span<const Rigid> world) const {
+  constexpr double kElsewhere_s = 0.102;  // the way to a sole that is more than 1 mm or 0.2 degrees away
+  std::array<Rigid, kMaxLegs> soles = soles_;
+  for (std::size_t leg = 0; leg < stage_->legs.size(); ++leg) {
+    const Rigid shown = world_from_socket(*stage_->character, world, stage_->legs[leg].sole);
+    if (way_s(soles[leg], shown) > kElsewhere_s) soles[leg] = shown;
+  }
+  return soles;
 }
 
 void RootCarry::bring_along(Rigid& base_root) {

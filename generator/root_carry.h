@@ -27,7 +27,10 @@ class RootCarry {
 
   // A turn about +Y and a place on the plane y = 0.
   const Rigid& stands_at() const { return stands_at_; }
-  const std::array<Rigid, kMaxLegs>& soles() const { return soles_; }
+  const std::array<Rigid, kMaxLegs>& soles() const { return soles_; }  // where legs have put them
+
+  // The soles in a posture: where legs have put them, or elsewhere, where another action has moved a leg.
+  std::array<Rigid, kMaxLegs> soles_in(std::span<const Rigid> world) const;
   LegsBelow below() const { return {*stage_->character, stage_->legs, stage_->environment}; }
 
  private:

@@ -37,6 +37,7 @@ class RuleRunner {
   LimbRoom& room() { return room_; }
   StandingFeet& feet() { return feet_; }
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
+  const WholeBody& body(const PlannedAction& action) const { return bodies_[at(action.use)]; }
   std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
   std::span<Rigid> world() { return world_; }                       // by joint
 

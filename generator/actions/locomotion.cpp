@@ -114,12 +114,19 @@ double heading_rad(const RuleInput& in) {
 
 using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad);
 
-// A straight walk needs no trial up to this square root of its Froude number.
+// A straight walk from where the feet stand needs no trial up to this square root of its Froude number.
 constexpr double kEasy = 0.4;
+
+bool begins_on_its_feet(const RuleInput& in) {
+  constexpr double kStands_m = 0.002;
+  for (std::size_t leg = 0; leg < in.legs.size(); ++leg)
+    if (length(in.body.seen_soles[leg].p_m - in.body.first_soles[leg].p_m) > kStands_m) return false;
+  return true;
+}
 
 bool is_easy(const RuleInput& in, const GaitParams& params) {
   return in.environment.is_level() && params.heading_rad == 0.0 && params.turn_rad == 0.0 && !params.trot &&
-         in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy;
+         in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy && begins_on_its_feet(in);
 }
 
 GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kApproach = 0.65;
 constexpr double kSlowsDown_m = kApproach * kRoomBand_m;  // with more room it has not lost too much of any
 constexpr double kCreep_m = 0.003;  // in a frame, which is slow enough to stop at once
-constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.0};
+constexpr std::array kShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0};
 constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets out of the way
 constexpr int kRounds = 2;
 constexpr double kRise_s = 0.022;  // from rest to the greatest speed

@@ -43,6 +43,16 @@ double half_cycle_share(const GaitParams& params, double time_s) {
 
 }  // namespace
 
+double freedom_of(const GaitFrame& frame, std::span<const Leg> legs, const Environment& environment, int part) {
+  constexpr double kFree_m = 0.05;  // above the ground
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    if (legs[leg].part != part && legs[leg].foot_part != part) continue;
+    const Vec3& sole = frame.feet[leg].world_from_sole.p_m;
+    return minimum_jerk(std::clamp((sole.y - environment.height_at(sole.x, sole.z)) / kFree_m, 0.0, 1.0));
+  }
+  return 1.0;
+}
+
 void Gait::begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
                  const Rigid& world_from_start, std::span<const Rigid> seen_soles) {
   character_ = &character, legs_ = legs, environment_ = &environment;

@@ -13,8 +13,8 @@ namespace {
 // Two failing cases of the human.
 class CrowdedCases : public ::testing::Test {
  protected:
-  Ran fuzz(const std::string& corpus, int shrinks_per_case, int evaluations = 60) const {
-    return contort_program({"fuzz", "--profile", "smoke", "--character", "human", "--seed", "12", "--cases", "2",
+  Ran fuzz(const std::string& corpus, int shrinks_per_case, int evaluations = 60, int seed = 12) const {
+    return contort_program({"fuzz", "--profile", "smoke", "--character", "human", "--seed", std::to_string(seed), "--cases", "2",
                             "--shrink-evaluations", std::to_string(evaluations), "--shrinks-per-case",
                             std::to_string(shrinks_per_case), "--corpus", corpus});
   }
@@ -46,25 +46,31 @@ TEST_F(CrowdedCases, NothingIsSaidOfLateOnesWhereAllAreShrunk) {
   EXPECT_EQ(all.out.find("came only behind"), std::string::npos) << all.out;
 }
 
-// On the screen, in the bucket, and where the case is shrunk again.
+// On the screen, in the bucket, and where the case is shrunk again. Seeds are tried until both were seen: which cases come
+// with others changes with the generator.
 TEST_F(CrowdedCases, WhatComesWithAFailureIsToldWithIt) {
-  const Ran ran = fuzz(folder_ / "corpus", 1);
-  const Result<Corpus> corpus = Corpus::open(folder_ / "corpus");
-  ASSERT_TRUE(corpus);
-  std::vector<Issue> damaged;
-  int with_others = 0;
-  for (const Bucket& bucket : corpus->buckets(damaged)) {
-    const std::string file = corpus->folder_of(bucket) + "/" + bucket.min;
-    const std::vector<Family> co_failures = read_case(file)->co_failures;
-    if (co_failures.empty()) continue;
-    ++with_others;
-    EXPECT_NE(ran.out.find(" and " + std::to_string(co_failures.size()) + " that come with it"), std::string::npos) << ran.out;
-    const Ran shown = contort_program({"corpus", "show", corpus->folder(), bucket.id});
-    EXPECT_NE(shown.out.find("comes with " + print_family(co_failures.front())), std::string::npos) << shown.out << shown.err;
-    const Ran shrunk = contort_program({"shrink", file, "-o", folder_ / "again.json"});
-    EXPECT_NE(shrunk.out.find("comes with it: "), std::string::npos) << shrunk.out << shrunk.err;
+  int with_others = 0, again_with_others = 0;
+  for (int seed = 1; seed <= 12 && (with_others == 0 || again_with_others == 0); ++seed) {
+    const Ran ran = fuzz(folder_ / std::to_string(seed), 1, 60, seed);
+    const Result<Corpus> corpus = Corpus::open(folder_ / std::to_string(seed));
+    ASSERT_TRUE(corpus);
+    std::vector<Issue> damaged;
+    for (const Bucket& bucket : corpus->buckets(damaged)) {
+      const std::string file = corpus->folder_of(bucket) + "/" + bucket.min;
+      const std::vector<Family> others = read_case(file)->co_failures;
+      if (others.empty()) continue;
+      ++with_others;
+      EXPECT_NE(ran.out.find(" and " + std::to_string(others.size()) + " that come with it"), std::string::npos) << ran.out;
+      const Ran shown = contort_program({"corpus", "show", corpus->folder(), bucket.id});
+      EXPECT_NE(shown.out.find("comes with " + print_family(others.front())), std::string::npos) << shown.out << shown.err;
+      const Ran shrunk = contort_program({"shrink", file, "-o", folder_ / "again.json"});
+      if (read_case(folder_ / "again.json")->co_failures.empty()) continue;
+      ++again_with_others;
+      EXPECT_NE(shrunk.out.find("comes with it: "), std::string::npos) << shrunk.out << shrunk.err;
+    }
   }
-  EXPECT_GT(with_others, 0) << ran.out;
+  EXPECT_GT(with_others, 0);
+  EXPECT_GT(again_with_others, 0);
 }
 
 }  // namespace

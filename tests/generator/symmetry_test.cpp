@@ -14,7 +14,7 @@ namespace contort {
 namespace {
 
 constexpr double kLaw = 1e-9;
-constexpr int kSpecs = 400;
+constexpr int kSpecs = 450;
 constexpr int kLeast = 50;  // that must be judged
 
 template <class Visit>

@@ -132,6 +132,28 @@ TEST(StandingFeet, ALegThatIsHitLiftsItsFootAndPutsItBack) {
     }
 }
 
+// The foot bears the figure while it bends.
+TEST(StandingFeet, ALegThatIsHitInASquatKeepsItsFootDown) {
+  Spec spec = alone("human", use("squat", "waist", 0, 90, {{"share", 0.2}}));
+  spec.sequences[0].clips[0].actions.push_back(use("hit_reaction", "leg_left", 20, 40, {{"strength_deg", 40.0}}));
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage);
+  StageEvaluator evaluator;
+  for (const Finding& finding : evaluator.run(*stage).findings) ADD_FAILURE() << finding.check << " " << finding.subject;
+}
+
+// The leg is in the air when the walk takes it over.
+TEST(StandingFeet, AWalkAfterAReachOfALegDoesNotPop) {
+  Spec spec = alone("human", use("reach", "leg_left", 0, 60, {{"target_m", Vec3(0.3, 0.5, 0.3)}}));
+  ActionUse walk = use("walk", "waist", 0, 180, {{"speed_m_s", 0.8}});
+  walk.blend_in_frames = -1;
+  spec.sequences.push_back(sequence({walk}));
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  ASSERT_TRUE(stage);
+  StageEvaluator evaluator;
+  for (const Finding& finding : evaluator.run(*stage).findings) EXPECT_NE(finding.check, "pop") << finding.subject;
+}
+
 TEST(StandingFeet, ALegReachesOverTheGroundAndNotIntoIt) {
   for (const Vec3 target_m : {Vec3(0.3, 0.5, 0.3), Vec3(0.1, -0.2, 0.4), Vec3(0.2, 0.1, -0.4)}) {
     ActionUse reach = use("reach", "leg_left", 0, 90, {{"target_m", target_m}});
