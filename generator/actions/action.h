@@ -81,6 +81,8 @@ struct WholeBody {
   Quat faced = kNoRotation;                   // where a course faced at its first begin, in the world
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
   double pace = 1.0;                          // share of its speed that legs can go, [0, 1]
+  GaitParams gait_params;                     // at this pace
+  bool is_slower = false;                     // than it was asked for, or it turns less
   double deepest_bend = 1.0;                  // share of the way down that legs can go, [0, 1]
 };
 

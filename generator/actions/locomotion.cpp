@@ -114,8 +114,9 @@ double heading_rad(const RuleInput& in) {
 
 using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad);
 
-// A straight walk from where the feet stand needs no trial up to this square root of its Froude number.
+// A walk from where the feet stand that all but goes straight needs no trial up to this square root of its Froude number.
 constexpr double kEasy = 0.4;
+constexpr double kEasyTurn_rad = 20.0 * kRadPerDeg;
 
 bool begins_on_its_feet(const RuleInput& in) {
   constexpr double kStands_m = 0.002;
@@ -125,7 +126,8 @@ bool begins_on_its_feet(const RuleInput& in) {
 }
 
 bool is_easy(const RuleInput& in, const GaitParams& params) {
-  return in.environment.is_level() && params.heading_rad == 0.0 && params.turn_rad == 0.0 && !params.trot &&
+  return in.environment.is_level() && params.heading_rad == 0.0 && std::fabs(params.turn_rad) <= kEasyTurn_rad &&
+         !params.trot &&
          in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy && begins_on_its_feet(in);
 }
 
@@ -139,25 +141,27 @@ void begin_gait(const RuleInput& in, ParamsFor params_for, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
   const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
+  GaitParams params = params_at(in, params_for, 1.0);
+  double pace_of_params = 1.0;
   const auto frame_at = [&](Gait& gait, double pace, double time_s) {
-    return gait.at(params_at(in, params_for, pace), time_s, lasts_s);
+    if (pace != pace_of_params) params = params_at(in, params_for, pace), pace_of_params = pace;
+    return gait.at(params, time_s, lasts_s);
   };
   body.pace = 1.0;
-  if (step_s > 0.0 && !is_easy(in, params_at(in, params_for, 1.0)))
+  if (step_s > 0.0 && !is_easy(in, params))
     body.pace = fitting_pace(in.character, in.room, body.gait, {frame_at, lasts_s, step_s, in.time.frame_s}, in.world,
                              in.scratch, posture.coords);
+  body.gait_params = params_at(in, params_for, body.pace);
+  body.is_slower = body.pace < 1.0 || GaitTiming(body.gait_params, in.legs, lasts_s).turn_rad() != body.gait_params.turn_rad;
 }
 
 void go(const RuleInput& in, ParamsFor params_for, Posture& posture) {
   WholeBody& body = in.body;
-  if (is_root(in) && body.begun != in.took_over) begin_gait(in, params_for, posture);
-  const GaitParams params = params_at(in, params_for, body.pace);
+  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, params_for, posture);
   follow(in, posture, [&](Gait& gait) {
-    return body.pace > 0.0 ? gait.at(params, in.time.since_s, in.time.left_s) : gait.stand(0.0);
+    return body.pace > 0.0 ? gait.at(body.gait_params, in.time.since_s, in.time.left_s) : gait.stand(0.0);
   });
-  if (!is_root(in)) return;
-  const GaitTiming timing(params, in.legs, in.time.left_s);
-  in.feedback.is_slower = body.pace < 1.0 || timing.turn_rad() != params.turn_rad;
+  if (is_root(in)) in.feedback.is_slower = body.is_slower;
 }
 
 // The knees' angle goes with `share`, not the hips' height: that would have knees start from straight with a jerk. Two

@@ -57,6 +57,7 @@ void Gait::begin(const Character& character, std::span<const Leg> legs, const En
                  const Rigid& world_from_start, std::span<const Rigid> seen_soles) {
   character_ = &character, legs_ = legs, environment_ = &environment;
   world_from_start_ = world_from_start;
+  whole_turn_.reset();
   steps_.fill({});
   for (std::size_t i = 0; i < legs.size(); ++i)
     first_soles_[i] =
@@ -81,9 +82,17 @@ Vec3 Gait::turning_way(const GaitParams& params, const GaitTiming& timing, doubl
   return sum * (step_s / 3.0);
 }
 
+// The way of the whole turn: found once, for one course has one turn.
+const Vec3& Gait::whole_turn(const GaitParams& params, const GaitTiming& timing) const {
+  if (!whole_turn_) whole_turn_ = turning_way(params, timing, timing.turn_s());
+  return *whole_turn_;
+}
+
 Rigid Gait::course(const GaitParams& params, const GaitTiming& timing, double time_s) const {
   const double t = std::max(0.0, time_s), turning_s = std::min(t, timing.turn_s());
-  const Vec3 curve = turning_s > 0.0 ? turning_way(params, timing, turning_s) : Vec3(0.0);
+  const Vec3 curve = turning_s <= 0.0       ? Vec3(0.0)
+                     : t < timing.turn_s() ? turning_way(params, timing, t)
+                                           : whole_turn(params, timing);
   const double straight_m = timing.travelled_m(t) - timing.travelled_m(turning_s);
   const double turned_rad = timing.turn_rad() * timing.turned(t);
   return {world_from_start_.q * axis_angle(Vec3(0, 1, 0), turned_rad),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "generator/motion/gait_params.h"
@@ -52,7 +53,8 @@ class Gait {
   // Standing where the feet are, the hips lowered by a share of the shortest leg.
   GaitFrame stand(double lower_share);
 
-  // At a time of a course of duration_s; it begins and ends standing, at the end with every foot at home.
+  // At a time of a course of duration_s; it begins and ends standing, at the end with every foot at home. From begin() on
+  // with the same parameters and duration.
   GaitFrame at(const GaitParams& params, double time_s, double duration_s);
 
  private:
@@ -63,6 +65,7 @@ class Gait {
   void take_step(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int number, Step& step) const;
   Vec3 direction(const GaitParams& params, double turned_rad) const;
   Vec3 turning_way(const GaitParams& params, const GaitTiming& timing, double time_s) const;
+  const Vec3& whole_turn(const GaitParams& params, const GaitTiming& timing) const;
   Rigid course(const GaitParams& params, const GaitTiming& timing, double time_s) const;
   void swing_arms(const GaitParams& params, const GaitTiming& timing, double time_s, double moving,
                   GaitFrame& frame) const;
@@ -75,6 +78,7 @@ class Gait {
   Rigid world_from_start_;
   std::array<Step, kMaxLegs> steps_;
   std::array<Rigid, kMaxLegs> first_soles_;
+  mutable std::optional<Vec3> whole_turn_;
 };
 
 }  // namespace contort

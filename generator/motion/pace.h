@@ -14,8 +14,8 @@ struct CourseTrial {
   double frame_s = 0.0;                                                // of the motion
 };
 
-// The greatest share of its speed, of a few, at which a course that begins as `begun` keeps what joints and bodies allow,
-// [0, 1]. The rest is as for deepest_bend().
+// Tries a few shares of the requested speed, and answers the greatest at which a course that begins as `begun` keeps to
+// what joints and bodies allow, [0, 1]; 0 if it does at none of them. The rest is as for deepest_bend().
 double fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
 

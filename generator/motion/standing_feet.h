@@ -37,7 +37,7 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // Lifts the foot by what it lacks to move over the ground without sliding. True if that was anything.
+  // Lifts the foot by the height that it lacks to move over the ground without sliding. False if it lacks none.
   bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
   // The height that the foot has to spare, m: a foot that goes elsewhere must be the higher the farther it is from where
