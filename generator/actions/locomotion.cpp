@@ -114,7 +114,8 @@ double heading_rad(const RuleInput& in) {
 
 using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad);
 
-// A walk from where the feet stand that all but goes straight needs no trial up to this square root of its Froude number.
+// A walk from where the feet stand that goes nearly straight needs no trial up to this square root of its Froude
+// number.
 constexpr double kEasy = 0.4;
 constexpr double kEasyTurn_rad = 20.0 * kRadPerDeg;
 
@@ -152,7 +153,8 @@ void begin_gait(const RuleInput& in, ParamsFor params_for, Posture& posture) {
     body.pace = fitting_pace(in.character, in.room, body.gait, {frame_at, lasts_s, step_s, in.time.frame_s}, in.world,
                              in.scratch, posture.coords);
   body.gait_params = params_at(in, params_for, body.pace);
-  body.is_slower = body.pace < 1.0 || GaitTiming(body.gait_params, in.legs, lasts_s).turn_rad() != body.gait_params.turn_rad;
+  const GaitTiming timing(body.gait_params, in.legs, lasts_s);
+  body.is_slower = body.pace < 1.0 || timing.turn_rad() != body.gait_params.turn_rad;
 }
 
 void go(const RuleInput& in, ParamsFor params_for, Posture& posture) {
