@@ -70,8 +70,9 @@ void begin_course(const RuleInput& in) {
   in.body.gait.begin(in.character, in.legs, in.environment, in.stands_at,
                      std::span(in.body.seen_soles).first(in.legs.size()));
   in.body.first_soles = in.body.gait.first_soles();
+  const bool is_resumed = in.body.begun >= 0 && in.time.left_s < in.time.duration_s - 1e-9;
+  if (!is_resumed) in.body.faced = in.stands_at.q;
   in.body.begun = in.took_over;
-  if (in.time.left_s > in.time.duration_s - 1e-9) in.body.faced = in.stands_at.q;
 }
 
 // The course's frame, made by the first part that asks for it. It begins where the root was when it was taken.
@@ -104,10 +105,9 @@ void follow(const RuleInput& in, Posture& posture, Make make) {
   }
 }
 
-// Where the course goes, from where it faces now: one that was cut had turned before.
+// The heading of a course from where the figure faces now: a course that was cut has made a part of its turn before.
 double heading_rad(const RuleInput& in) {
   const WholeBody& body = in.body;
-  if (body.begun < 0) return in.params[2] * kRadPerDeg;
   const Quat turned = glm::conjugate(body.faced) * body.gait.world_from_start().q;
   return wrap_angle(in.params[2] * kRadPerDeg - 2.0 * det::atan2(turned.y, turned.w));
 }
@@ -128,8 +128,8 @@ bool begins_on_its_feet(const RuleInput& in) {
 
 bool is_easy(const RuleInput& in, const GaitParams& params) {
   return in.environment.is_level() && params.heading_rad == 0.0 && std::fabs(params.turn_rad) <= kEasyTurn_rad &&
-         !params.trot &&
-         in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy && begins_on_its_feet(in);
+         !params.trot && in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy &&
+         begins_on_its_feet(in);
 }
 
 GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {

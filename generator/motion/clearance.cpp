@@ -59,7 +59,7 @@ struct Clearance::Case {
     });
   }
 
-  // Where a foot is lifted, or stays where it stood, joints are faster than the way that the limb was to go.
+  // Joints are faster than the way that the limb was to go if a foot is lifted or stays where it stood.
   bool concerns_feet() const {
     return std::ranges::any_of(limb.legs, [&](int leg) {
       return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));

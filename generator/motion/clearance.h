@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// Where the figure was in the two frames before this one.
+// The postures that were shown in the two frames before this one, and how long a frame lasts.
 struct Past {
   Posture before;
   Posture earlier;

@@ -13,8 +13,6 @@ namespace {
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kSidestep = 0.25;  // the longest stride sideways, of a leg
 
-
-
 // The part of a heading to which the body turns; over what is left it goes sideways or backward. Sidesteps are slow, or
 // feet would cross; people walk backward at about half of their speed.
 double turn_for(std::span<const Leg> legs, double speed_m_s, double heading_rad) {

@@ -17,8 +17,8 @@ constexpr double kTouches_m = 0.003;  // over the ground
 constexpr double kFree_m = 0.03;      // over the ground: a foot that is as high stands no more
 constexpr double kLift_m = 0.006;     // of a foot that goes far
 constexpr double kFar_m = 0.02;       // from there on
-constexpr double kThere = 1e-9;        // m and rad: a foot that is so near is where it stood
-constexpr double kRounding_m = 0.0005;     // into the ground, for rounding
+constexpr double kThere = 1e-9;       // m and rad: a foot that is so near is where it stood
+constexpr double kRounding_m = 5e-4;  // into the ground, for rounding
 
 std::array<Vec3, 4> corners_of(const Leg& leg) {
   return {Vec3(leg.low_m.x, 0.0, leg.low_m.z), Vec3(leg.low_m.x, 0.0, leg.high_m.z),

@@ -30,7 +30,6 @@ class StandingFeet {
 
   // Whether the foot must stay where it stood, although what carries its leg may move. As of the frame before.
   bool is_planted(std::size_t leg) const;
-  bool stands(std::size_t leg) const { return stood_[leg].has_value(); }
   std::span<const Leg> legs() const { return legs_; }
 
   // Puts the foot where it stood, as nearly as the joints' ranges allow. Writes the coordinates of leg and foot, and
