@@ -84,7 +84,7 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
 double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
                     const TrialSpace& scratch, std::span<double> row) {
   constexpr int kStops = 24;
-  constexpr double kOfSpeed = 0.8;
+  constexpr double kShareOfSpeed = 0.8;
   const std::span<const Leg> legs = room.feet().legs();
   const std::span<double> before = scratch.row;
   double slowest_s_per_way = 0.0;
@@ -93,7 +93,7 @@ double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend
     const double share = static_cast<double>(n) / kStops;
     const bool fit = stand_bent(character, legs, bend.frame_at(share), world, scratch.world, row);
     if (n > 0) slowest_s_per_way = std::max(slowest_s_per_way, kStops * slowest_s(character, legs, before, row));
-    const bool fast = share * bend.peak * slowest_s_per_way > kOfSpeed * bend.takes_s;
+    const bool fast = share * bend.peak * slowest_s_per_way > kShareOfSpeed * bend.takes_s;
     if (n == 0) needs_room = has_room(room, scratch.world);
     if (n > 0 && (!fit || fast || (needs_room && !has_room(room, scratch.world))))
       return static_cast<double>(n - 1) / kStops;
