@@ -39,19 +39,25 @@ std::string place_of(const AuditRow& row) {
          (object.empty() ? "" : ", " + object);
 }
 
-std::string findings_of(const AuditRow& row) {
+std::string counts_text(const std::map<std::string, int>& counts) {
   std::string text;
-  for (const auto& [check, count] : row.findings)
-    text += (text.empty() ? "" : ", ") + check + " " + std::to_string(count);
+  for (const auto& [name, count] : counts) text += (text.empty() ? "" : ", ") + name + " " + std::to_string(count);
   return text;
 }
 
+// "self_collision 2; unmet: joint_speed 5".
+std::string details_of(const AuditRow& row) {
+  const std::string findings = counts_text(row.findings), reasons = counts_text(row.reasons);
+  return findings + (findings.empty() || reasons.empty() ? "" : "; ") + (reasons.empty() ? "" : "unmet: " + reasons);
+}
+
 void print_table(const std::vector<AuditRow>& rows) {
-  std::printf("%-48s %-14s %-9s %7s %7s %7s  %s\n", "part", "action", "point", "draws", "clean", "unmet", "findings");
+  std::printf("%-48s %-14s %-9s %7s %7s %7s %7s  %s\n", "part", "action", "point", "draws", "clean", "unmet", "still",
+              "findings and reasons");
   for (const AuditRow& row : rows)
-    std::printf("%-48s %-14s %-9s %7d %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(), row.action.c_str(),
-                row.point.c_str(), row.draws, percent(row.clean, row.draws), percent(row.unmet, row.draws),
-                findings_of(row).c_str());
+    std::printf("%-48s %-14s %-9s %7d %6.1f%% %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(),
+                row.action.c_str(), row.point.c_str(), row.draws, percent(row.clean, row.draws),
+                percent(row.unmet, row.draws), percent(row.still, row.draws), details_of(row).c_str());
 }
 
 Json row_json(const AuditRow& row) {
@@ -64,7 +70,9 @@ Json row_json(const AuditRow& row) {
           {"draws", row.draws},
           {"clean", row.clean},
           {"unmet", row.unmet},
+          {"still", row.still},
           {"findings", row.findings},
+          {"reasons", row.reasons},
           {"depth", row.depth},
           {"worst", row.worst == Spec{} ? Json() : Json::parse(print_spec(row.worst))}};
 }

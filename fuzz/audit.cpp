@@ -8,6 +8,7 @@
 #include "fuzz/dice.h"
 #include "fuzz/parallel.h"
 #include "model/character/character.h"
+#include "model/core/index.h"
 #include "model/core/nearest.h"
 #include "model/motion/legs.h"
 
@@ -129,9 +130,20 @@ ObstacleDesc wall_beside(const Part& part, Dice& dice) {
 
 struct Outcome {
   std::vector<std::string> checks;  // that found something
+  std::vector<std::string> reasons;  // of unmet requests
   double depth = 0.0;
-  bool unmet = false;
+  bool still = false;
 };
+
+void note_once(std::vector<std::string>& names, std::string name) {
+  if (!holds(names, name)) names.push_back(std::move(name));
+}
+
+bool is_still(const Motion& motion) {
+  for (int frame = 1; frame < motion.frame_count; ++frame)
+    if (!std::ranges::equal(motion.row(frame), motion.row(0)) || motion.root[at(frame)] != motion.root[0]) return false;
+  return true;
+}
 
 // The figure rests in the last frames. A finding that lasts until then is one of the pose itself.
 bool is_static(const Finding& finding, const Motion& motion) {
@@ -142,15 +154,17 @@ bool is_static(const Finding& finding, const Motion& motion) {
 
 Outcome outcome_of(const Evaluation& evaluation, const Execution& made, Layer layer) {
   Outcome outcome;
-  outcome.unmet = made.intent && !made.intent->unmet.empty();
+  if (made.intent)
+    for (const UnmetRequest& unmet : made.intent->unmet) note_once(outcome.reasons, std::string(shortfall_name(unmet.why)));
   for (const Finding& finding : evaluation.findings) {
     if (layer == Layer::overwrite && is_static(finding, made.motion)) {
-      outcome.unmet = true;
+      note_once(outcome.reasons, "pose");
       continue;
     }
-    if (!holds(outcome.checks, finding.check)) outcome.checks.push_back(finding.check);
+    note_once(outcome.checks, finding.check);
     outcome.depth = std::max(outcome.depth, finding.depth);
   }
+  outcome.still = outcome.reasons.empty() && is_still(made.motion);
   return outcome;
 }
 
@@ -202,11 +216,14 @@ class Workers {
 };
 
 void fold(const Outcome& outcome, const Offered& on, std::int64_t seed, int index, AuditRow& row) {
-  const bool first_unmet = outcome.unmet && row.unmet == 0 && row.depth == 0.0;
+  const bool is_unmet = !outcome.reasons.empty();
+  const bool first_unmet = is_unmet && row.unmet == 0 && row.depth == 0.0;
   ++row.draws;
   row.clean += outcome.checks.empty() ? 1 : 0;
-  row.unmet += outcome.unmet ? 1 : 0;
+  row.unmet += is_unmet ? 1 : 0;
+  row.still += outcome.still ? 1 : 0;
   for (const std::string& check : outcome.checks) ++row.findings[check];
+  for (const std::string& reason : outcome.reasons) ++row.reasons[reason];
   if (outcome.depth > row.depth || first_unmet) row.worst = drawn(row, on, seed, index);
   row.depth = std::max(row.depth, outcome.depth);
 }

@@ -36,6 +36,8 @@ struct AuditRow {
   std::map<std::string, int> findings;  // by check: the motions that have one
   Spec worst;                          // the deepest finding; where all are clean, the first unmet request
   double depth = 0.0;                  // of the deepest finding, in the scale of its check; 0 where all are clean
+  int still = 0;                       // in which nothing moved, and no request was unmet
+  std::map<std::string, int> reasons{};  // of unmet requests, as shortfall_name() has them, or "pose": motions with one
   bool operator==(const AuditRow&) const = default;
 };
 
