@@ -64,12 +64,12 @@ bool overlap(const IntendedAction& x, const IntendedAction& y) {
   return x.sequence == y.sequence && x.part == y.part && x.first_frame < y.last_frame && y.first_frame < x.last_frame;
 }
 
-// Labels of actions that are planned for one part at the same time.
+// Labels of actions that the spec has move one part at the same time.
 std::set<std::string> pairs_of(const Intent& intent, const Character& character) {
   std::set<std::string> pairs;
   for (auto x = intent.actions.begin(); x != intent.actions.end(); ++x)
     for (auto y = x + 1; y != intent.actions.end(); ++y)
-      if (overlap(*x, *y))
+      if (!x->further && !y->further && overlap(*x, *y))
         pairs.insert(pair_label(x->name, y->name, character.parts()[static_cast<std::size_t>(x->part)].slot));
   return pairs;
 }

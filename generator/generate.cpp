@@ -56,6 +56,7 @@ class Generation {
     start.coords.assign(character_.rest_coords().begin(), character_.rest_coords().end());
     start.root = stage_.start * character_.rest_root();
     s_.rules.begin(stage_);
+    s_.further.begin(stage_);
     s_.carry.begin(stage_, s_.rules.world(), start);
     s_.rules.start_from(start);
     s_.postures.start_from(start);
@@ -74,7 +75,7 @@ class Generation {
 
   void make_frame(int frame) {
     s_.queue.advance(frame, s_.signals);
-    const Playback playback(timeline_, s_.queue.history(), stage_.rate_hz, frame);
+    const Playback playback(timeline_, s_.queue.history(), s_.further.acquired(), stage_.rate_hz, frame);
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
     remember_soles(playback);
@@ -82,6 +83,7 @@ class Generation {
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
       note_lag(playback, p);
       record_aim(playback, p);
+      s_.further.ask(playback, p, s_.stacks, s_.rules, s_.postures.shown.root);
     }
     signal();
     std::ranges::copy(s_.postures.shown.coords, motion_.row(frame).begin());
@@ -212,6 +214,9 @@ class Generation {
 
   void begin(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& present, Posture& from) {
     copy_part(character_, p, present, from);
+    if (planned(playback, hold).aim != nullptr)  // it looks for a way for what hangs on the part, too
+      for (const int other : limb_at(p).parts)
+        if (at(other) > p) copy_part(character_, at(other), s_.past.before, from);
     if (p != 0 || !moves_legs(playback, hold)) return;
     std::array<Rigid, kMaxLegs>& seen = s_.rules.body(planned(playback, hold)).seen_soles;
     seen = s_.carry.soles_in(s_.rules.world());
@@ -316,10 +321,17 @@ class Generation {
 
   bool falls_short(std::size_t p) const { return s_.rules.feedback()[p].shortfall > kMet; }
 
+  // An aim that ends while help is on its way would have needed more time.
+  Shortfall reason_of(const Playback& playback, const LayerHold& ik) const {
+    const bool has_help = ik.action >= 0 && s_.rules.body(planned(playback, ik)).has_help;
+    return has_help ? Shortfall::joint_speed : Shortfall::out_of_reach;
+  }
+
   void note_lag(const Playback& playback, std::size_t p) {
     const LayerHold& ik = s_.stacks[p].ik();
     const bool has_ik = ik.action >= 0;
-    if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0))
+    if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0 ||
+                   s_.further.is_coming(playback, ik, s_.stacks, s_.postures.shown.root)))
       s_.lags.note(playback.frame(), p, std::nullopt);
     else if (s_.shift[p] == Shift::held_off)
       s_.lags.note(playback.frame(), p, Shortfall::clearance);
@@ -328,7 +340,7 @@ class Generation {
     else if (has_ik && s_.rules.feedback()[p].at_range_end)
       s_.lags.note(playback.frame(), p, Shortfall::joint_range);
     else if (falls_short(p))
-      s_.lags.note(playback.frame(), p, Shortfall::out_of_reach);
+      s_.lags.note(playback.frame(), p, reason_of(playback, ik));
   }
 
   // Whether the use that aims is all that moves a part, which is where it wants it. Parts before it in the chain are not

@@ -2,6 +2,7 @@
 // each by its own stack of layers (base, ik, additive); docs/timeline.md has the rules of both.
 #pragma once
 
+#include "generator/further_actions.h"
 #include "generator/lags.h"
 #include "generator/layer_stack.h"
 #include "generator/motion/clearance.h"
@@ -54,6 +55,7 @@ struct GenerateScratch {
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion
+  FurtherActions further;
 };
 
 // Cannot fail: trouble shows in the motion (a NaN is a finding, not an abort). Overwrites `motion`.

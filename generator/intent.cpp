@@ -12,7 +12,7 @@ IntendedAction intended(const PlannedAction& action) {
   return {action.sequence,    action.clip,        action.action, action.part,
           action.named,       action.name,        action.def->layer, action.start,
           action.end,         std::max(0.0, action.blend_in), action.blend_out, action.first_frame,
-          action.last_frame};
+          action.last_frame,   action.further >= 0};
 }
 
 IntendedSequence intended(const PlannedSequence& sequence) {
@@ -35,13 +35,17 @@ const QueueSpan* run_of(const Motion& motion, const ActionSpan& span) {
   return found == motion.queue.end() ? nullptr : &*found;
 }
 
-// The lag of a part, or of one that hangs on it, in a frame; null where all are where they are wanted. Parts that hang on
-// the root part have wishes of their own.
+bool has_span(const Motion& motion, const PlannedAction& action) {
+  return std::ranges::any_of(motion.spans, [&](const ActionSpan& span) { return is_of(span, action); });
+}
+
+// The lag of a part, or of one of its limb, in a frame; null where all are where they are wanted. Parts that hang on a
+// trunk have wishes of their own.
 const Lag* lag_at(const Character& character, std::span<const Lag> lags, int part, int frame) {
   const auto concerns = [&](const Lag& lag) {
     if (frame < lag.first_frame || frame > lag.last_frame) return false;
     int p = lag.part;
-    while (part > 0 && p > part) p = carrier_of(character, p);
+    while (part > 0 && p > part && !is_trunk(character, part)) p = carrier_of(character, p);
     return p == part;
   };
   const auto found = std::ranges::find_if(lags, concerns);
@@ -128,7 +132,8 @@ void say_intent(const Stage& stage, const Motion& motion, std::span<const Lag> l
   intent.queued = stage.timeline.queued;
   intent.sequences.clear(), intent.actions.clear(), intent.goals.clear(), intent.unmet.clear();
   for (const PlannedSequence& sequence : stage.timeline.sequences) intent.sequences.push_back(intended(sequence));
-  for (const PlannedAction& action : stage.timeline.actions) intent.actions.push_back(intended(action));
+  for (const PlannedAction& action : stage.timeline.actions)
+    if (action.further < 0 || has_span(motion, action)) intent.actions.push_back(intended(action));
   Goals goals(stage, motion, lags, intent);
   for (const ActionSpan& span : motion.spans) goals.add(span);
 }

@@ -5,16 +5,19 @@ namespace contort {
 namespace {
 
 // Among the actions that move a part now, the one that began last, if that was after what had the layer before. One
-// that begins in this very frame has to wait for the next one where another has moved already.
+// that begins in this very frame has to wait for the next one where another has moved already. Actions of the spec come
+// before those that were acquired.
 LayerHold next_hold(const Playback& playback, const LayerHold& held, Layer layer, std::size_t part) {
   LayerHold best;
   double best_began = 0.0;
   playback.for_each(part, layer, 0, [&](int run, int action) {
     if (!playback.moves(playback.action(action), playback.run(run))) return;
-    const double began = Playback::began(playback.action(action), playback.run(run));
+    const double began = playback.began(playback.action(action), playback.run(run));
     if (began < held.since || (began == held.since && action < held.since_action)) return;
     const bool moved = began < playback.frame(), best_moved = best_began < playback.frame();
-    if (best.action >= 0 && (moved != best_moved ? !moved : began < best_began)) return;
+    const bool helps = playback.action(action).further >= 0;
+    const bool best_helps = best.action >= 0 && playback.action(best.action).further >= 0;
+    if (best.action >= 0 && (helps != best_helps ? helps : moved != best_moved ? !moved : began < best_began)) return;
     best.action = action, best.run = run;
     best_began = began;
   });
@@ -91,7 +94,7 @@ bool LayerStack::take_over(const Playback& playback, std::size_t part, const Lay
   if (next.action >= 0) {
     const PlannedAction& action = planned(playback, next);
     taken.frame = playback.frame();
-    taken.came = Playback::comes(action, playback.run(next.run));
+    taken.came = playback.comes(action, playback.run(next.run));
     taken.eased = action.def->timing == Timing::goal ? eased_before(playback, taken)
                                                      : static_cast<double>(stands_for(playback, next, part));
   }

@@ -11,10 +11,14 @@ namespace contort {
 
 // A view of a timeline and of its queue's history, as they are in one frame; both must outlive it. A run is an entry of
 // the history. Its content is the frame of its own sequence, which goes on from where an interrupt cut it.
+// `acquired` has, for each of the timeline's further actions, the frame from which it is in force; kDormant: never.
 class Playback {
  public:
-  Playback(const Timeline& timeline, std::span<const QueueSpan> history, double rate_hz, int frame)
-      : timeline_(timeline), history_(history), rate_hz_(rate_hz), frame_(frame) {}
+  static constexpr int kDormant = 1 << 30;
+
+  Playback(const Timeline& timeline, std::span<const QueueSpan> history, std::span<const int> acquired, double rate_hz,
+           int frame)
+      : timeline_(timeline), history_(history), acquired_(acquired), rate_hz_(rate_hz), frame_(frame) {}
 
   int frame() const { return frame_; }
   double rate_hz() const { return rate_hz_; }
@@ -24,17 +28,20 @@ class Playback {
   static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
   int content(const QueueSpan& run) const { return content(run, frame_); }
 
-  // The content frame at which an action takes its part in a run: its start, or where the sequence went on.
-  static double comes(const PlannedAction& action, const QueueSpan& run) {
-    return std::max(action.start, static_cast<double>(run.first_content));
+  // The content frame at which an action takes its part in a run: its start, or where the sequence went on or the
+  // action was acquired.
+  double comes(const PlannedAction& action, const QueueSpan& run) const {
+    const double begins = std::max(action.start, static_cast<double>(run.first_content));
+    return action.further < 0 ? begins : std::max<double>(begins, content(run, acquired_[at(action.further)]));
   }
   // The same on the motion's time line.
-  static double began(const PlannedAction& action, const QueueSpan& run) {
+  double began(const PlannedAction& action, const QueueSpan& run) const {
     return comes(action, run) - run.first_content + run.first_frame;
   }
 
   // Whether an action moves its part in this frame of a run.
   bool moves(const PlannedAction& action, const QueueSpan& run) const {
+    if (action.further >= 0 && frame_ < acquired_[at(action.further)]) return false;
     return content(run) >= action.first_frame && content(run) <= action.last_frame;
   }
 
@@ -52,6 +59,7 @@ class Playback {
  private:
   const Timeline& timeline_;
   std::span<const QueueSpan> history_;
+  std::span<const int> acquired_;
   double rate_hz_;
   int frame_;
 };

@@ -33,6 +33,13 @@ const ActionDef* find_action(std::string_view name) {
   return nullptr;
 }
 
+bool is_trunk(const Character& character, int part) {
+  int carried = 0;
+  for (int p = part + 1; p < static_cast<int>(character.parts().size()); ++p)
+    carried += carrier_of(character, p) == part;
+  return carried > 1;
+}
+
 namespace {
 
 // Whether the part, or one on the way down to it, is carried by `carrier` or is it.
@@ -49,11 +56,13 @@ bool faces(const Part& part, int socket) { return !part.facing.empty() && part.f
 template <class Visit>
 void for_points(const Character& character, const Part& part, ParamType type, Visit visit) {
   const int own = static_cast<int>(&part - character.parts().data());
+  const bool alone = is_trunk(character, own);
   for (std::size_t s = 0; s < character.sockets().size(); ++s) {
     const Socket& socket = character.sockets()[s];
     const std::string name = socket.name.substr(socket.name.find('/') + 1);
     const bool of_object = socket.name.starts_with("object:");
-    const bool mine = hangs_on(character, character.joints()[static_cast<std::size_t>(socket.joint)].part, own);
+    const int carrier = character.joints()[static_cast<std::size_t>(socket.joint)].part;
+    const bool mine = alone && type == ParamType::own_point ? carrier == own : hangs_on(character, carrier, own);
     if (type == ParamType::object_point ? of_object && !mine
                                         : mine && (of_object || name == "grip" || faces(part, static_cast<int>(s))))
       visit(name, static_cast<int>(s));
@@ -85,6 +94,7 @@ std::vector<int> parts_moved(const ActionDef& action, const Character& character
     }
     return moved;
   }
+  if (is_trunk(character, named_part)) return moved;
   for (int p = named_part + 1; p < static_cast<int>(character.parts().size()); ++p)
     if (carrier_of(character, p) == moved.back()) moved.push_back(p);
   return moved;

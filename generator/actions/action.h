@@ -29,7 +29,7 @@ namespace contort {
 // The parts that one use of an action moves.
 enum class Spread {
   own,   // the part that the spec names
-  limb,  // and the parts that hang on it, one after another: arm and hand
+  limb,  // and the parts that hang on it, one after another: arm and hand; a torso, on which several hang, alone
   legs,  // it must be the root part: and all legs and feet
 };
 
@@ -66,7 +66,15 @@ struct ActionTime {
 struct AimPlan {
   AimChain chain;
   std::shared_ptr<const AimTable> table;
+  int chest = -1;  // the face of the torso on which the part hangs, which can turn to help it; -1: there is none
+  bool helps = false;  // a torso that helps: it turns about the vertical, and does not lean
 };
+
+// A target whose azimuth from the chest is greater has the torso turn, as people do (docs/aim.md).
+inline constexpr double kEasyAim_rad = 60.0 * kRadPerDeg;
+
+// From where a socket's +Z faces to a point, about its +Y; [-pi, pi].
+double azimuth_rad(const Rigid& world_from_socket, const Vec3& point_world_m);
 
 // The state that one use of an action that moves several parts keeps from frame to frame.
 struct WholeBody {
@@ -80,8 +88,11 @@ struct WholeBody {
   double swivel_rad = 0.0;                    // of a limb whose request leaves it open
   Quat faced = kNoRotation;                   // where a course faced at its first begin, in the world
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
+  bool has_help = false;                      // a torso or legs are turning for this aim
+  bool had_help = false;                      // in the frame before
   double pace = 1.0;                          // share of its speed that legs can go, [0, 1]
   GaitParams gait_params;                     // at this pace
+  double lasts_s = 0.0;                       // of content: then it stands
   bool is_slower = false;                     // than it was asked for, or it turns less
   double deepest_bend = 1.0;                  // share of the way down that legs can go, [0, 1]
 };
@@ -102,7 +113,7 @@ struct RuleInput {
   const AimPlan* aim;  // of actions with an own_point
   const KeyPlan* keys;  // of key poses from a file
   Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
-  const Posture& from;  // where it took its part over; the part's own coordinates only
+  const Posture& from;  // where it took its part over; the part's own coordinates only, of an aim those of its limb
   int frame;
   int took_over;  // frame in which it took the part
   double came_in;  // how far a course has blended in, [0, 1]; those that move legs do it themselves
@@ -166,6 +177,9 @@ std::vector<std::string> object_points(const Character& character, const Part& p
 
 // Points that this part or one that hangs on it carries.
 std::vector<std::string> own_points(const Character& character, const Part& part);
+
+// Whether several parts hang on a part, as on a torso: they are no limb of its own.
+bool is_trunk(const Character& character, int part);
 
 // The parts that one use moves, carriers first.
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);

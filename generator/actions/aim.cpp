@@ -1,9 +1,13 @@
-// aim: a point of an arm or a head, or of what it carries, is directed at a target while the body moves (P13). Its first posture
+// aim: a point of an arm, a head or a torso, or of what it carries, is directed at a target while the body moves (P13). Its first posture
 // comes from the aim table; every frame goes on from the one before, so that joints turn little.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "generator/actions/hand.h"
+#include "generator/motion/blend.h"
+#include "generator/motion/ik.h"
+#include "model/core/detmath.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
@@ -34,8 +38,28 @@ bool has_room(const RuleInput& in, const Posture& posture) {
   return in.room.room_m(part, in.world) >= -kTooNear_m;
 }
 
-// Chooses, from the postures of the table that point there, the one nearest to the present one in which no bodies are
-// too near. False where all have such bodies; then `posture` is of no use.
+// Whether there is room on the way from where the part was taken, too: a limb that meets a body there stays behind it.
+bool has_way(const RuleInput& in, Posture& posture) {
+  constexpr int kStops = 8;
+  const int last = in.character.joint(in.aim->chain.joints.back()).part;
+  const int first = static_cast<int>(&in.part - in.character.parts().data());
+  std::array<double, kMaxAimCoords> wanted{};
+  for_coords(in, [&](std::size_t coord, std::size_t at) { wanted[at] = posture.coords[coord]; });
+  const auto restore = [&] {
+    for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = wanted[at]; });
+  };
+  bool is_free = true;
+  for (int stop = 1; stop < kStops && is_free; ++stop) {
+    for (int p = last; p >= first; p = p == first ? -1 : carrier_of(in.character, p))
+      blend_part(in.character, static_cast<std::size_t>(p), in.from, posture, static_cast<double>(stop) / kStops, posture);
+    is_free = has_room(in, posture);
+    restore();
+  }
+  return is_free;
+}
+
+// Chooses, from the postures of the table that point there, the best one in which no bodies are too near, and on the way
+// to it, if there is one. False where all have such bodies or miss the target; then `posture` is of no use.
 bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
   const AimTable& table = *in.aim->table;
   const auto base = static_cast<std::size_t>(in.character.joint(in.aim->chain.joints.front()).parent);
@@ -44,46 +68,109 @@ bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
   std::array<AimHit, kCandidates> hits;
   const int found = table.nearest_to_point(inverse(in.world[base]) * target.world, hits);
   const std::span<AimHit> near = std::span(hits).first(static_cast<std::size_t>(found));
-  table.prefer(present, near);
-  return std::ranges::any_of(near, [&](const AimHit& hit) {
+  table.prefer_sighted(present, near);
+  const auto fits = [&](const AimHit& hit) {
     const std::span<const double> coords = table.coords(hit.posture);
     for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = coords[at]; });
     place_chain(in, posture);
     return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached && has_room(in, posture);
-  });
+  };
+  const AimHit* first = nullptr;
+  for (const AimHit& hit : near)
+    if (fits(hit)) {
+      if (has_way(in, posture)) return true;
+      if (first == nullptr) first = &hit;
+    }
+  return first != nullptr && fits(*first);
 }
 
-void solve(const RuleInput& in, Posture& posture) {
-  WholeBody& body = in.body;
-  const AimTarget target{AimTarget::Kind::point, in.world_from_start * Vec3(in.params[1], in.params[2], in.params[3])};
-  const auto from_table = [&] {
+// The point, brought to an azimuth of at most `most_rad` about the frame's +Y; also by how much it was beyond that.
+Vec3 limited_azimuth(const Rigid& frame, const Vec3& point_m, double most_rad, double& beyond_rad) {
+  const double azimuth = azimuth_rad(frame, point_m);
+  beyond_rad = std::max(0.0, std::fabs(azimuth) - most_rad);
+  const Quat turn = axis_angle(frame.q * Vec3(0, 1, 0), azimuth > 0.0 ? -beyond_rad : beyond_rad);
+  return frame.p_m + turn * (point_m - frame.p_m);
+}
+
+// The target of a torso while legs turn: no farther to a side than backs twist; and level, if it only helps.
+Vec3 target_of_chest(const RuleInput& in, const Vec3& target_m, double& beyond_rad) {
+  constexpr double kTwist_rad = 38.0 * kRadPerDeg;
+  const Rigid here{in.world[0].q, world_from_socket(in.character, in.world, in.aim->chain.socket).p_m};
+  const Vec3 up = here.q * Vec3(0, 1, 0);
+  const double above_m = in.aim->helps ? dot(target_m - here.p_m, up) : 0.0;
+  return limited_azimuth(here, target_m - above_m * up, kTwist_rad, beyond_rad);
+}
+
+// While the torso turns to a target, the part goes on to the easiest direction that is nearest to it: it would have to
+// be twisted backward, and then unwound.
+Vec3 easy_target(const RuleInput& in, const Vec3& target_m, double& beyond_rad) {
+  if (!in.aim->helps && !in.body.has_help) return target_m;
+  if (in.aim->chest < 0) return target_of_chest(in, target_m, beyond_rad);
+  const Rigid chest = world_from_socket(in.character, in.world, in.aim->chest);
+  return limited_azimuth(chest, target_m, kEasyAim_rad, beyond_rad);
+}
+
+AimResult from_table(const RuleInput& in, const AimTarget& target, Posture& posture) {
+  place_chain(in, posture);
+  return aim(in.character, in.aim->chain, *in.aim->table, in.world, target, posture.coords);
+}
+
+bool aims_its_face(const RuleInput& in) {
+  return !in.part.facing.empty() && in.part.facing.front().socket == in.aim->chain.socket;
+}
+
+// A head or torso faces the target as directly as it can, from rest: going on from the frame before it would come to lean.
+// Where this misses, another posture of the table may reach.
+AimResult face(const RuleInput& in, const AimTarget& target, Posture& posture) {
+  constexpr int kPasses = 3;  // the point moves when the part turns
+  const FacingChain& chain = in.part.facing.front();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Rigid point = world_from_socket(in.character, in.world, chain.socket);
+    face_direction(in.character, chain, in.world, unit_or(target.world - point.p_m, point.q * Vec3(0, 0, 1)),
+                   posture.coords);
     place_chain(in, posture);
-    return aim(in.character, in.aim->chain, *in.aim->table, in.world, target, posture.coords);
-  };
-  if (body.begun != in.took_over) {
-    if (from_table().reached && !has_room(in, posture) && !find_room(in, target, posture)) from_table();
+  }
+  const AimResult direct = continue_aim(in.character, in.aim->chain, in.world, target, posture.coords);
+  if (direct.reached || in.body.has_help) return direct;
+  std::array<double, kMaxAimCoords> nearest{};
+  for_coords(in, [&](std::size_t coord, std::size_t at) { nearest[at] = posture.coords[coord]; });
+  const AimResult other = from_table(in, target, posture);
+  if (other.reached) return other;
+  for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = nearest[at]; });
+  return direct;
+}
+
+// A limb goes on from the frame before.
+AimResult point(const RuleInput& in, const AimTarget& target, Posture& posture) {
+  WholeBody& body = in.body;
+  if (body.begun != in.took_over || body.has_help != body.had_help) {
+    if (!find_room(in, target, posture)) from_table(in, target, posture);
     for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
     body.begun = in.took_over;
   }
+  body.had_help = body.has_help;
   for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = body.aimed[at]; });
   place_chain(in, posture);
-  AimResult result = continue_aim(in.character, in.aim->chain, in.world, target, posture.coords);
-  if (!result.reached) result = from_table();
-  for_coords(in, [&](std::size_t coord, std::size_t at) { body.aimed[at] = posture.coords[coord]; });
-  in.feedback.aim_reached = result.reached;
-  in.feedback.shortfall = result.reached ? 0.0 : result.error_rad;
+  const AimResult result = continue_aim(in.character, in.aim->chain, in.world, target, posture.coords);
+  return result.reached ? result : from_table(in, target, posture);
 }
 
-// The end of a limb that can face something: a head, a tail.
-bool is_head(const Character& character, const Part& part) {
-  if (part.facing.empty()) return false;
-  const int own = static_cast<int>(&part - character.parts().data());
-  for (int p = own + 1; p < static_cast<int>(character.parts().size()); ++p)
-    if (carrier_of(character, p) == own) return false;
-  return true;
+void solve(const RuleInput& in, Posture& posture) {
+  double beyond_rad = 0.0;
+  const Vec3 target_m = in.world_from_start * Vec3(in.params[1], in.params[2], in.params[3]);
+  const AimTarget target{AimTarget::Kind::point, easy_target(in, target_m, beyond_rad)};
+  const AimResult result = aims_its_face(in) ? face(in, target, posture) : point(in, target, posture);
+  for_coords(in, [&](std::size_t coord, std::size_t at) { in.body.aimed[at] = posture.coords[coord]; });
+  in.feedback.aim_reached = result.reached && beyond_rad == 0.0;
+  in.feedback.shortfall = beyond_rad + (result.reached ? 0.0 : result.error_rad);
 }
 
 }  // namespace
+
+double azimuth_rad(const Rigid& world_from_socket, const Vec3& point_world_m) {
+  const Vec3 point_m = inverse(world_from_socket) * point_world_m;
+  return det::atan2(point_m.x, point_m.z);
+}
 
 std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
   ParamDef point;
@@ -105,7 +192,7 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
 }
 
 bool aim_supports(const Character& character, const Part& part) {
-  return (is_arm(character, part) || is_head(character, part)) && !own_points(character, part).empty();
+  return (is_arm(character, part) || !part.facing.empty()) && !own_points(character, part).empty();
 }
 
 void aim_rule(const RuleInput& in, Posture& posture) {

@@ -1,4 +1,4 @@
-// walk, run, crouch and squat: the root, all legs and all feet in one course (motion/gait.h).
+// walk, run, turn, crouch and squat: the root, all legs and all feet in one course (motion/gait.h).
 #include <algorithm>
 
 #include "generator/actions/action.h"
@@ -138,30 +138,45 @@ GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {
   return params;
 }
 
-void begin_gait(const RuleInput& in, ParamsFor params_for, Posture& posture) {
+// From where the figure faces now; 0 where the point is on its own axis.
+double azimuth_rad(const RuleInput& in) {
+  constexpr double kNowhere_m = 0.01;
+  const Vec3 from_here =
+      inverse(in.stands_at) * (in.world_from_start * Vec3(in.params[0], in.params[1], in.params[2]));
+  const bool is_above = std::fabs(from_here.x) < kNowhere_m && std::fabs(from_here.z) < kNowhere_m;
+  return is_above ? 0.0 : det::atan2(from_here.x, from_here.z);
+}
+
+// `params_at(pace)` gives the parameters at a share of the speed that is asked for, (0, 1].
+template <class ParamsAt>
+void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
   const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
-  GaitParams params = params_at(in, params_for, 1.0);
+  GaitParams params = params_at(1.0);
   double pace_of_params = 1.0;
   const auto frame_at = [&](Gait& gait, double pace, double time_s) {
-    if (pace != pace_of_params) params = params_at(in, params_for, pace), pace_of_params = pace;
+    if (pace != pace_of_params) params = params_at(pace), pace_of_params = pace;
     return gait.at(params, time_s, lasts_s);
   };
   body.pace = 1.0;
   if (step_s > 0.0 && !is_easy(in, params))
     body.pace = fitting_pace(in.character, in.room, body.gait, {frame_at, lasts_s, step_s, in.time.frame_s}, in.world,
                              in.scratch, posture.coords);
-  body.gait_params = params_at(in, params_for, body.pace);
+  body.gait_params = params_at(body.pace);
   const GaitTiming timing(body.gait_params, in.legs, lasts_s);
-  body.is_slower = body.pace < 1.0 || timing.turn_rad() != body.gait_params.turn_rad;
+  // On the spot it stands when it has turned, and the speed of its steps was not asked for.
+  const bool stays = body.gait_params.speed_m_s == 0.0;
+  body.is_slower = body.pace < (stays ? 1e-9 : 1.0) || std::fabs(timing.turn_rad() - body.gait_params.turn_rad) > 1e-9;
+  body.lasts_s = stays ? std::min(lasts_s, timing.turn_s() + 1.5 * body.gait_params.cycle_s) : lasts_s;
 }
 
-void go(const RuleInput& in, ParamsFor params_for, Posture& posture) {
+template <class ParamsAt>
+void go(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
-  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, params_for, posture);
+  if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, params_at, posture);
   follow(in, posture, [&](Gait& gait) {
-    return body.pace > 0.0 ? gait.at(body.gait_params, in.time.since_s, in.time.left_s) : gait.stand(0.0);
+    return body.pace > 0.0 ? gait.at(body.gait_params, in.time.since_s, body.lasts_s) : gait.stand(0.0);
   });
   if (is_root(in)) in.feedback.is_slower = body.is_slower;
 }
@@ -193,13 +208,31 @@ void bend(const RuleInput& in, double share, double peak, Posture& posture) {
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
 bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void walk_rule(const RuleInput& in, Posture& posture) {
-  go(in, contort::walk_params, posture);
+  go(in, [&](double pace) { return params_at(in, contort::walk_params, pace); }, posture);
 }
 
 std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
 bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void run_rule(const RuleInput& in, Posture& posture) {
-  go(in, run_params, posture);
+  go(in, [&](double pace) { return params_at(in, contort::run_params, pace); }, posture);
+}
+
+std::vector<ParamDef> turn_params(const Character&, const Part&) {
+  ParamDef target;
+  target.name = "target_m";
+  target.type = ParamType::vector;
+  target.low = -1000.0, target.high = 1000.0;
+  target.preset = Vec3(2.0, 1.2, -2.0);
+  target.domain = Domain::around;
+  target.mirrored = Mirrored::point;
+  target.help = "The point, m, from where the character stood at first. Its height does not matter.";
+  return {target};
+}
+bool turn_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
+void turn_rule(const RuleInput& in, Posture& posture) {
+  const bool begins = in.body.begun < 0 || (is_root(in) && in.body.begun != in.took_over);
+  const double turn_rad = begins ? azimuth_rad(in) : 0.0;
+  go(in, [&](double pace) { return contort::turn_params(in.legs, turn_rad, pace); }, posture);
 }
 
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }

@@ -10,7 +10,7 @@ namespace contort {
 struct AimTableOptions {
   double joint_step_deg = 5.0;  // in [0.5, 90]; the wanted step, made coarser until the states are few enough
   int max_states = 40000;       // in [1, 4,000,000]: postures that are looked at
-  int per_cell = 4;             // in [1, 16]: postures that are kept for each direction, see aim_table.h
+  int per_cell = 6;             // in [1, 16]: postures that are kept for each direction, see aim_table.h
   bool operator==(const AimTableOptions&) const = default;
 };
 

@@ -26,6 +26,7 @@ struct State {
   int cell = 0;
   double room = 0.0;       // of the joint that is nearest to its limit, up to kRoom
   double from_rest = 0.0;  // squared angles of all joints
+  int beside = 0;          // of the line of aim and the first joint, in steps of 5 cm
   int number = 0;
 };
 
@@ -44,8 +45,18 @@ double from_rest_rad(const Joint& joint, const double* q) {
   return joint.kind == JointKind::ball ? rotation_angle(Quat(q[0], q[1], q[2], q[3])) : q[0];
 }
 
+// The distance of the line of aim from the origin of the chain's first joint; base frame.
+double beside_first_joint_m(const AimGeometry& geometry, const Vec3& point_m, const Vec3& direction) {
+  const Vec3 from_joint_m = point_m - geometry.joints.front().parent_from_joint.p_m;
+  return length(from_joint_m - glm::dot(from_joint_m, direction) * direction);
+}
+
 State judged(const AimGeometry& geometry, int number, std::span<const double> coords) {
-  State state{aim_cell(base_from_socket(geometry, coords).q * Vec3(0, 0, 1)), kRoom, 0.0, number};
+  constexpr double kBesideStep_m = 0.05;
+  const Rigid socket = base_from_socket(geometry, coords);
+  const Vec3 direction = socket.q * Vec3(0, 0, 1);
+  State state{aim_cell(direction), kRoom, 0.0, 0, number};
+  state.beside = static_cast<int>(beside_first_joint_m(geometry, socket.p_m, direction) / kBesideStep_m);
   for (const Joint& joint : geometry.joints) {
     if (joint.kind == JointKind::prismatic) continue;
     const double* q = coords.data() + joint.coord;
@@ -63,6 +74,13 @@ bool before(const State& a, const State& b) {
   if (a.room != b.room) return a.room > b.room;
   if (a.from_rest != b.from_rest) return a.from_rest < b.from_rest;
   return a.number < b.number;
+}
+
+// Among states of one cell.
+bool is_sighted_before(const State& a, const State& b) {
+  if (a.room != b.room) return a.room > b.room;
+  if (a.beside != b.beside) return a.beside < b.beside;
+  return before(a, b);
 }
 
 std::vector<State> all_states(const AimGeometry& geometry, const AimSteps& steps) {
@@ -83,6 +101,19 @@ bool differs(const AimGeometry& geometry, std::span<const double> coords, std::s
   for (std::size_t at = 0; at < kept.size(); at += size)
     if (posture_difference_rad(geometry, coords, kept.subspan(at, size)) < kDifferent_rad) return false;
   return true;
+}
+
+// Appends states of a cell, the first ones first, until the cell has `most` postures that differ.
+void keep_best(const AimGeometry& geometry, const AimSteps& steps, std::span<const State> cell, int most,
+               std::size_t cell_begin, std::vector<double>& kept) {
+  const auto size = static_cast<std::size_t>(geometry.coord_count);
+  std::vector<double> coords(size);
+  for (const State& state : cell) {
+    if (kept.size() - cell_begin >= size * static_cast<std::size_t>(most)) return;
+    state_coords(geometry, steps, state.number, coords);
+    if (differs(geometry, coords, std::span(kept).subspan(cell_begin)))
+      kept.insert(kept.end(), coords.begin(), coords.end());
+  }
 }
 
 double rotation_difference_rad(const double* a, const double* b) {
@@ -156,18 +187,15 @@ std::uint64_t AimTable::key_of(const AimGeometry& geometry, const AimTableOption
 AimTable AimTable::build(const AimGeometry& geometry, const AimTableOptions& options) {
   CONTORT_ASSERT(options.joint_step_deg >= 0.5 && options.max_states >= 1 && options.per_cell >= 1);
   const AimSteps steps = aim_steps(geometry, options);
-  const auto size = static_cast<std::size_t>(geometry.coord_count);
+  std::vector<State> states = all_states(geometry, steps);
   std::vector<double> kept;
-  std::vector<double> coords(size);
-  std::size_t cell_begin = 0;  // in `kept`
-  int cell = -1;
-  for (const State& state : all_states(geometry, steps)) {
-    if (state.cell != cell) cell_begin = kept.size();
-    cell = state.cell;
-    if (kept.size() - cell_begin >= size * static_cast<std::size_t>(options.per_cell)) continue;
-    state_coords(geometry, steps, state.number, coords);
-    if (differs(geometry, coords, std::span(kept).subspan(cell_begin)))
-      kept.insert(kept.end(), coords.begin(), coords.end());
+  for (auto begin = states.begin(); begin != states.end();) {
+    const auto end = std::find_if(begin, states.end(), [&](const State& state) { return state.cell != begin->cell; });
+    const std::size_t cell_begin = kept.size();
+    keep_best(geometry, steps, {begin, end}, options.per_cell - options.per_cell / 3, cell_begin, kept);
+    std::sort(begin, end, is_sighted_before);
+    keep_best(geometry, steps, {begin, end}, options.per_cell, cell_begin, kept);
+    begin = end;
   }
   return of_postures(geometry, options, kept);
 }
@@ -289,11 +317,31 @@ void AimTable::interpolated(const Vec3& direction, std::span<const AimHit> hits,
   for (std::size_t i = 0; i < anchor.size(); ++i) coords[i] = nearer ? mean[i] : anchor[i];
 }
 
+double AimTable::beside_m(int posture) const {
+  return beside_first_joint_m(geometry_, point_m(posture), direction(posture));
+}
+
+namespace {
+
 // Insertion: of equals the earlier hit stays first, and std::stable_sort would allocate.
-void AimTable::prefer(std::span<const double> present, std::span<AimHit> hits) const {
-  const auto far_rad = [&](const AimHit& hit) { return posture_difference_rad(geometry_, present, coords(hit.posture)); };
+template <class Cost>
+void put_cheapest_first(std::span<AimHit> hits, Cost cost) {
   for (std::size_t i = 1; i < hits.size(); ++i)
-    for (std::size_t j = i; j > 0 && far_rad(hits[j]) < far_rad(hits[j - 1]); --j) std::swap(hits[j], hits[j - 1]);
+    for (std::size_t j = i; j > 0 && cost(hits[j]) < cost(hits[j - 1]); --j) std::swap(hits[j], hits[j - 1]);
+}
+
+}  // namespace
+
+void AimTable::prefer(std::span<const double> present, std::span<AimHit> hits) const {
+  put_cheapest_first(
+      hits, [&](const AimHit& hit) { return posture_difference_rad(geometry_, present, coords(hit.posture)); });
+}
+
+void AimTable::prefer_sighted(std::span<const double> present, std::span<AimHit> hits) const {
+  constexpr double kBeside_rad_m = 4.0;
+  put_cheapest_first(hits, [&](const AimHit& hit) {
+    return posture_difference_rad(geometry_, present, coords(hit.posture)) + kBeside_rad_m * beside_m(hit.posture);
+  });
 }
 
 }  // namespace contort

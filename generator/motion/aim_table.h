@@ -1,9 +1,11 @@
 // Aim information: postures of a chain by the direction in which they point its socket. Built by stepping the joints
 // through their ranges (aim_states.h), once per geometry; immutable, so that threads may share it. docs/aim.md.
 //
-// Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell
-// postures that differ from one another: of those with some room to their joint limits the ones nearest to rest. A table therefore holds at most
-// 1,944 * per_cell postures of coord_count + 6 doubles: 0.9 MB for an arm of 8 coordinates with 4 postures per cell.
+// Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell postures
+// that differ from one another, of those with some room to their joint limits: two thirds of them the ones nearest to rest,
+// the others those that are sighted, with the line of aim near the chain's first joint (a gun at the shoulder). A table
+// therefore holds at most 1,944 * per_cell postures of coord_count + 6 doubles: 1.3 MB for an arm of 8 coordinates with 6
+// postures per cell.
 #pragma once
 
 #include <cstdint>
@@ -57,6 +59,10 @@ class AimTable {
   // Puts those hits first whose postures are nearest to a present one (coords of the chain) in their worst joint.
   void prefer(std::span<const double> present, std::span<AimHit> hits) const;
 
+  // The same, but a posture counts as farther by 4 rad for each metre that its line of aim passes beside the chain's
+  // first joint: people aim along their arms, and with a gun at the shoulder.
+  void prefer_sighted(std::span<const double> present, std::span<AimHit> hits) const;
+
   // A posture between several near ones: hinges by weighted mean, balls by normalised quaternion sum, over those that
   // are within 45 degrees of the first one in every joint. Writes coords of the chain, within ranges; where the mean
   // does not point nearer to the direction than the first one, that one. Never allocates.
@@ -68,6 +74,7 @@ class AimTable {
  private:
   struct Search;
   void arrange();
+  double beside_m(int posture) const;
   void search(Search& search, int begin, int end, int axis) const;
 
   AimGeometry geometry_;

@@ -12,7 +12,7 @@ namespace contort {
 namespace {
 
 constexpr std::string_view kMagic = "CTAIMTBL";
-constexpr std::uint32_t kVersion = 2;  // of the bytes, and of the choice of postures
+constexpr std::uint32_t kVersion = 3;  // of the bytes, and of the choice of postures
 constexpr std::size_t kHeaderBytes = 32;
 constexpr std::size_t kHashBytes = 8;
 

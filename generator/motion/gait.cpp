@@ -88,6 +88,13 @@ const Vec3& Gait::whole_turn(const GaitParams& params, const GaitTiming& timing)
   return *whole_turn_;
 }
 
+// The middle of the feet at home, in the figure's frame.
+Vec3 Gait::middle() const {
+  Vec3 sum(0.0);
+  for (const Leg& leg : legs_) sum.z += leg.home_m.z;
+  return sum / std::max<double>(1.0, static_cast<double>(legs_.size()));
+}
+
 Rigid Gait::course(const GaitParams& params, const GaitTiming& timing, double time_s) const {
   const double t = std::max(0.0, time_s), turning_s = std::min(t, timing.turn_s());
   const Vec3 curve = turning_s <= 0.0       ? Vec3(0.0)
@@ -95,6 +102,10 @@ Rigid Gait::course(const GaitParams& params, const GaitTiming& timing, double ti
                                            : whole_turn(params, timing);
   const double straight_m = timing.travelled_m(t) - timing.travelled_m(turning_s);
   const double turned_rad = timing.turn_rad() * timing.turned(t);
+  if (params.speed_m_s == 0.0) {  // about the middle of the feet, so that all of them step equally far
+    const Quat turned = axis_angle(Vec3(0, 1, 0), turned_rad);
+    return world_from_start_ * Rigid{turned, middle() - turned * middle()};
+  }
   return {world_from_start_.q * axis_angle(Vec3(0, 1, 0), turned_rad),
           world_from_start_.p_m + curve + straight_m * direction(params, turned_rad)};
 }
@@ -159,12 +170,12 @@ void Gait::take_step(const GaitParams& params, const GaitTiming& timing, const L
 // Over the feet, upright or along their slope.
 Rigid Gait::root_over(std::span<const Vec3> feet, const Rigid& course, double lower_m) const {
   const Rigid& rest = character_->rest_root();
-  double mean_y = 0.0, mean_z = 0.0;
+  double mean_y = 0.0;
   const double count = std::max<double>(1.0, static_cast<double>(legs_.size()));
-  for (std::size_t i = 0; i < legs_.size(); ++i) mean_y += feet[i].y / count, mean_z += legs_[i].home_m.z / count;
-  const double pitch_rad = row_count(legs_) > 1 ? slope_rad(legs_, feet, mean_y, mean_z) : 0.0;
+  for (std::size_t i = 0; i < legs_.size(); ++i) mean_y += feet[i].y / count;
+  const Vec3 pivot = middle();  // on the ground between the feet
+  const double pitch_rad = row_count(legs_) > 1 ? slope_rad(legs_, feet, mean_y, pivot.z) : 0.0;
   const Quat tilt = axis_angle(Vec3(1, 0, 0), pitch_rad);
-  const Vec3 pivot(0.0, 0.0, mean_z);  // on the ground between the feet
   Rigid root{course.q * tilt * rest.q, course * (pivot + tilt * (rest.p_m - pivot))};
   root.p_m.y = (pivot + tilt * (rest.p_m - pivot)).y + mean_y - lower_m;
   return root;

@@ -64,6 +64,7 @@ class Gait {
   Rigid foothold(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const;
   void take_step(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int number, Step& step) const;
   Vec3 direction(const GaitParams& params, double turned_rad) const;
+  Vec3 middle() const;
   Vec3 turning_way(const GaitParams& params, const GaitTiming& timing, double time_s) const;
   const Vec3& whole_turn(const GaitParams& params, const GaitTiming& timing) const;
   Rigid course(const GaitParams& params, const GaitTiming& timing, double time_s) const;

@@ -11,6 +11,8 @@ namespace contort {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
+constexpr double kTurnOfMany_rad = 36.0 * kRadPerDeg;    // in a cycle, of a body with several rows of legs
+constexpr double kTurnOnTheSpot_rad = 30.0 * kRadPerDeg;  // nothing takes feet out of each other's way there
 constexpr double kSidestep = 0.25;  // the longest stride sideways, of a leg
 
 // The part of a heading to which the body turns; over what is left it goes sideways or backward. Sidesteps are slow, or
@@ -84,6 +86,7 @@ double dip_for(std::span<const Leg> legs, const GaitParams& params) {
 GaitParams walk_on_many(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
   GaitParams params = params_for(legs, speed_m_s, heading_rad, 1.9);
   params.duty = 0.66;
+  params.turn_of_cycle_rad = kTurnOfMany_rad;
   params.lower_m = lower_for(legs, params.duty * params.cycle_s * speed_m_s);
   return params;
 }
@@ -111,6 +114,7 @@ GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double headi
 GaitParams run_on_many(std::span<const Leg> legs, double speed_m_s) {
   GaitParams params = params_for(legs, speed_m_s, 0.0, 1.7);
   params.duty = 0.45;
+  params.turn_of_cycle_rad = kTurnOfMany_rad;
   params.lift_m *= 1.5;
   params.lower_m *= 1.5;
   params.bounce_m = 0.03 * least_length_m(legs);
@@ -180,6 +184,19 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
   params.trot = true;
   params.turn_rad = turn_for(legs, speed_m_s, heading_rad);
   params.heading_rad = heading_rad - params.turn_rad;
+  return params;
+}
+
+// The cadence of a quick walk, 1.1 sqrt(g / l) steps a cycle of two. The foot on the side of the turn goes first.
+GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace) {
+  GaitParams params = walk_params(legs, 0.0, 0.0);
+  const double length_m = least_length_m(legs);
+  params.cycle_s = 2.6 * std::sqrt(length_m / kGravity_m_s2) / pace;
+  params.lift_m = 0.06 * length_m;
+  params.arm_swing_rad = params.arm_back_rad = params.elbow_rad = 0.0;
+  params.turn_rad = turn_rad;
+  params.turn_of_cycle_rad = kTurnOnTheSpot_rad;
+  params.lead = turn_rad > 0.0 ? 1 : 0;
   return params;
 }
 

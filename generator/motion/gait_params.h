@@ -11,6 +11,7 @@ struct GaitParams {
   double speed_m_s = 1.0;    // >= 0, of the root; 0 stands
   double heading_rad = 0.0;  // of travel, from where the body faces at that time
   double turn_rad = 0.0;     // of the body, while it starts
+  double turn_of_cycle_rad = 40.0 * kRadPerDeg;  // > 0: of the body in a cycle, at most
   double cycle_s = 1.0;      // > 0, between two steps of one foot
   double duty = 0.6;         // (0, 1): the share of the cycle in which a foot stands
   double under = 0.5;        // (0, 1): of the stance, when the hips have come over the foot
@@ -34,6 +35,9 @@ struct GaitParams {
 // to be made sideways or backward.
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
 GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
+
+// Steps on the spot while the body turns, to the left where `turn_rad` > 0. `pace`, in (0, 1]: a share of the usual cadence.
+GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace);
 
 // The share of the bounce, [0, 1], at so many cycles after a stance began: 0 where the hips are over the foot.
 double root_beat(const GaitParams& params, double cycles);

@@ -22,9 +22,6 @@ double eased_s(double time_s, double end_s, double up_s, double down_s) {
   return ramped_s(end_s - down_s, up_s) + ramped_s(down_s, down_s) - ramped_s(end_s - t, down_s);
 }
 
-constexpr double kTurn_rad = 40.0 * kRadPerDeg;        // of the body in a cycle, at most
-constexpr double kTurnOfMany_rad = 36.0 * kRadPerDeg;  // of one with several rows of legs
-
 }  // namespace
 
 // The root begins so slowly that no foot is left behind at home by more than half a stance before its first swing: a
@@ -41,7 +38,7 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
   const double hurry = wanted_s / std::max(up_s_, 1e-9);  // above 1 on a way too short for the speed
   if (hurry > 1.0) speed_m_s_ /= hurry * hurry;
   // Feet turn with the body, step by step.
-  const double most_rad_s = (rows_ > 1 ? kTurnOfMany_rad : kTurn_rad) / params.cycle_s;
+  const double most_rad_s = params.turn_of_cycle_rad / params.cycle_s;
   turn_s_ = params.turn_rad == 0.0 ? 0.0 : std::min(moving_s_, std::fabs(params.turn_rad) / most_rad_s + turn_ramp_s());
   const double most_rad = most_rad_s * std::max(0.0, turn_s_ - turn_ramp_s());
   turn_rad_ = std::clamp(params.turn_rad, -most_rad, most_rad);

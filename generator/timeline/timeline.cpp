@@ -5,6 +5,7 @@
 
 #include "generator/actions/hand.h"
 #include "generator/motion/aim_tables.h"
+#include "generator/timeline/part_order.h"
 #include "model/core/nearest.h"
 #include "model/motion/legs.h"
 
@@ -67,73 +68,6 @@ void list_by_part(std::size_t parts, Timeline& out) {
     out.of_part[static_cast<std::size_t>(action.sequence) * parts + static_cast<std::size_t>(action.part)].push_back(
         static_cast<int>(i));
   }
-}
-
-// The part whose motion an action looks at before it moves its own, or -1.
-int looks_at(const Character& character, const PlannedAction& action) {
-  std::size_t at = 0;
-  for (const ParamDef& def :
-       action.def->params(character, character.parts()[static_cast<std::size_t>(action.named)])) {
-    if (def.type == ParamType::object_point) {
-      const Socket& socket = character.sockets()[static_cast<std::size_t>(action.params[at])];
-      return character.joints()[static_cast<std::size_t>(socket.joint)].part;
-    }
-    at += def.type == ParamType::vector ? 3 : 1;
-  }
-  return -1;
-}
-
-bool is_leg(const Character& character, std::size_t part) {
-  return std::ranges::any_of(find_legs(character), [&](const Leg& leg) {
-    return leg.part == static_cast<int>(part) || leg.foot_part == static_cast<int>(part);
-  });
-}
-
-// The part that a part carries; -1 where it carries none or several.
-int only_child_of(const Character& character, int part) {
-  int child = -1, count = 0;
-  for (int p = 1; p < static_cast<int>(character.parts().size()); ++p)
-    if (carrier_of(character, p) == part) child = p, ++count;
-  return count == 1 ? child : -1;
-}
-
-// The part that may come next: the one that the last one carries, so that a limb is moved as a whole; then legs, which
-// have to stand, so that arms make way for them; then in the order of slots. If none may come next, the answer is the
-// number of parts.
-template <class Ready>
-std::size_t next_part(const Character& character, const std::vector<int>& order, const Ready& ready) {
-  const std::size_t parts = character.parts().size();
-  std::size_t first = parts, leg = parts;
-  for (std::size_t p = parts; p-- > 0;) {
-    if (!ready(p)) continue;
-    if (order.size() > 1 && only_child_of(character, order.back()) == static_cast<int>(p)) return p;
-    first = p;
-    if (is_leg(character, p)) leg = p;
-  }
-  return leg < parts ? leg : first;
-}
-
-// Carriers first, and what is looked at before who looks.
-Result<Done> order_parts(const Character& character, Timeline& out) {
-  const std::size_t parts = character.parts().size();
-  std::vector<std::vector<int>> before(parts);
-  for (std::size_t p = 1; p < parts; ++p) before[p].push_back(carrier_of(character, static_cast<int>(p)));
-  for (const PlannedAction& action : out.actions)
-    if (const int seen = looks_at(character, action); seen >= 0)
-      before[static_cast<std::size_t>(action.part)].push_back(seen);
-  std::vector<char> placed(parts, 0);
-  const auto ready = [&](std::size_t p) {
-    return placed[p] == 0 && std::all_of(before[p].begin(), before[p].end(),
-                                         [&](int b) { return placed[static_cast<std::size_t>(b)] != 0; });
-  };
-  while (out.part_order.size() < parts) {
-    const std::size_t next = next_part(character, out.part_order, ready);
-    if (next == parts)
-      return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
-    placed[next] = 1;
-    out.part_order.push_back(static_cast<int>(next));
-  }
-  return Done{};
 }
 
 Issue unknown_action(const Character& character, const std::string& action) {
@@ -241,9 +175,21 @@ class Layout {
   void plan_aim(PlannedAction& planned) const {
     const Part& part = character_.parts()[static_cast<std::size_t>(planned.named)];
     const std::vector<ParamDef> defs = planned.def->params(character_, part);
-    if (defs.empty() || defs.front().type != ParamType::own_point) return;
+    if (!defs.empty() && defs.front().type == ParamType::own_point)
+      add_chain(planned.named, chest_of(carrier_of(character_, planned.named)), false, planned);
+  }
+
+  // The face of a part that is not the root; -1 where it has none.
+  int chest_of(int part) const {
+    if (part <= 0) return -1;
+    const std::vector<FacingChain>& facing = character_.parts()[static_cast<std::size_t>(part)].facing;
+    return facing.empty() ? -1 : facing.front().socket;
+  }
+
+  void add_chain(int part, int chest, bool helps, PlannedAction& planned) const {
     AimPlan plan;
-    plan.chain = aim_chain_for(character_, planned.named, static_cast<int>(planned.params.front()));
+    plan.chest = chest, plan.helps = helps;
+    plan.chain = aim_chain_for(character_, part, static_cast<int>(planned.params.front()));
     plan.table = shared_aim_tables().get(character_, plan.chain);
     planned.aim = std::make_shared<const AimPlan>(std::move(plan));
   }
@@ -282,7 +228,43 @@ class Layout {
       planned.part = part;
       out_.actions.push_back(planned);
     }
+    if (planned.aim != nullptr) add_further(planned);
     return Done{};
+  }
+
+  bool carries_legs(int part) const {
+    return std::ranges::any_of(find_legs(character_),
+                               [&](const Leg& leg) { return carrier_of(character_, leg.part) == part; });
+  }
+
+  // The torso on which the part hangs is directed at the same target; and the figure steps round to face it. A trunk
+  // that legs carry does not bend while they step.
+  void add_further(const PlannedAction& aim) {
+    const int carrier = carrier_of(character_, aim.named);
+    if (carrier <= 0 && (!is_trunk(character_, aim.named) || carries_legs(aim.named))) return;
+    const bool has_chest = aim.aim->chest >= 0 && !carries_legs(carrier);
+    PlannedAction turned = aim;
+    turned.blend_in = -1.0, turned.cuts = false;
+    if (has_chest) {
+      turned.params.front() = aim.aim->chest;
+      add_chain(carrier, -1, true, turned);
+      add_further(aim.use, {carrier}, turned);
+    }
+    const ActionDef& turn = *find_action("turn");
+    if (!turn.supports(character_, character_.parts().front())) return;
+    turned.def = &turn, turned.aim = nullptr;
+    turned.params.erase(turned.params.begin());
+    add_further(aim.use, parts_moved(turn, character_, 0), turned);
+  }
+
+  void add_further(int of_use, const std::vector<int>& parts, PlannedAction planned) {
+    planned.use = out_.use_count++;
+    planned.further = static_cast<int>(out_.further.size());
+    out_.further.push_back({of_use, static_cast<int>(out_.actions.size())});
+    for (const int part : parts) {
+      planned.part = part;
+      out_.actions.push_back(planned);
+    }
   }
 
   Result<Done> add_interrupt(const InterruptDesc& desc, const std::string& pointer) {

@@ -35,13 +35,21 @@ struct PlannedAction {
   std::shared_ptr<const AimPlan> aim;   // where it has an own_point
   std::shared_ptr<const KeyPlan> keys;  // of key poses
   Vec3 easy_grip_m{0.0};                // of the named part, if it is an arm: in the character's frame
+  int further = -1;  // index into Timeline::further: it moves its part only once it is acquired; -1: it is of the spec
+};
+
+// An action that an aim may acquire where its own part cannot be directed at the target (docs/aim.md).
+struct FurtherAction {
+  int of_use = 0;  // the use that aims
+  int action = 0;  // index into Timeline::actions: on the part that is to help, a torso or the root
 };
 
 struct Timeline {
   std::vector<PlannedSequence> sequences;  // the spec's, then those of its interrupts
   std::vector<PlannedInterrupt> interrupts;
   int queued = 0;                      // how many sequences wait in the queue at first
-  std::vector<PlannedAction> actions;  // in spec order
+  std::vector<PlannedAction> actions;  // in spec order, each before its further ones
+  std::vector<FurtherAction> further;  // those of one use from the part outward to the root
   int use_count = 0;
   std::vector<std::vector<int>> of_part;  // indices into actions, by sequence * part_count + part
   std::vector<int> part_order;            // carriers first, and what an action looks at before those that it moves

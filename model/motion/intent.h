@@ -31,6 +31,7 @@ struct IntendedAction {
   double blend_out = 0.0;
   int first_frame = 0;  // the whole frames in which it moves the part
   int last_frame = 0;
+  bool further = false;  // the generator added it on this part, to carry out what was asked for on the named one
   bool operator==(const IntendedAction&) const = default;
 };
 

@@ -64,17 +64,20 @@ ActionUse head_aims_at(const Vec3& target_m) {
 
 TEST(AimError, OutOfReachIsAnUnmetRequestAndNoFinding) {
   StageEvaluator evaluator;
-  const auto play = [&](const Vec3& target_m) {
-    EXPECT_TRUE(evaluator.run(fixtures::stage_of({fixtures::sequence({head_aims_at(target_m)})}), "aim_error")
-                    .findings.empty());
+  const auto unmet_of = [&](std::vector<ActionUse> uses) {
+    EXPECT_TRUE(evaluator.run(fixtures::stage_of({fixtures::sequence(std::move(uses))}), "aim_error").findings.empty());
+    return evaluator.execution().intent->unmet;
   };
-  play(Vec3(1.0, 1.2, 3.0));
-  EXPECT_TRUE(evaluator.execution().intent->unmet.empty());
-  play(Vec3(0.0, 1.5, -3.0));
+  EXPECT_TRUE(unmet_of({head_aims_at(Vec3(1.0, 1.2, 3.0))}).empty());
+  const Vec3 behind(0.0, 1.5, -3.0);
+  const std::vector<UnmetRequest> hurried = unmet_of({head_aims_at(behind)});
   const int head = evaluator.execution().character->find_part("head");
-  ASSERT_EQ(evaluator.execution().intent->unmet.size(), 1U);
-  // From when it has come in until it fades.
-  EXPECT_EQ(evaluator.execution().intent->unmet[0], (UnmetRequest{20, 50, head, "aim", Shortfall::out_of_reach}));
+  // In the last frame before it fades: until then the figure is turning.
+  EXPECT_EQ(hurried, (std::vector{UnmetRequest{50, 50, head, "aim", Shortfall::joint_speed}}));
+  // From when it has come in, where neither torso nor legs may help.
+  const std::vector<UnmetRequest> alone = unmet_of({head_aims_at(behind), use("look_at", "torso", 0, 60, {}),
+                                                    use("crouch", "waist", 0, 60, {{"share", 0.05}})});
+  EXPECT_EQ(alone, (std::vector{UnmetRequest{20, 50, head, "aim", Shortfall::out_of_reach}}));
 }
 
 TEST(AimError, AnAimThatIsDisturbedOnPurposeIsNotJudged) {

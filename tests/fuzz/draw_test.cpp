@@ -78,8 +78,8 @@ TEST(Draw, TakesTheLargestSeedAndIndex) {
 // A change here means that (seed, index) of every stored case names another spec from now on: change kDrawStream in
 // fuzz/draw.cpp, and put the printed values here.
 TEST(Draw, TheFirstSpecsOfSeedSevenAreWhatTheyWere) {
-  const std::array<std::string, 3> pinned = {"d7fe22f7d14ce0fbde72cdd27f508e25", "169530673ecedadc5c78727d101b14e0",
-                                             "0ccf67ae2ab3fa0aaed865681a56f66f"};
+  const std::array<std::string, 3> pinned = {"74c5d5842551afa10ff77a88ac2bcbbe", "87424daa0a8bc9bc06fee917cd202f02",
+                                             "48124cee024eec54fcc3ba8bec1f4937"};
   for (std::size_t i = 0; i < pinned.size(); ++i)
     EXPECT_EQ(spec_id(draw(7, static_cast<std::int64_t>(i))), pinned[i]) << print_spec(draw(7, static_cast<int>(i)));
 }

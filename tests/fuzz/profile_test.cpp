@@ -89,7 +89,7 @@ TEST(Profile, ARuleNarrowsAParameter) {
   EXPECT_GT(right_of_middle, 5);
 }
 
-// The most actions that move one part at one time, by what the time line makes of the spec.
+// The most actions of the spec that move one part at one time, by what the time line makes of it.
 int most_at_once(const Profile& profile, int specs) {
   int most = 0;
   for (int i = 0; i < specs; ++i) {
@@ -99,8 +99,8 @@ int most_at_once(const Profile& profile, int specs) {
     const std::vector<PlannedAction>& actions = stage->timeline.actions;
     for (const PlannedAction& one : actions)
       most = std::max(most, static_cast<int>(std::ranges::count_if(actions, [&](const PlannedAction& other) {
-                        return other.sequence == one.sequence && other.part == one.part && other.start <= one.start &&
-                               other.end > one.start;
+                        return one.further < 0 && other.further < 0 && other.sequence == one.sequence &&
+                               other.part == one.part && other.start <= one.start && other.end > one.start;
                       })));
   }
   return most;

@@ -183,7 +183,7 @@ TEST(Generate, BallsStayUnitQuaternionsAndAllIsFinite) {
 }
 
 // The rule of docs/timeline.md, by counting: in each layer the action that started last, of all so far, has the part
-// while it lasts.
+// while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec.
 void expect_spans_fit(const Stage& stage) {
   const Motion motion = generate(stage);
   std::vector<int> offset;  // of each sequence on the time line: nothing is cut here
@@ -191,12 +191,12 @@ void expect_spans_fit(const Stage& stage) {
     offset.push_back(start), start += sequence.length;
   const auto starts = [&](const PlannedAction& a) { return offset[static_cast<std::size_t>(a.sequence)] + a.start; };
   for (const PlannedAction& a : stage.timeline.actions)
-    for (int frame = 0; frame < motion.frame_count; ++frame) {
+    for (int frame = 0; a.further < 0 && frame < motion.frame_count; ++frame) {
       const int own = offset[static_cast<std::size_t>(a.sequence)];
       bool has = a.first_frame + own <= frame && frame <= a.last_frame + own;
       for (const PlannedAction& b : stage.timeline.actions)  // one that has moved already and came later
-        if (a.def->layer != Layer::additive && &a != &b && a.part == b.part && a.def->layer == b.def->layer &&
-            starts(b) < frame)
+        if (b.further < 0 && a.def->layer != Layer::additive && &a != &b && a.part == b.part &&
+            a.def->layer == b.def->layer && starts(b) < frame)
           has = has && (starts(a) > starts(b) || (starts(a) == starts(b) && &a > &b)) && starts(a) < frame;
       int covered = 0;
       for (const ActionSpan& span : motion.spans)

@@ -1,0 +1,107 @@
+#include "generator/further_actions.h"
+
+#include <cmath>
+
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kMisses_rad = 1.0 * kRadPerDeg;  // an aim that is off by less needs no help
+constexpr double kFaces_rad = 15.0 * kRadPerDeg;  // a figure that faces its target so nearly does not step round
+
+// The time that a turn is thought to take.
+constexpr double kComesIn_s = 0.5;
+constexpr double kTurns_rad_s = 35.0 * kRadPerDeg;
+
+// Whether a further action, of this use or of another that aims too, has the part.
+bool is_helped(const Playback& playback, std::span<const LayerStack> stacks, int part) {
+  const LayerHold& hold = stacks[at(part)].ik();
+  return hold.action >= 0 && planned(playback, hold).further >= 0;
+}
+
+// The point of an aim, or of a turn, in the world.
+Vec3 target_of(const Stage& stage, const PlannedAction& action) {
+  const std::size_t first = action.aim != nullptr ? 1 : 0;
+  return stage.start * Vec3(action.params[first], action.params[first + 1], action.params[first + 2]);
+}
+
+// Whether another use aims somewhere else: a figure that steps round would take it from its target.
+bool aims_elsewhere(const Playback& playback, std::span<const LayerStack> stacks, const Stage& stage,
+                    const PlannedAction& aim, const Rigid& root) {
+  const double azimuth = azimuth_rad(root, target_of(stage, aim));
+  return std::ranges::any_of(stacks, [&](const LayerStack& stack) {
+    if (stack.ik().action < 0) return false;
+    const PlannedAction& other = planned(playback, stack.ik());
+    return other.aim != nullptr && other.further < 0 && other.use != aim.use &&
+           std::fabs(wrap_angle(azimuth_rad(root, target_of(stage, other)) - azimuth)) > kEasyAim_rad;
+  });
+}
+
+}  // namespace
+
+void FurtherActions::begin(const Stage& stage) {
+  stage_ = &stage;
+  acquired_.assign(stage.timeline.further.size(), Playback::kDormant);
+}
+
+bool FurtherActions::faces_elsewhere(const PlannedAction& turn, const Rigid& root) const {
+  return std::fabs(azimuth_rad(root, target_of(*stage_, turn))) > kFaces_rad;
+}
+
+// One that a twisted arm reaches has the figure turn only where there is the time for it.
+bool FurtherActions::needs_help(const Playback& playback, const LayerHold& hold, RuleRunner& rules) const {
+  const PlannedAction& aim = planned(playback, hold);
+  if (rules.feedback()[at(aim.named)].shortfall > kMisses_rad) return true;
+  if (aim.aim->chest < 0) return false;
+  const Rigid chest = world_from_socket(*stage_->character, rules.world(), aim.aim->chest);
+  const double azimuth = std::fabs(azimuth_rad(chest, target_of(*stage_, aim)));
+  const double left_s = (aim.last_frame - content(playback, hold)) / playback.rate_hz();
+  return azimuth > kEasyAim_rad && left_s > kComesIn_s + azimuth / kTurns_rad_s;
+}
+
+// The first one that is of use and not acquired yet, unless one before it will do by itself.
+bool FurtherActions::acquire(const Playback& playback, const PlannedAction& aim, std::span<const LayerStack> stacks,
+                             const RuleRunner& rules, const Rigid& root) {
+  for (std::size_t i = 0; i < acquired_.size(); ++i) {
+    const FurtherAction& further = stage_->timeline.further[i];
+    if (further.of_use != aim.use) continue;
+    const PlannedAction& help = playback.action(further.action);
+    if (is_helped(playback, stacks, help.part)) {
+      if (rules.feedback()[at(help.part)].shortfall <= kEasyAim_rad) return false;
+    } else if (acquired_[i] == Playback::kDormant && stacks[at(help.part)].ik().action < 0 &&
+               (help.aim != nullptr ||
+                (faces_elsewhere(help, root) && !aims_elsewhere(playback, stacks, *stage_, aim, root)))) {
+      acquired_[i] = playback.frame() + 1;
+      return true;
+    }
+  }
+  return false;
+}
+
+void FurtherActions::ask(const Playback& playback, std::size_t part, std::span<const LayerStack> stacks,
+                         RuleRunner& rules, const Rigid& root) {
+  const LayerHold& hold = stacks[part].ik();
+  if (hold.action < 0 || acquired_.empty()) return;
+  const PlannedAction& aim = planned(playback, hold);
+  if (aim.aim == nullptr || aim.further >= 0 || aim.named != static_cast<int>(part)) return;
+  const bool acquired = needs_help(playback, hold, rules) && acquire(playback, aim, stacks, rules, root);
+  rules.body(aim).has_help = acquired || is_coming(playback, hold, stacks, root);
+}
+
+bool FurtherActions::is_coming(const Playback& playback, const LayerHold& aim, std::span<const LayerStack> stacks,
+                               const Rigid& root) const {
+  const PlannedAction& action = planned(playback, aim);
+  if (content(playback, aim) + 1 > action.end - action.blend_out) return false;
+  for (std::size_t i = 0; i < acquired_.size(); ++i) {
+    const FurtherAction& further = stage_->timeline.further[i];
+    const PlannedAction& help = playback.action(further.action);
+    if (further.of_use != action.use || !is_helped(playback, stacks, help.part)) continue;
+    const bool is_in = come_in(playback, stacks[at(help.part)].ik()) >= 1.0;
+    if (!is_in || (help.aim == nullptr && faces_elsewhere(help, root))) return true;
+  }
+  return false;
+}
+
+}  // namespace contort

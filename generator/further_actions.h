@@ -1,0 +1,40 @@
+// Further actions: where a part cannot be directed at its target, the torso that carries it turns, and then the figure
+// steps round (P13 of the seed, docs/aim.md).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/layer_stack.h"
+#include "generator/rule_runner.h"
+#include "generator/stage.h"
+
+namespace contort {
+
+class FurtherActions {
+ public:
+  void begin(const Stage& stage);
+
+  // The frame from which each of them is in force, as Playback takes it.
+  std::span<const int> acquired() const { return acquired_; }
+
+  // After a frame: has the next help come for a part whose aim misses its target, or reaches it with a twist. `root` is
+  // shown.
+  void ask(const Playback& playback, std::size_t part, std::span<const LayerStack> stacks, RuleRunner& rules,
+           const Rigid& root);
+
+  // Whether help for an aim is on its way, and the aim is in force after this frame, too.
+  bool is_coming(const Playback& playback, const LayerHold& aim, std::span<const LayerStack> stacks,
+                 const Rigid& root) const;
+
+ private:
+  bool needs_help(const Playback& playback, const LayerHold& hold, RuleRunner& rules) const;
+  bool acquire(const Playback& playback, const PlannedAction& aim, std::span<const LayerStack> stacks,
+               const RuleRunner& rules, const Rigid& root);
+  bool faces_elsewhere(const PlannedAction& turn, const Rigid& root) const;
+
+  const Stage* stage_ = nullptr;
+  std::vector<int> acquired_;
+};
+
+}  // namespace contort
