@@ -69,9 +69,8 @@ double height_of(const Ground& ground, const GroundAngles& angles, double x_m, d
   return std::visit([&](const auto& g) { return height_of(g, angles, x_m, z_m); }, ground);
 }
 
-// In the environment's frame, pointing up.
+// Of a slope or a grid, in the environment's frame, pointing up.
 Vec3 normal_of(const Ground& ground, const GroundAngles& angles, double x_m, double z_m) {
-  if (std::holds_alternative<PlaneGround>(ground) || std::holds_alternative<StepsGround>(ground)) return {0, 1, 0};
   constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
   const double dx = height_of(ground, angles, x_m + kStep_m, z_m) - height_of(ground, angles, x_m - kStep_m, z_m);
   const double dz = height_of(ground, angles, x_m, z_m + kStep_m) - height_of(ground, angles, x_m, z_m - kStep_m);
@@ -163,6 +162,10 @@ Environment::Environment(const EnvironmentDesc& desc)
       angles_(std::visit([](const auto& ground) { return angles_of(ground); }, ground_)),
       obstacles_(desc.obstacles),
       level_(std::holds_alternative<PlaneGround>(desc.ground)) {
+  if (const auto* plane = std::get_if<PlaneGround>(&ground_))
+    level_m_ = plane->height_m + world_from_environment_.p_m.y;
+  is_flat_ = level_ || std::holds_alternative<StepsGround>(ground_);
+  up_ = world_from_environment_.q * Vec3(0, 1, 0);
   for (const ObstacleDesc& obstacle : obstacles_) {
     const auto* box = std::get_if<Box>(&obstacle.shape);
     turns_.push_back(box == nullptr ? kNoRotation : from_rotation_vector(box->rotation_deg * kRadPerDeg));
@@ -172,11 +175,13 @@ Environment::Environment(const EnvironmentDesc& desc)
 }
 
 double Environment::height_at(double x_m, double z_m) const {
+  if (level_) return level_m_;
   const Vec3 at = local({x_m, 0.0, z_m});
   return height_of(ground_, angles_, at.x, at.z) + world_from_environment_.p_m.y;
 }
 
 Vec3 Environment::normal_at(double x_m, double z_m) const {
+  if (is_flat_) return up_;
   const Vec3 at = local({x_m, 0.0, z_m});
   return world_from_environment_.q * normal_of(ground_, angles_, at.x, at.z);
 }

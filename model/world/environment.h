@@ -58,6 +58,9 @@ class Environment {
   std::vector<Quat> turns_;              // of obstacles that are boxes; none for the others
   std::vector<Polyhedron> polyhedra_;    // of obstacles that are hulls; empty ones for the others
   bool level_ = true;
+  double level_m_ = 0.0;   // of level ground, in the world
+  bool is_flat_ = true;    // its normal is the same everywhere: level ground, and the treads of steps
+  Vec3 up_{0.0, 1.0, 0.0};  // this normal, in the world
 };
 
 // Codes environment.wrong_count (heights), .duplicate_name, .bad_shape; pointers from the description's root.
