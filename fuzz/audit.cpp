@@ -10,6 +10,8 @@
 #include "model/character/character.h"
 #include "model/core/index.h"
 #include "model/core/nearest.h"
+#include "model/geometry/solid_points.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/legs.h"
 
 namespace contort {
@@ -119,9 +121,22 @@ bool touches_walls(const Generator& generator, const Character& character, const
   return tells && !is_leg && generator.manifest().can.obstacles;
 }
 
-// A wall to touch, at the part's side.
-ObstacleDesc wall_beside(const Part& part, Dice& dice) {
-  const double distance_m = 0.01 * (30 + dice.below(60));
+// How far the figure at rest extends to a side, m: +1 its left.
+double extent_m(const Character& character, double side) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  double most_m = 0.0;
+  for (const Collider& collider : character.colliders()) {
+    const Solid solid = solid_of(collider);
+    for (const Vec3& point : core_points(solid))
+      most_m = std::max(most_m, side * (world[at(collider.joint)] * point).x + solid.radius_m);
+  }
+  return most_m;
+}
+
+// A wall to touch, at the part's side, 2 to 40 cm from the figure at rest.
+ObstacleDesc wall_beside(const Character& character, const Part& part, Dice& dice) {
+  const double distance_m = extent_m(character, part.side == Side::right ? -1.0 : 1.0) + 0.01 * (2 + dice.below(39));
   Box wall;
   wall.center_m = Vec3(part.side == Side::right ? -distance_m - 0.1 : distance_m + 0.1, 1.0, 0.0);
   wall.half_m = Vec3(0.1, 1.0, 2.0);
@@ -191,7 +206,7 @@ Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index)
   Spec spec;
   spec.character = row.character;
   spec.hold_frames = kHoldFrames;
-  if (on.touches) spec.environment.obstacles = {wall_beside(part, dice)};
+  if (on.touches) spec.environment.obstacles = {wall_beside(on.character, part, dice)};
   ClipDesc clip;
   clip.actions = {use};
   spec.sequences.push_back({});

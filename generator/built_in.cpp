@@ -14,6 +14,7 @@ constexpr std::size_t kMostCharacters = 256;  // whose offers are remembered
 std::vector<EventSource> sources_of(const ActionDef& def, const Character& character, int part) {
   if (def.tells == Tells::aim_reached) return {{Event::aim_reached, part}};
   if (def.tells == Tells::impact) return {{Event::impact, part}};
+  if (def.tells == Tells::contact && def.spread != Spread::legs) return {{Event::contact, part}};
   std::vector<EventSource> feet;
   if (def.tells == Tells::contact)
     for (const Leg& leg : find_legs(character)) feet.push_back({Event::contact, leg.foot_part});

@@ -36,7 +36,7 @@ enum class Spread {
 // The event that an action may bring about on the parts that it moves.
 enum class Tells {
   nothing,
-  contact,      // of feet
+  contact,      // of feet, or of the part that the spec names
   aim_reached,  // of the part that the spec names
   impact,       // the same
 };

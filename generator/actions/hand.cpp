@@ -5,6 +5,7 @@
 
 #include "generator/actions/limb_reach.h"
 #include "generator/motion/ik.h"
+#include "model/core/detmath.h"
 #include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
 
@@ -46,6 +47,124 @@ void rest_part(const Character& character, const Part& part, Posture& posture) {
               posture.coords.begin() + part.first_coord);
 }
 
+namespace {
+
+constexpr int kWristPasses = 4;
+
+// A place for a hand, in the world: the grip goes to the point, and the palm faces the direction.
+struct Grasp {
+  Vec3 point_m{0.0};
+  Vec3 palm{0.0, 0.0, 1.0};  // a unit vector
+};
+
+const Limb& limb_of(const RuleInput& in) {
+  return in.room.limb_of(static_cast<std::size_t>(index_of(in.character, in.part)));
+}
+
+void place(const RuleInput& in, const Posture& posture) {
+  for (const int j : limb_of(in).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+}
+
+double& angle_of(const RuleInput& in, int joint, Posture& posture) {
+  return posture.coords[static_cast<std::size_t>(in.character.joint(joint).coord)];
+}
+
+// Calls visit(joint index) for the hinges between the elbow and the grip, outermost first.
+template <class Visit>
+void for_wrist(const RuleInput& in, const ReachChain& chain, Visit visit) {
+  const int grip = in.character.sockets()[static_cast<std::size_t>(chain.tip)].joint;
+  for (int j = grip; j > chain.middle; j = in.character.joint(j).parent)
+    if (in.character.joint(j).kind == JointKind::hinge) visit(j);
+}
+
+double off_palm_rad(const RuleInput& in, const ReachChain& chain, const Vec3& palm) {
+  const Vec3 facing = world_from_socket(in.character, in.world, chain.tip).q * Vec3(0, 0, 1);
+  return det::acos(std::clamp(dot(facing, palm), -1.0, 1.0));
+}
+
+void turn_wrist(const RuleInput& in, const ReachChain& chain, const Vec3& palm, Posture& posture) {
+  for_wrist(in, chain, [&](int j) {
+    const Joint& joint = in.character.joint(j);
+    const Vec3 facing = world_from_socket(in.character, in.world, chain.tip).q * Vec3(0, 0, 1);
+    double& angle = angle_of(in, j, posture);
+    angle += angle_towards(in.world[static_cast<std::size_t>(j)].q * joint.axis, facing, palm);
+    angle = std::clamp(angle, joint.low, joint.high);
+    place(in, posture);
+  });
+}
+
+// Wrist and arm in turn, as each moves what the other one has reached; from the wrist as it is.
+void reach_and_turn(const RuleInput& in, const ReachChain& chain, const Grasp& grasp, double swivel_rad,
+                    Posture& posture) {
+  for (int pass = 0; pass < kWristPasses; ++pass) {
+    reach_for(in.character, chain, in.world, grasp.point_m, swivel_rad, posture.coords);
+    place(in, posture);
+    turn_wrist(in, chain, grasp.palm, posture);
+  }
+  reach_for(in.character, chain, in.world, grasp.point_m, swivel_rad, posture.coords);
+  place(in, posture);
+}
+
+// The swivel, in steps of 15 degrees to either side; a limb on the right tries the mirror images.
+double swivel_for(const RuleInput& in, const ReachChain& chain, const Grasp& grasp, Posture& posture) {
+  constexpr int kSwivels = 24;
+  constexpr double kBetter = 0.01, kOfPalm = 2.0;
+  const double outward = in.part.side == Side::right ? -1.0 : 1.0;
+  double best = 0.0, least = 1e30;
+  for (int i = 0; i < kSwivels; ++i) {
+    const double swivel = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
+    for_wrist(in, chain, [&](int j) { angle_of(in, j, posture) = 0.0; });
+    reach_and_turn(in, chain, grasp, swivel, posture);
+    const double cost = cost_of_placed(in, posture) + kOfPalm * off_palm_rad(in, chain, grasp.palm);
+    if (cost < least - kBetter) least = cost, best = swivel;
+  }
+  return best;
+}
+
+ReachChain chain_to_grip(const Character& character, const Part& arm) {
+  ReachChain chain = arm.reach.front();
+  chain.tip = grip_of(character, arm);
+  return chain;
+}
+
+// The hand, after its arm.
+void take_wrist(const RuleInput& in, int hand, Posture& posture) {
+  const Part& arm = in.character.parts()[static_cast<std::size_t>(carrier_of(in.character, hand))];
+  rest_part(in.character, in.part, posture);
+  std::size_t at = 0;
+  for_wrist(in, chain_to_grip(in.character, arm), [&](int j) {
+    const double angle = in.body.aimed[at++];
+    if (in.character.joint(j).part == hand) angle_of(in, j, posture) = angle;
+  });
+}
+
+double bring_palm_to(const RuleInput& in, const Grasp& grasp, Posture& posture) {
+  const int own = index_of(in.character, in.part);
+  if (in.part.reach.empty()) return take_wrist(in, own, posture), 0.0;
+  const ReachChain chain = chain_to_grip(in.character, in.part);
+  const bool begins = in.body.begun != in.took_over;
+  for (const Part& part : in.character.parts())
+    if (carrier_of(in.character, index_of(in.character, part)) == own) rest_part(in.character, part, posture);
+  reach_with_travels(in, chain, grasp.point_m, std::nullopt, posture);  // travels come out
+  if (begins) in.body.swivel_rad = swivel_for(in, chain, grasp, posture);
+  std::size_t at = 0;
+  for_wrist(in, chain, [&](int j) { angle_of(in, j, posture) = begins ? 0.0 : in.body.aimed[at++]; });
+  reach_and_turn(in, chain, grasp, in.body.swivel_rad, posture);
+  at = 0;
+  for_wrist(in, chain, [&](int j) { in.body.aimed[at++] = angle_of(in, j, posture); });
+  return length(world_from_socket(in.character, in.world, chain.tip).p_m - grasp.point_m);
+}
+
+// Of all that the elbow moves.
+double over_plane_m(const RuleInput& in, const Vec3& point_m, const Vec3& normal) {
+  double least_m = 1e30;
+  for (const int j : limb_of(in).joints)
+    if (j >= in.part.reach.front().middle) least_m = std::min(least_m, in.room.over_plane_m(j, point_m, normal, in.world));
+  return least_m;
+}
+
+}  // namespace
+
 double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture) {
   if (in.part.reach.empty()) return rest_part(in.character, in.part, posture), 0.0;
   const int arm = index_of(in.character, in.part);
@@ -55,6 +174,21 @@ double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& po
   ReachChain chain = in.part.reach.front();
   chain.tip = grip_of(in.character, in.part);
   return reach_with_travels(in, chain, point_world_m, std::nullopt, posture);
+}
+
+double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture) {
+  constexpr double kClear_m = 0.002;
+  constexpr int kPasses = 3;  // a forearm comes nearer or farther as the grip is moved
+  Grasp grasp{point_m + gap_m * normal, -normal};
+  double missing_m = bring_palm_to(in, grasp, posture);
+  if (in.part.reach.empty()) return missing_m;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double lacks_m = kClear_m - over_plane_m(in, point_m, normal);
+    if (lacks_m <= 0.0) break;
+    grasp.point_m += lacks_m * normal;
+    missing_m = bring_palm_to(in, grasp, posture);
+  }
+  return missing_m;
 }
 
 }  // namespace contort

@@ -21,4 +21,10 @@ void rest_part(const Character& character, const Part& part, Posture& posture);
 // Answers how far the grip is from the point.
 double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture);
 
+// Brings the grip of an arm to a surface and turns the wrist so that the palm (the grip's +Z) faces it as nearly as it
+// can; the swivel is chosen for both when the action takes the arm. The grip is `gap_m` from the surface, or as much
+// farther as hand and forearm need, which may not enter it. For the hand, which is moved after the arm: as the arm found
+// it. Answers how far the grip is from its place.
+double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture);
+
 }  // namespace contort

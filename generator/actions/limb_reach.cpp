@@ -58,9 +58,8 @@ double elbow_height(const RuleInput& in) {
   return (middle.y - upper.y) / std::max(1e-6, length(middle - upper));
 }
 
-// The cost of joints out of range and of bodies too near; 0 where there are none. Places the limb in in.world.
+// The cost of joints out of range and of bodies too near; 0 where there are none. The limb is placed.
 double cost_of_faults(const RuleInput& in, const Posture& posture) {
-  place_limb(in, posture);
   const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
   const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
   return 40.0 * excess(in, posture) + too_near;
@@ -82,6 +81,7 @@ double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& t
   for (int i = 0; i < kSwivels; ++i) {
     const double off = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
     reach_for(in.character, chain, in.world, target, first + off, posture.coords);
+    place_limb(in, posture);
     const double faults = cost_of_faults(in, posture);
     const double now = faults + (wish_rad ? kOfWish * std::fabs(off) : cost_of_discomfort(in, posture));
     if (now < least - kBetter) least = now, best = first + off;
@@ -136,6 +136,10 @@ double reach_as_far(const RuleInput& in, const ReachChain& chain, const Vec3& ta
 }
 
 }  // namespace
+
+double cost_of_placed(const RuleInput& in, const Posture& posture) {
+  return cost_of_faults(in, posture) + cost_of_discomfort(in, posture);
+}
 
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture) {

@@ -14,4 +14,8 @@ namespace contort {
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
 
+// The cost of the posture of a limb that is placed in in.world: joints out of range, bodies too near, an elbow that is
+// held high, and a long way from where the action found the part.
+double cost_of_placed(const RuleInput& in, const Posture& posture);
+
 }  // namespace contort

@@ -15,7 +15,7 @@ std::vector<ParamDef> touch_params(const Character&, const Part&) {
   gap.name = "gap_m";
   gap.low = 0.0, gap.high = 0.5;
   gap.preset = 0.03;
-  gap.help = "Between the grip and the surface: about half of a hand.";
+  gap.help = "Between the grip and the surface, at least; a hand that needs more takes it.";
   return {within, gap};
 }
 
@@ -27,7 +27,7 @@ void touch_rule(const RuleInput& in, Posture& posture) {
   const Rigid world_from_character = in.world[0] * inverse(in.character.rest_root());
   const Surface surface = in.environment.nearest_obstacle(world_from_character * in.easy_grip_m);
   if (surface.obstacle < 0 || surface.distance_m > in.params[0]) return;
-  const double missing_m = bring_grip_to(in, surface.point_m + in.params[1] * surface.normal, posture);
+  const double missing_m = lay_hand_on(in, surface.point_m, surface.normal, in.params[1], posture);
   in.feedback.contact = !in.part.reach.empty() && missing_m < kTouch_m;
 }
 

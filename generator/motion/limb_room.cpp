@@ -224,6 +224,16 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
   return least;
 }
 
+double LimbRoom::over_plane_m(int joint, const Vec3& point_m, const Vec3& normal, std::span<const Rigid> world) const {
+  double least = kFar;
+  for (const Body& body : character_->bodies())
+    if (body.joint == joint)
+      for (int c = body.first_collider; c < body.first_collider + body.collider_count; ++c)
+        for (const Vec3& point : core_m_[at(c)])
+          least = std::min(least, dot(world[at(joint)] * point - point_m, normal) - own_[at(c)].radius_m);
+  return least;
+}
+
 bool LimbRoom::swings(int limb) const { return limb >= 0 && swings_[at(limb)] != 0; }
 
 bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {

@@ -53,6 +53,9 @@ class LimbRoom {
   // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
 
+  // The least distance of the bodies on a joint from a plane, on the side of its normal, m.
+  double over_plane_m(int joint, const Vec3& point_m, const Vec3& normal, std::span<const Rigid> world) const;
+
   // Whether bodies of this part's limb are within a millimetre of others, or deeper, where all joints are as in `world`.
   // Arms that swing with a gait get out of the way, and do not count.
   bool touches(std::size_t part, std::span<const Rigid> world);
