@@ -121,7 +121,7 @@ bool touches_walls(const Generator& generator, const Character& character, const
   return tells && !is_leg && generator.manifest().can.obstacles;
 }
 
-// How far the figure at rest extends to a side, m: +1 its left.
+// The distance from the middle of the figure at rest to its outermost point on a side, m: +1 is its left.
 double extent_m(const Character& character, double side) {
   std::vector<Rigid> world(character.joints().size());
   forward_kinematics(character, character.rest_root(), character.rest_coords(), world);

@@ -66,7 +66,7 @@ struct ActionTime {
 struct AimPlan {
   AimChain chain;
   std::shared_ptr<const AimTable> table;
-  int chest = -1;  // the face of the torso on which the part hangs, which can turn to help it; -1: there is none
+  int chest = -1;      // the face of the torso on which the part hangs, which can turn to help it; -1: no torso does
   bool helps = false;  // a torso that helps: it turns about the vertical, and does not lean
 };
 

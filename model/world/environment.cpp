@@ -69,7 +69,7 @@ double height_of(const Ground& ground, const GroundAngles& angles, double x_m, d
   return std::visit([&](const auto& g) { return height_of(g, angles, x_m, z_m); }, ground);
 }
 
-// Of a slope or a grid, in the environment's frame, pointing up.
+// The normal of a slope or a grid, in the environment's frame, pointing up.
 Vec3 normal_of(const Ground& ground, const GroundAngles& angles, double x_m, double z_m) {
   constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
   const double dx = height_of(ground, angles, x_m + kStep_m, z_m) - height_of(ground, angles, x_m - kStep_m, z_m);

@@ -115,6 +115,26 @@ TEST(Audit, OfOtherSeedsDrawsOtherMotions) {
   EXPECT_NE(audit_spec(row, generator, 1, 0), audit_spec(row, generator, 1, 1));
 }
 
+AuditRow only_row(const char* action, const char* slot) {
+  AuditOptions options;
+  options.draws = 40, options.characters = {"human"}, options.actions = {action}, options.slots = {slot};
+  BuiltInGenerator generator(stock_library());
+  return audited(options, generator).at(0);
+}
+
+// A row of which nothing moved would be clean, and say nothing.
+TEST(Audit, HandsHaveAWallToTouch) {
+  const AuditRow row = only_row("touch", "arm_left");
+  EXPECT_LT(row.still, row.draws / 2);
+}
+
+TEST(Audit, TellsWhyRequestsWereUnmet) {
+  const AuditRow row = only_row("turn", "waist");
+  EXPECT_EQ(row.unmet, row.reasons.at("joint_speed")) << "half a second to one and a half are too short for most turns";
+  EXPECT_GT(row.unmet, 0);
+  EXPECT_EQ(row.still, 0);
+}
+
 Issue refusal(const char* character, const char* action, const char* slot, Generator& generator) {
   AuditOptions options;
   if (*character != 0) options.characters = {character};
