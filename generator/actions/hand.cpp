@@ -69,12 +69,13 @@ double& angle_of(const RuleInput& in, int joint, Posture& posture) {
   return posture.coords[static_cast<std::size_t>(in.character.joint(joint).coord)];
 }
 
-// Calls visit(joint index) for the hinges between the elbow and the grip, outermost first.
+// Calls visit(joint index) for the hinges between the elbow and the grip, outermost first; as many as are remembered.
 template <class Visit>
 void for_wrist(const RuleInput& in, const ReachChain& chain, Visit visit) {
   const int grip = in.character.sockets()[static_cast<std::size_t>(chain.tip)].joint;
-  for (int j = grip; j > chain.middle; j = in.character.joint(j).parent)
-    if (in.character.joint(j).kind == JointKind::hinge) visit(j);
+  int visited = 0;
+  for (int j = grip; j > chain.middle && visited < kMaxAimCoords; j = in.character.joint(j).parent)
+    if (in.character.joint(j).kind == JointKind::hinge) visit(j), ++visited;
 }
 
 double off_palm_rad(const RuleInput& in, const ReachChain& chain, const Vec3& palm) {
@@ -105,20 +106,18 @@ void reach_and_turn(const RuleInput& in, const ReachChain& chain, const Grasp& g
   place(in, posture);
 }
 
-// The swivel, in steps of 15 degrees to either side; a limb on the right tries the mirror images.
 double swivel_for(const RuleInput& in, const ReachChain& chain, const Grasp& grasp, Posture& posture) {
-  constexpr int kSwivels = 24;
-  constexpr double kBetter = 0.01, kOfPalm = 2.0;
-  const double outward = in.part.side == Side::right ? -1.0 : 1.0;
-  double best = 0.0, least = 1e30;
-  for (int i = 0; i < kSwivels; ++i) {
-    const double swivel = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
+  constexpr double kOfPalm = 2.0;  // each radian
+  return cheapest_swivel(in.part.side, [&](double swivel) {
     for_wrist(in, chain, [&](int j) { angle_of(in, j, posture) = 0.0; });
     reach_and_turn(in, chain, grasp, swivel, posture);
-    const double cost = cost_of_placed(in, posture) + kOfPalm * off_palm_rad(in, chain, grasp.palm);
-    if (cost < least - kBetter) least = cost, best = swivel;
-  }
-  return best;
+    return cost_of_placed(in, posture) + kOfPalm * off_palm_rad(in, chain, grasp.palm);
+  });
+}
+
+void rest_carried(const Character& character, int carrier, Posture& posture) {
+  for (const Part& part : character.parts())
+    if (carrier_of(character, index_of(character, part)) == carrier) rest_part(character, part, posture);
 }
 
 ReachChain chain_to_grip(const Character& character, const Part& arm) {
@@ -127,10 +126,11 @@ ReachChain chain_to_grip(const Character& character, const Part& arm) {
   return chain;
 }
 
-// The hand, after its arm.
+// Gives a hand, which is moved after its arm, the angles that the arm found for it. Fingers stay at rest.
 void take_wrist(const RuleInput& in, int hand, Posture& posture) {
-  const Part& arm = in.character.parts()[static_cast<std::size_t>(carrier_of(in.character, hand))];
   rest_part(in.character, in.part, posture);
+  const Part& arm = in.character.parts()[static_cast<std::size_t>(carrier_of(in.character, hand))];
+  if (arm.reach.empty()) return;
   std::size_t at = 0;
   for_wrist(in, chain_to_grip(in.character, arm), [&](int j) {
     const double angle = in.body.aimed[at++];
@@ -143,8 +143,7 @@ double bring_palm_to(const RuleInput& in, const Grasp& grasp, Posture& posture) 
   if (in.part.reach.empty()) return take_wrist(in, own, posture), 0.0;
   const ReachChain chain = chain_to_grip(in.character, in.part);
   const bool begins = in.body.begun != in.took_over;
-  for (const Part& part : in.character.parts())
-    if (carrier_of(in.character, index_of(in.character, part)) == own) rest_part(in.character, part, posture);
+  rest_carried(in.character, own, posture);
   reach_with_travels(in, chain, grasp.point_m, std::nullopt, posture);  // travels come out
   if (begins) in.body.swivel_rad = swivel_for(in, chain, grasp, posture);
   std::size_t at = 0;
@@ -155,7 +154,7 @@ double bring_palm_to(const RuleInput& in, const Grasp& grasp, Posture& posture) 
   return length(world_from_socket(in.character, in.world, chain.tip).p_m - grasp.point_m);
 }
 
-// Of all that the elbow moves.
+// The least distance from a plane of the bodies that the elbow moves, m.
 double over_plane_m(const RuleInput& in, const Vec3& point_m, const Vec3& normal) {
   double least_m = 1e30;
   for (const int j : limb_of(in).joints)
@@ -168,12 +167,9 @@ double over_plane_m(const RuleInput& in, const Vec3& point_m, const Vec3& normal
 double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture) {
   if (in.part.reach.empty()) return rest_part(in.character, in.part, posture), 0.0;
   const int arm = index_of(in.character, in.part);
-  for (const Part& part : in.character.parts())
-    if (carrier_of(in.character, index_of(in.character, part)) == arm) rest_part(in.character, part, posture);
+  rest_carried(in.character, arm, posture);
   // With the hand at rest the grip is as fixed to the forearm as the wrist is: two bones, the second one longer.
-  ReachChain chain = in.part.reach.front();
-  chain.tip = grip_of(in.character, in.part);
-  return reach_with_travels(in, chain, point_world_m, std::nullopt, posture);
+  return reach_with_travels(in, chain_to_grip(in.character, in.part), point_world_m, std::nullopt, posture);
 }
 
 double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture) {

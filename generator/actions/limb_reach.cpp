@@ -13,7 +13,6 @@ namespace contort {
 
 namespace {
 
-constexpr int kSwivels = 24;         // 15 degrees apart
 constexpr double kReached_m = 1e-4;
 constexpr int kTravelHalvings = 20;
 
@@ -70,23 +69,17 @@ double cost_of_discomfort(const RuleInput& in, const Posture& posture) {
   return 0.4 * elbow_height(in) + 0.2 * way_rad(in, posture);
 }
 
-// The swivel, rad, of the posture without faults that is nearest to the wish, or most comfortable where there is no
-// wish. The wish, or the straight limb, comes first, then those to either side: where several cost the same, as with a
-// limb that is stretched, rounding must not choose. A limb on the right tries the mirror images.
+// The swivel, rad, of the posture without faults that is nearest to the wish, or most comfortable if no wish is given.
 double choose_swivel(const RuleInput& in, const ReachChain& chain, const Vec3& target, std::optional<double> wish_rad,
                      Posture& posture) {
-  constexpr double kBetter = 0.01, kOfWish = 0.1;  // so that no wish outweighs a fault
-  const double first = wish_rad.value_or(0.0), outward = in.part.side == Side::right ? -1.0 : 1.0;
-  double best = first, least = 1e30;
-  for (int i = 0; i < kSwivels; ++i) {
-    const double off = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
-    reach_for(in.character, chain, in.world, target, first + off, posture.coords);
-    place_limb(in, posture);
-    const double faults = cost_of_faults(in, posture);
-    const double now = faults + (wish_rad ? kOfWish * std::fabs(off) : cost_of_discomfort(in, posture));
-    if (now < least - kBetter) least = now, best = first + off;
-  }
-  return best;
+  constexpr double kOfWish = 0.1;  // so that no wish outweighs a fault
+  const double first = wish_rad.value_or(0.0);
+  return first + cheapest_swivel(in.part.side, [&](double off) {
+           reach_for(in.character, chain, in.world, target, first + off, posture.coords);
+           place_limb(in, posture);
+           const double faults = cost_of_faults(in, posture);
+           return faults + (wish_rad ? kOfWish * std::fabs(off) : cost_of_discomfort(in, posture));
+         });
 }
 
 double missing_m(const RuleInput& in, const ReachChain& chain, const Vec3& target, const Posture& posture) {
@@ -136,6 +129,18 @@ double reach_as_far(const RuleInput& in, const ReachChain& chain, const Vec3& ta
 }
 
 }  // namespace
+
+double cheapest_swivel(Side side, FunctionRef<double(double swivel_rad)> cost) {
+  constexpr int kSwivels = 24;  // 15 degrees apart
+  constexpr double kBetter = 0.01;
+  const double outward = side == Side::right ? -1.0 : 1.0;
+  double best = 0.0, least = 1e30;
+  for (int i = 0; i < kSwivels; ++i) {
+    const double swivel = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
+    if (const double now = cost(swivel); now < least - kBetter) least = now, best = swivel;
+  }
+  return best;
+}
 
 double cost_of_placed(const RuleInput& in, const Posture& posture) {
   return cost_of_faults(in, posture) + cost_of_discomfort(in, posture);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "generator/actions/action.h"
+#include "model/core/function_ref.h"
 
 namespace contort {
 
@@ -13,6 +14,11 @@ namespace contort {
 // tip is from the point, m.
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
+
+// The turn of a limb about its line to the target, rad, with the least cost: 24 turns, the first one 0, then to either
+// side. Of turns that cost the same the first one is taken, as rounding must not choose; a limb on the right tries the
+// mirror images.
+double cheapest_swivel(Side side, FunctionRef<double(double swivel_rad)> cost);
 
 // The cost of the posture of a limb that is placed in in.world: joints out of range, bodies too near, an elbow that is
 // held high, and a long way from where the action found the part.

@@ -197,15 +197,19 @@ TEST(Actions, TouchFindsTheWallWhileWalkingAndTellsOfTheContact) {
   const Motion motion = generate(*stage);
   EXPECT_EQ(motion.queue.size(), 2U) << "no contact was told";
   std::vector<Rigid> world(stage->character->joints().size());
-  int touching = 0;
+  int touching = 0, turned = 0;
   for (int f = 150; f <= 250; ++f) {
     forward_kinematics(*stage->character, motion.root[static_cast<std::size_t>(f)], motion.row(f), world);
     const Vec3 grip = world_from_socket(*stage->character, world, stage->character->find_socket("hand_left/grip")).p_m;
     const double gap_m = stage->environment.nearest_obstacle(grip).distance_m;
     touching += gap_m > 0.029 && gap_m < 0.06;  // a wrist that cannot bend so far needs more
+    const Vec3 palm =
+        world_from_socket(*stage->character, world, stage->character->find_socket("hand_left/grip")).q * Vec3(0, 0, 1);
+    turned += palm.x > 0.5;  // towards the wall at the left; 0.18 with the wrist at rest, 0.63 as far as this arm goes
   }
   EXPECT_EQ(touching, 101);
-  // The hand that lies on the wall does not enter it; once nothing holds it there any more, the arm swings with the walk.
+  EXPECT_EQ(turned, 101);
+  // The hand that touches the wall does not enter it; once nothing holds it there any more, the arm swings with the walk.
   for (const Finding& finding : StageEvaluator().run(*stage, "obstacle_penetration").findings)
     EXPECT_GT(finding.first_frame, 260);
 }
