@@ -1,5 +1,6 @@
 #include "generator/further_actions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/motion/kinematics.h"
@@ -46,6 +47,17 @@ void FurtherActions::begin(const Stage& stage) {
   acquired_.assign(stage.timeline.further.size(), Playback::kDormant);
 }
 
+// A search, as a spec may have thousands of aims. They stand in the order of their uses.
+std::span<const FurtherAction> FurtherActions::of_use(int use) const {
+  const std::vector<FurtherAction>& all = stage_->timeline.further;
+  return {std::ranges::lower_bound(all, use, {}, &FurtherAction::of_use),
+          std::ranges::upper_bound(all, use, {}, &FurtherAction::of_use)};
+}
+
+int& FurtherActions::acquired_at(const FurtherAction& further) {
+  return acquired_[static_cast<std::size_t>(&further - stage_->timeline.further.data())];
+}
+
 bool FurtherActions::faces_elsewhere(const PlannedAction& turn, const Rigid& root) const {
   return std::fabs(azimuth_rad(root, target_of(*stage_, turn))) > kFaces_rad;
 }
@@ -64,16 +76,14 @@ bool FurtherActions::needs_help(const Playback& playback, const LayerHold& hold,
 // The first one that is of use and not acquired yet, unless one before it will do by itself.
 bool FurtherActions::acquire(const Playback& playback, const PlannedAction& aim, std::span<const LayerStack> stacks,
                              const RuleRunner& rules, const Rigid& root) {
-  for (std::size_t i = 0; i < acquired_.size(); ++i) {
-    const FurtherAction& further = stage_->timeline.further[i];
-    if (further.of_use != aim.use) continue;
+  for (const FurtherAction& further : of_use(aim.use)) {
     const PlannedAction& help = playback.action(further.action);
     if (is_helped(playback, stacks, help.part)) {
       if (rules.feedback()[at(help.part)].shortfall <= kEasyAim_rad) return false;
-    } else if (acquired_[i] == Playback::kDormant && stacks[at(help.part)].ik().action < 0 &&
+    } else if (acquired_at(further) == Playback::kDormant && stacks[at(help.part)].ik().action < 0 &&
                (help.aim != nullptr ||
                 (faces_elsewhere(help, root) && !aims_elsewhere(playback, stacks, *stage_, aim, root)))) {
-      acquired_[i] = playback.frame() + 1;
+      acquired_at(further) = playback.frame() + 1;
       return true;
     }
   }
@@ -94,10 +104,9 @@ bool FurtherActions::is_coming(const Playback& playback, const LayerHold& aim, s
                                const Rigid& root) const {
   const PlannedAction& action = planned(playback, aim);
   if (content(playback, aim) + 1 > action.end - action.blend_out) return false;
-  for (std::size_t i = 0; i < acquired_.size(); ++i) {
-    const FurtherAction& further = stage_->timeline.further[i];
+  for (const FurtherAction& further : of_use(action.use)) {
     const PlannedAction& help = playback.action(further.action);
-    if (further.of_use != action.use || !is_helped(playback, stacks, help.part)) continue;
+    if (!is_helped(playback, stacks, help.part)) continue;
     const bool is_in = come_in(playback, stacks[at(help.part)].ik()) >= 1.0;
     if (!is_in || (help.aim == nullptr && faces_elsewhere(help, root))) return true;
   }

@@ -28,6 +28,8 @@ class FurtherActions {
                  const Rigid& root) const;
 
  private:
+  std::span<const FurtherAction> of_use(int use) const;
+  int& acquired_at(const FurtherAction& further);
   bool needs_help(const Playback& playback, const LayerHold& hold, RuleRunner& rules) const;
   bool acquire(const Playback& playback, const PlannedAction& aim, std::span<const LayerStack> stacks,
                const RuleRunner& rules, const Rigid& root);

@@ -1,5 +1,5 @@
-// aim: a point of an arm, a head or a torso, or of what it carries, is directed at a target while the body moves (P13). Its first posture
-// comes from the aim table; every frame goes on from the one before, so that joints turn little.
+// aim: a point of an arm, a head or a torso, or of what it carries, is directed at a target while the body moves (P13). A
+// limb's first posture comes from the aim table; every frame goes on from the one before, so that joints turn little.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,7 +120,7 @@ bool aims_its_face(const RuleInput& in) {
 }
 
 // A head or torso faces the target as directly as it can, from rest: going on from the frame before it would come to lean.
-// Where this misses, another posture of the table may reach.
+// If this misses the target, another posture of the table may reach it.
 AimResult face(const RuleInput& in, const AimTarget& target, Posture& posture) {
   constexpr int kPasses = 3;  // the point moves when the part turns
   const FacingChain& chain = in.part.facing.front();

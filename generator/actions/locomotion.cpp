@@ -138,13 +138,13 @@ GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {
   return params;
 }
 
-// From where the figure faces now; 0 where the point is on its own axis.
-double azimuth_rad(const RuleInput& in) {
+// The turn to the target, from where the figure faces now; 0 for a point above or below it.
+double turn_to_target_rad(const RuleInput& in) {
   constexpr double kNowhere_m = 0.01;
-  const Vec3 from_here =
-      inverse(in.stands_at) * (in.world_from_start * Vec3(in.params[0], in.params[1], in.params[2]));
-  const bool is_above = std::fabs(from_here.x) < kNowhere_m && std::fabs(from_here.z) < kNowhere_m;
-  return is_above ? 0.0 : det::atan2(from_here.x, from_here.z);
+  const Vec3 target_m = in.world_from_start * Vec3(in.params[0], in.params[1], in.params[2]);
+  const Vec3 apart_m = target_m - in.stands_at.p_m;
+  const bool is_above = std::fabs(apart_m.x) < kNowhere_m && std::fabs(apart_m.z) < kNowhere_m;
+  return is_above ? 0.0 : azimuth_rad(in.stands_at, target_m);
 }
 
 // `params_at(pace)` gives the parameters at a share of the speed that is asked for, (0, 1].
@@ -231,7 +231,7 @@ std::vector<ParamDef> turn_params(const Character&, const Part&) {
 bool turn_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void turn_rule(const RuleInput& in, Posture& posture) {
   const bool begins = in.body.begun < 0 || (is_root(in) && in.body.begun != in.took_over);
-  const double turn_rad = begins ? azimuth_rad(in) : 0.0;
+  const double turn_rad = begins ? turn_to_target_rad(in) : 0.0;
   go(in, [&](double pace) { return contort::turn_params(in.legs, turn_rad, pace); }, posture);
 }
 

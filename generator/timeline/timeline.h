@@ -49,7 +49,7 @@ struct Timeline {
   std::vector<PlannedInterrupt> interrupts;
   int queued = 0;                      // how many sequences wait in the queue at first
   std::vector<PlannedAction> actions;  // in spec order, each before its further ones
-  std::vector<FurtherAction> further;  // those of one use from the part outward to the root
+  std::vector<FurtherAction> further;  // in the order of the uses that aim; of one use the torso before the root
   int use_count = 0;
   std::vector<std::vector<int>> of_part;  // indices into actions, by sequence * part_count + part
   std::vector<int> part_order;            // carriers first, and what an action looks at before those that it moves

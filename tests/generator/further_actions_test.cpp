@@ -165,10 +165,26 @@ TEST(FurtherAction, AnAimThatWasCutIsHelpedAgain) {
   spec.interrupts = {cut};
   const Result<Stage> stage = build_stage(spec, stock_library());
   ASSERT_TRUE(stage) << to_line(stage.issue());
-  EXPECT_FALSE(generate(*stage).aims.empty());
+  const Motion motion = generate(*stage);
+  ASSERT_FALSE(motion.aims.empty());
+  EXPECT_GT(motion.aims.back().last_frame, 500);
 }
 
 const CharacterChoice kReverse{"mech", {{"leg_left", "mech_leg_reverse"}, {"leg_right", "mech_leg_reverse"}}, {}};
+
+// The line of aim passes near the shoulder, not half a metre below it, as with an arm that hangs.
+TEST(FurtherAction, AnAimedRifleIsHeldUp) {
+  const Aimed aimed = aims(kWithRifle, "arm_right", point_at(-10));
+  const Motion& motion = aimed.execution.motion;
+  std::vector<Rigid> world(aimed.stage.character->joints().size());
+  forward_kinematics(*aimed.stage.character, motion.root.back(), motion.row(motion.frame_count - 1), world);
+  const Rigid muzzle =
+      world_from_socket(*aimed.stage.character, world, aimed.stage.character->find_socket("object:rifle/muzzle"));
+  const Rigid shoulder =
+      world_from_socket(*aimed.stage.character, world, aimed.stage.character->find_socket("torso/shoulder_right"));
+  const Vec3 along = muzzle.q * Vec3(0, 0, 1), apart_m = muzzle.p_m - shoulder.p_m;
+  EXPECT_LT(length(apart_m - dot(apart_m, along) * along), 0.3);
+}
 
 class TurnOnTheSpot : public testing::TestWithParam<CharacterChoice> {};
 
