@@ -24,6 +24,7 @@ std::string reason_of(Shortfall why) {
     case Shortfall::joint_range: return "a joint is at the end of its range";
     case Shortfall::joint_speed: return "there was not enough time for the speed of a joint";
     case Shortfall::clearance: return "bodies would come too near";
+    case Shortfall::rule_failed: return "the script of the action stopped";
   }
   return "";
 }

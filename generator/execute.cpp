@@ -9,7 +9,7 @@ void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution)
   execution.environment = stage.environment;
   generate(stage, scratch, execution.motion);
   if (!execution.intent) execution.intent.emplace();
-  say_intent(stage, execution.motion, scratch.lags.lags(), *execution.intent);
+  say_intent(stage, execution.motion, scratch.rules, scratch.lags.lags(), *execution.intent);
 }
 
 Intent intent_of(const Stage& stage) {

@@ -34,8 +34,7 @@ class Generation {
   }
 
   void prepare() {
-    motion_.rate_hz = stage_.rate_hz;
-    motion_.frame_count = 0;
+    motion_.rate_hz = stage_.rate_hz, motion_.frame_count = 0;
     motion_.coord_count = character_.coord_count();
     size_motion(stage_.most_frames);
     s_.spans.begin(timeline_, motion_);
@@ -321,26 +320,29 @@ class Generation {
 
   bool falls_short(std::size_t p) const { return s_.rules.feedback()[p].shortfall > kMet; }
 
-  // An aim that ends while help is on its way would have needed more time.
-  Shortfall reason_of(const Playback& playback, const LayerHold& ik) const {
-    const bool has_help = ik.action >= 0 && s_.rules.body(planned(playback, ik)).has_help;
+  bool is_coming(const Playback& playback, const LayerHold& ik) const {
+    return come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0 ||
+           s_.further.is_coming(playback, ik, s_.stacks, s_.postures.shown.root);
+  }
+
+  std::optional<Shortfall> shortfall_of(const Playback& playback, std::size_t p) const {
+    const Feedback& told = s_.rules.feedback()[p];
+    const LayerHold& ik = s_.stacks[p].ik();
+    const bool has_ik = ik.action >= 0;
+    if (told.failed) return Shortfall::rule_failed;
+    if (s_.shift[p] == Shift::held_off) return Shortfall::clearance;
+    if (s_.behind[p] != 0 || (has_ik && told.is_slower)) return Shortfall::joint_speed;
+    if (has_ik && told.at_range_end) return Shortfall::joint_range;
+    if (!falls_short(p)) return std::nullopt;
+    // An aim that ends while help is on its way would have needed more time.
+    const bool has_help = has_ik && s_.rules.body(planned(playback, ik)).has_help;
     return has_help ? Shortfall::joint_speed : Shortfall::out_of_reach;
   }
 
   void note_lag(const Playback& playback, std::size_t p) {
     const LayerHold& ik = s_.stacks[p].ik();
-    const bool has_ik = ik.action >= 0;
-    if (has_ik && (come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0 ||
-                   s_.further.is_coming(playback, ik, s_.stacks, s_.postures.shown.root)))
-      s_.lags.note(playback.frame(), p, std::nullopt);
-    else if (s_.shift[p] == Shift::held_off)
-      s_.lags.note(playback.frame(), p, Shortfall::clearance);
-    else if (s_.behind[p] != 0 || (has_ik && s_.rules.feedback()[p].is_slower))
-      s_.lags.note(playback.frame(), p, Shortfall::joint_speed);
-    else if (has_ik && s_.rules.feedback()[p].at_range_end)
-      s_.lags.note(playback.frame(), p, Shortfall::joint_range);
-    else if (falls_short(p))
-      s_.lags.note(playback.frame(), p, reason_of(playback, ik));
+    if (ik.action >= 0 && is_coming(playback, ik)) return s_.lags.note(playback.frame(), p, std::nullopt);
+    if (const auto why = shortfall_of(playback, p)) s_.lags.note(playback.frame(), p, why);
   }
 
   // Whether the use that aims is all that moves a part, which is where it wants it. Parts before it in the chain are not
@@ -364,8 +366,7 @@ class Generation {
     const LayerHold& hold = s_.stacks[p].ik();
     if (hold.action < 0) return;
     const PlannedAction& action = planned(playback, hold);
-    if (action.aim == nullptr || action.named != static_cast<int>(p) || !is_full(playback, hold)) return;
-    if (falls_short(p)) return;
+    if (action.aim == nullptr || action.named != static_cast<int>(p) || !is_full(playback, hold) || falls_short(p)) return;
     const Vec3 target(action.params[1], action.params[2], action.params[3]);
     s_.spans.aim(playback.frame(), hold.action, stage_.start * target);
   }

@@ -55,8 +55,8 @@ const Lag* lag_at(const Character& character, std::span<const Lag> lags, int par
 // Adds the goals of one span of an action, and the frames in which they were not met.
 class Goals {
  public:
-  Goals(const Stage& stage, const Motion& motion, std::span<const Lag> lags, Intent& out)
-      : stage_(stage), motion_(motion), lags_(lags), out_(out) {}
+  Goals(const Stage& stage, const Motion& motion, const RuleRunner& rules, std::span<const Lag> lags, Intent& out)
+      : stage_(stage), motion_(motion), rules_(rules), lags_(lags), out_(out) {}
 
   void add(const ActionSpan& span) {
     const PlannedAction* action = planned_of(stage_.timeline, span);
@@ -66,7 +66,8 @@ class Goals {
     if (promise == Promise::arrives) add_arrival(*action, span, *run);
     if (promise == Promise::none && action->def->timing == Timing::goal)
       add_unmet_end(*action, span, *run);
-    if (promise == Promise::holds || promise == Promise::aims || action->def->spread == Spread::legs)
+    const bool is_computed = action->script != nullptr && action->def->timing == Timing::course;
+    if (promise == Promise::holds || promise == Promise::aims || action->def->spread == Spread::legs || is_computed)
       add_while_in_force(*action, span);
   }
 
@@ -91,7 +92,8 @@ class Goals {
     if (!is_ended(action, span, run) || add_unmet_end(action, span, run)) return;
     const int last = span.last_frame;
     const Part& part = stage_.character->parts()[static_cast<std::size_t>(span.part)];
-    const Vec3 target_m(action.params[0], action.params[1], action.params[2]);
+    const std::span<const double> params = rules_.last_params(action);
+    const Vec3 target_m(params[0], params[1], params[2]);
     out_.goals.push_back({last, last, span.part, part.reach.front().tip, -1, target_m});
   }
 
@@ -122,19 +124,21 @@ class Goals {
 
   const Stage& stage_;
   const Motion& motion_;
+  const RuleRunner& rules_;
   std::span<const Lag> lags_;
   Intent& out_;
 };
 
 }  // namespace
 
-void say_intent(const Stage& stage, const Motion& motion, std::span<const Lag> lags, Intent& intent) {
+void say_intent(const Stage& stage, const Motion& motion, const RuleRunner& rules, std::span<const Lag> lags,
+                Intent& intent) {
   intent.queued = stage.timeline.queued;
   intent.sequences.clear(), intent.actions.clear(), intent.goals.clear(), intent.unmet.clear();
   for (const PlannedSequence& sequence : stage.timeline.sequences) intent.sequences.push_back(intended(sequence));
   for (const PlannedAction& action : stage.timeline.actions)
     if (action.further < 0 || has_span(motion, action)) intent.actions.push_back(intended(action));
-  Goals goals(stage, motion, lags, intent);
+  Goals goals(stage, motion, rules, lags, intent);
   for (const ActionSpan& span : motion.spans) goals.add(span);
 }
 

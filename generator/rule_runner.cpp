@@ -31,6 +31,9 @@ void RuleRunner::begin(const Stage& stage) {
   room_.begin(character, stage.environment, feet_);
   bodies_.assign(at(stage.timeline.use_count), {});
   feedback_.assign(character.parts().size(), {});
+  scripts_.begin();
+  for (std::vector<double>& params : computed_) params.clear();
+  computed_.resize(at(stage.timeline.use_count));
   world_.resize(character.joints().size());
   scratch_world_.resize(world_.size()), scratch_row_.resize(at(character.coord_count()));
 }
@@ -59,6 +62,24 @@ void RuleRunner::move_root(const Rigid& root) {
   for (std::size_t j = 1; j < world_.size(); ++j) world_[j] = moved * world_[j];
 }
 
+// The numbers for an action's rule, after its script, if it has one. A script that fails changes nothing.
+std::span<const double> RuleRunner::params(const PlannedAction& action, const ActionTime& time, std::size_t part) {
+  if (action.script == nullptr) return action.params;
+  const ScriptPlan& plan = *action.script;
+  script_row_.resize(at(plan.row_size));
+  start_row(plan, action.params, target_, script_row_);
+  const ScriptInput in{time.time_s, time.duration_s, time.progress, &stage_->environment,
+                       world_[0] * inverse(stage_->character->rest_root())};
+  if (!scripts_.run(plan, action.params, in, script_row_)) {
+    feedback_[part].failed = true;
+    start_row(plan, action.params, target_, script_row_);
+  }
+  if (action.def == &script_def(plan.adds)) return script_row_;
+  computed_[at(action.use)] = action.params;
+  put_params(plan, script_row_, computed_[at(action.use)]);
+  return computed_[at(action.use)];
+}
+
 const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, std::size_t part, const Posture& from,
                                const Posture& beneath, const Rigid& stands_at) {
   const Character& character = *stage_->character;
@@ -66,9 +87,9 @@ const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, s
   copy_part(character, part, beneath, target_);
   if (action.def->layer != Layer::overwrite) place(part, target_);  // a chain may hang on a joint of its own part
   const ActionTime time = time_of(action, call.came, call.content, playback.rate_hz());
-  action.def->rule({character, character.parts()[part], action.params, world_, {scratch_world_, scratch_row_}, time,
+  action.def->rule({character, character.parts()[part], params(action, time, part), world_, {scratch_world_, scratch_row_}, time,
                     stage_->start, stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
-                    action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
+                    action.script.get(), action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
                     feedback_[part], room_},
                    target_);
   if (keeps_ranges(*action.def) && clamp_part(character, part, target_)) feedback_[part].at_range_end = true;

@@ -38,11 +38,16 @@ class RuleRunner {
   StandingFeet& feet() { return feet_; }
   WholeBody& body(const PlannedAction& action) { return bodies_[at(action.use)]; }
   const WholeBody& body(const PlannedAction& action) const { return bodies_[at(action.use)]; }
+  // The parameters of an action as its script computed them last, or as the spec has them.
+  std::span<const double> last_params(const PlannedAction& action) const {
+    return computed_[at(action.use)].empty() ? std::span(action.params) : std::span(computed_[at(action.use)]);
+  }
   std::span<const Feedback> feedback() const { return feedback_; }  // by part, of this frame
   std::span<Rigid> world() { return world_; }                       // by joint
 
  private:
   void move_root(const Rigid& root);
+  std::span<const double> params(const PlannedAction& action, const ActionTime& time, std::size_t part);
 
   const Stage* stage_ = nullptr;
   StandingFeet feet_;
@@ -52,6 +57,9 @@ class RuleRunner {
   std::vector<Rigid> world_;
   std::vector<Rigid> scratch_world_;
   std::vector<double> scratch_row_;
+  ScriptHost scripts_;
+  std::vector<double> script_row_;
+  std::vector<std::vector<double>> computed_;  // parameters, by use; empty where nothing computes them
   Posture target_;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "generator/actions/key_poses.h"
+#include "generator/actions/script.h"
 #include "generator/motion/aim_ik.h"
 #include "generator/motion/gait.h"
 #include "generator/motion/limb_room.h"
@@ -49,6 +50,7 @@ struct Feedback {
   double shortfall = 0.0;  // of what was asked for, in its own unit (m, rad, m/s, share); 0: met
   bool at_range_end = false;  // a joint was wanted farther than it goes
   bool is_slower = false;     // joints cannot go as fast as was asked for
+  bool failed = false;        // the script of the action stopped
 };
 
 // The progress of an action at a frame, in time of its content.
@@ -112,6 +114,7 @@ struct RuleInput {
   const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: where legs have carried it by now
   const AimPlan* aim;  // of actions with an own_point
   const KeyPlan* keys;  // of key poses from a file
+  const ScriptPlan* script;  // of a script that sets joints; `params` is then its row
   Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
   const Posture& from;  // where it took its part over; the part's own coordinates only, of an aim those of its limb
   int frame;
@@ -152,6 +155,9 @@ struct Action {
   const ActionDesc* desc = nullptr;  // where it is from a file
 };
 
+// The rule of an action of a file; nullptr where `of` names none.
+const ActionDef* def_of(const ActionDesc& desc);
+
 // In the order of the registry, then of the files. Of several with one name the one that is for the part by name is
 // meant, else the one that is for its kind, else the built-in one.
 std::vector<Action> actions_of(const Character& character, const Part& part);
@@ -168,8 +174,8 @@ std::vector<ParamDef> params_of(const Action& action, const Character& character
 ParamValue mirrored(Mirrored how, const ParamValue& value);
 
 // Whether each action of the library's files can be done by each part that it names, and by some part of each kind.
-// Codes action.unknown_action, .unsupported, .unknown_part, .stock_part, .duplicate_name, .fits_nothing, .unknown_param,
-// .wrong_type, .out_of_range, with pointers into the file.
+// Scripts are tried once. Codes action.unknown_action, .unsupported, .unknown_part, .stock_part, .duplicate_name,
+// .fits_nothing, .unknown_param, .wrong_type, .out_of_range, .bad_script, .script_failed, with pointers into the file.
 Result<Done> check_actions(const Library& library);
 
 // Points of attached objects that others than this part carry: "foregrip", "muzzle".

@@ -28,25 +28,48 @@ Result<Done> check_values(const std::vector<ParamDef>& defs, const std::map<std:
   return Done{};
 }
 
+// Whether the script may set all that it says it does.
+Result<Done> check_sets(const std::vector<ParamDef>& defs, const ActionDesc& desc, const Part& part) {
+  for (std::size_t i = 0; i < desc.sets.size(); ++i)
+    if (const ParamDef* def = find_param(defs, desc.sets[i]); def == nullptr || def->type == ParamType::choice)
+      return Issue{"action.unknown_param", "/sets/" + std::to_string(i),
+                   "part " + part.name + " has no number or vector \"" + desc.sets[i] + "\""};
+  for (std::size_t i = 0; i < desc.parameters.size(); ++i)
+    if (find_param(defs, desc.parameters[i].name) != nullptr)
+      return Issue{"action.duplicate_name", "/parameters/" + std::to_string(i) + "/name",
+                   "\"" + desc.parameters[i].name + "\" is a parameter of \"" + (desc.of.empty() ? "pose" : desc.of) +
+                       "\""};
+  return Done{};
+}
+
+Result<Done> can_move_joints(const ActionDesc& desc, const Character& character, const Part& part) {
+  const std::vector<ParamDef> defs = pose_params(character, part);
+  for (std::size_t i = 0; i < desc.keys.size(); ++i) {
+    const std::string pointer = "/keys/" + std::to_string(i) + "/pose";
+    if (const Result<Done> done = check_values(defs, desc.keys[i].pose, part, pointer); !done) return done;
+  }
+  return check_sets(defs, desc, part);
+}
+
 // Why a part cannot do the action of a file, if it cannot.
 Result<Done> can_do(const ActionDesc& desc, const Character& character, const Part& part) {
-  if (desc.of.empty()) {
-    const std::vector<ParamDef> defs = pose_params(character, part);
-    for (std::size_t i = 0; i < desc.keys.size(); ++i) {
-      const std::string pointer = "/keys/" + std::to_string(i) + "/pose";
-      if (const Result<Done> done = check_values(defs, desc.keys[i].pose, part, pointer); !done) return done;
-    }
-    return Done{};
-  }
+  if (desc.of.empty()) return can_move_joints(desc, character, part);
   const ActionDef* def = find_action(desc.of);
   if (def == nullptr) return Issue{"action.unknown_action", "/of", "found \"" + desc.of + "\", which is not built in"};
   if (!def->supports(character, part))
     return Issue{"action.unsupported", "/of", "part " + part.name + " cannot do \"" + desc.of + "\""};
-  return check_values(def->params(character, part), desc.params, part, "/params");
+  if (!desc.script.empty() && !takes_computed_params(*def, character, part))
+    return Issue{"action.unsupported", "/script", "\"" + desc.of + "\" plans ahead: its parameters cannot be computed"};
+  const std::vector<ParamDef> defs = def->params(character, part);
+  if (Result<Done> done = check_sets(defs, desc, part); !done) return done;
+  return check_values(defs, desc.params, part, "/params");
 }
 
-Action of_file(const ActionDesc& desc) {
-  return {desc.name, desc.help, desc.of.empty() ? &key_pose_def() : find_action(desc.of), &desc};
+Action of_file(const ActionDesc& desc) { return {desc.name, desc.help, def_of(desc), &desc}; }
+
+Result<Done> can_do_and_compute(const ActionDesc& desc, const Character& character, const Part& part) {
+  Result<Done> answer = can_do(desc, character, part);
+  return answer && !desc.script.empty() ? try_script(desc, character, part) : std::move(answer);
 }
 
 // Whether the part can do it, in every slot of the library that may take it: the last reason against it, if there is
@@ -59,7 +82,7 @@ Result<Done> can_do_everywhere(const ActionDesc& desc, const Library& library, c
       const Result<Character> character = build_character({name, {{slot.name, part_name}}, {}}, library);
       if (!character) continue;
       const Part& part = character->parts()[static_cast<std::size_t>(character->find_part(slot.name))];
-      if (Result<Done> done = can_do(desc, *character, part); !done) answer = std::move(done);
+      if (Result<Done> done = can_do_and_compute(desc, *character, part); !done) answer = std::move(done);
     }
   return answer;
 }
@@ -98,6 +121,12 @@ Result<Done> check_name(const ActionDesc& desc) {
 }
 
 }  // namespace
+
+const ActionDef* def_of(const ActionDesc& desc) {
+  if (desc.of.empty()) return desc.script.empty() ? &key_pose_def() : &script_def(desc.adds);
+  const ActionDef* def = find_action(desc.of);
+  return desc.script.empty() || def == nullptr ? def : &course_of(*def);
+}
 
 std::vector<Action> actions_of(const Character& character, const Part& part) {
   std::vector<Action> actions;
@@ -138,12 +167,22 @@ void add_points(const Character& character, const Part& part, std::vector<ParamD
   }
 }
 
+void add_script_params(const ActionDesc& action, std::vector<ParamDef>& defs) {
+  for (const ScriptParamDesc& param : action.parameters) {
+    ParamDef def;
+    def.name = param.name, def.help = param.help;
+    def.low = param.low, def.high = param.high, def.preset = param.preset;
+    defs.push_back(std::move(def));
+  }
+}
+
 }  // namespace
 
 std::vector<ParamDef> params_of(const Action& action, const Character& character, const Part& part) {
   std::vector<ParamDef> defs = action.def->params(character, part);
   add_points(character, part, defs);
   if (action.desc == nullptr) return defs;
+  add_script_params(*action.desc, defs);
   for (ParamDef& def : defs)
     if (const auto given = action.desc->params.find(def.name); given != action.desc->params.end()) {
       def.preset = part.side == Side::right ? mirrored(def.mirrored, given->second) : given->second;
@@ -156,6 +195,7 @@ std::vector<ParamDef> params_of(const Action& action, const Character& character
 Result<Done> check_actions(const Library& library) {
   for (const ActionDesc& desc : library.actions) {
     Result<Done> done = check_name(desc);
+    if (done && !desc.script.empty()) done = ScriptHost::check(desc.script);
     if (done) done = desc.kinds.empty() ? check_named(desc, library) : check_kinds(desc, library);
     if (done) continue;
     Issue issue = done.issue();

@@ -167,6 +167,8 @@ class Layout {
     planned.params = std::move(params).value();
     if (planned.def == &key_pose_def())
       planned.keys = std::make_shared<const KeyPlan>(plan_keys(*action->desc, character_, part));
+    if (action->desc != nullptr && !action->desc->script.empty())
+      planned.script = std::make_shared<const ScriptPlan>(plan_script(*action->desc, character_, part));
     if (!part.reach.empty()) planned.easy_grip_m = easy_grip_m(character_, part);
     plan_aim(planned);
     return check_blends(use, *planned.def);

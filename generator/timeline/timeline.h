@@ -34,6 +34,7 @@ struct PlannedAction {
   std::vector<double> params;
   std::shared_ptr<const AimPlan> aim;   // where it has an own_point
   std::shared_ptr<const KeyPlan> keys;  // of key poses
+  std::shared_ptr<const ScriptPlan> script;  // where it has one
   Vec3 easy_grip_m{0.0};                // of the named part, if it is an arm: in the character's frame
   int further = -1;  // index into Timeline::further: it moves its part only once it is acquired; -1: it is of the spec
 };

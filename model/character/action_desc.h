@@ -28,7 +28,18 @@ struct KeyPoseDesc {
   bool operator==(const KeyPoseDesc&) const = default;
 };
 
-// Either `keys` or `of`; for parts by their names or, less particular, by their kinds.
+// A number that a spec may give to a script.
+struct ScriptParamDesc {
+  std::string name;
+  std::string help;
+  double low = 0.0;
+  double high = 0.0;
+  double preset = 0.0;
+  bool operator==(const ScriptParamDesc&) const = default;
+};
+
+// One of `keys`, `of`, and a `script`, which may also compute parameters of `of`; for parts by their names or, less
+// particular, by their kinds.
 struct ActionDesc {
   std::string name;
   std::string help;
@@ -37,6 +48,10 @@ struct ActionDesc {
   std::vector<KeyPoseDesc> keys;             // in the order of `at`
   std::string of;                            // a built-in action
   std::map<std::string, ParamValue> params;  // of `of`: the values where a spec gives none
+  std::vector<std::string> script;           // lines of Lua
+  std::vector<std::string> sets;             // by the script: parameters of `pose`, or of `of`
+  std::vector<ScriptParamDesc> parameters;   // of the script
+  bool adds = false;                         // the script's joints are added to what is there
   bool operator==(const ActionDesc&) const = default;
 };
 

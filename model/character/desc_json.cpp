@@ -191,6 +191,16 @@ void fields(V& v, const KeyPoseDesc*) {
 }
 
 template <class V>
+void fields(V& v, const ScriptParamDesc*) {
+  v.field("name", &ScriptParamDesc::name, kName, "As specs and the script call it; ends in its unit: \"depth_deg\".");
+  v.field("help", &ScriptParamDesc::help, kHelp, "One sentence for people.");
+  v.field("low", &ScriptParamDesc::low, {.low = -1e6, .high = 1e6, .required = true}, "Least value.");
+  v.field("high", &ScriptParamDesc::high, {.low = -1e6, .high = 1e6, .required = true}, "Greatest value.");
+  v.field("preset", &ScriptParamDesc::preset, {.low = -1e6, .high = 1e6, .required = true},
+          "The value where a spec gives none.");
+}
+
+template <class V>
 void fields(V& v, const ActionDesc*) {
   v.constant("format", "contort.action/1");
   v.field("name", &ActionDesc::name, kName, "What specs call it.");
@@ -200,6 +210,12 @@ void fields(V& v, const ActionDesc*) {
   v.field("keys", &ActionDesc::keys, {.max_count = 64}, "Poses, one after another.");
   v.field("of", &ActionDesc::of, {.may_be_empty = true}, "Or: a built-in action, with other values.");
   v.field("params", &ActionDesc::params, {.max_count = 64}, "of: the values where a spec gives none.");
+  v.field("script", &ActionDesc::script, {.max_count = 1000, .text = Text::prose, .may_be_empty = true},
+          "Lines of Lua that compute `sets` in each frame.");
+  v.field("sets", &ActionDesc::sets, {.max_count = 64},
+          "script: the joints that it sets, as parameters of `pose`; with `of`, the parameters of that action.");
+  v.field("parameters", &ActionDesc::parameters, {.max_count = 32}, "script: numbers that a spec may give it.");
+  v.field("adds", &ActionDesc::adds, {}, "script: what it sets is added to where the joints are.");
 }
 
 using json_fields::read_document;

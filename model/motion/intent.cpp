@@ -17,6 +17,7 @@ std::string_view shortfall_name(Shortfall shortfall) {
     case Shortfall::joint_range: return "joint_range";
     case Shortfall::joint_speed: return "joint_speed";
     case Shortfall::clearance: return "clearance";
+    case Shortfall::rule_failed: return "rule_failed";
   }
   return "";
 }

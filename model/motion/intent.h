@@ -71,6 +71,7 @@ enum class Shortfall : std::uint8_t {
   joint_range,
   joint_speed,
   clearance,  // bodies would overlap
+  rule_failed,  // a rule that a user wrote stopped
 };
 std::string_view shortfall_name(Shortfall shortfall);
 

@@ -65,6 +65,7 @@ const std::vector<Door> kDoors = {
     {"OpenImageIO/", "renders/raster/*.cpp"},
     {"xxhash.h", "model/core/hash.cpp"},
     {"CLI/", "cli/*.cpp"},
+    {"lua.hpp", "generator/actions/script*.cpp"},
     {"zlib.h", "renders/gzip.cpp"},
     {"tinyxml2.h", "renders/junit.cpp"},
     {"httplib.h", "server/http.cpp"},
