@@ -5,15 +5,15 @@
 
 #include "generator/additive.h"
 #include "generator/condition.h"
+#include "generator/limb_keeper.h"
 #include "generator/motion/arm_swing.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/way.h"
+#include "generator/promise_watch.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kMet = 5e-4;  // m, rad: a request that is missed by less is met
 
 class Generation {
  public:
@@ -78,10 +78,9 @@ class Generation {
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
     remember_soles(playback);
-    note_feet(playback);
+    LimbKeeper(stage_, s_).note_feet(playback);
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
-      note_lag(playback, p);
-      record_aim(playback, p);
+      PromiseWatch(stage_, s_).note(playback, p);
       s_.further.ask(playback, p, s_.stacks, s_.rules, s_.postures.shown.root);
     }
     signal();
@@ -119,7 +118,7 @@ class Generation {
     add_additives(playback, p);
     follow(playback, p);
     s_.rules.place(p, layers.shown);
-    if (p != 0 && at(limb_at(p).parts.back()) == p) finish_limb(playback, limb_at(p));
+    if (p != 0 && at(limb_at(p).parts.back()) == p) LimbKeeper(stage_, s_).finish(playback, limb_at(p));
   }
 
   // Arms that have nothing to do swing with the gait.
@@ -135,71 +134,6 @@ class Generation {
   }
 
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
-
-  // Poses are taken as their authors give them, and walking legs as their gait has them.
-  bool makes_way(const Playback& playback, std::size_t p) const {
-    const LayerHold& ik = s_.stacks[p].ik();
-    if (ik.action >= 0) return !moves_legs(playback, ik) && !is_cut(playback, ik);
-    return s_.added[p] != 0 || (s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0);
-  }
-
-  int held_socket(const Playback& playback, std::size_t p) const {
-    const LayerHold& ik = s_.stacks[p].ik();
-    const bool holds = ik.action >= 0 && planned(playback, ik).def->promise == Promise::holds;
-    return holds ? static_cast<int>(planned(playback, ik).params[0]) : -1;
-  }
-
-  bool acts(const Playback& playback, const Limb& limb) const {
-    return std::ranges::any_of(limb.parts, [&](int p) { return makes_way(playback, at(p)); });
-  }
-
-  // As of now for limbs that are finished, else with the shift of the frame before.
-  LegUse use_of(const Playback& playback, const Limb& limb) const {
-    if (acts(playback, limb)) return LegUse::acts;
-    const bool is_placed = std::ranges::any_of(limb.parts, [&](int p) {
-      return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
-    });
-    if (is_placed) return LegUse::placed;
-    const Shift shift = s_.shift[at(limb.parts.back())];
-    return shift == Shift::lifted || shift == Shift::held_off ? LegUse::acts : LegUse::idle;
-  }
-
-  // All parts of the limb are placed.
-  void finish_limb(const Playback& playback, const Limb& limb) {
-    const LegUse use = use_of(playback, limb);
-    shift(limb, Shift::none);
-    s_.rules.room().hold(at(limb.parts.back()), held_socket(playback, at(limb.parts.front())));
-    if (use == LegUse::acts) keep_clear(limb);
-    if (use == LegUse::idle) plant(limb);
-  }
-
-  void shift(const Limb& limb, Shift shift) {
-    for (const int p : limb.parts) s_.shift[at(p)] = shift;
-    s_.shift_count += shift != Shift::none;
-  }
-
-  void plant(const Limb& limb) {
-    const StandingFeet& feet = s_.rules.feet();
-    for (const int leg : limb.legs)
-      if (limb.is_its_own(stage_.legs[at(leg)]) && feet.is_planted(at(leg)) &&
-          feet.plant(at(leg), s_.rules.world(), s_.postures.shown.coords))
-        shift(limb, Shift::planted);
-  }
-
-  void note_feet(const Playback& playback) {
-    for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
-      s_.rules.feet().note(leg, use_of(playback, limb_at(at(stage_.legs[leg].part))), s_.rules.world());
-  }
-
-  void keep_clear(const Limb& limb) {
-    switch (s_.clearance.keep(at(limb.parts.back()), s_.past, s_.postures.shown, s_.rules.world())) {
-      case Clearance::Kept::as_wanted: return;
-      case Clearance::Kept::foot_lifted: return shift(limb, Shift::lifted);
-      case Clearance::Kept::elsewhere: break;
-    }
-    shift(limb, Shift::held_off);
-    for (const int p : limb.parts) s_.path.correct(at(p), s_.postures.shown.coords);
-  }
 
   // A part's posture with ik in the frame before, without additives.
   const Posture& seen(std::size_t p) const { return s_.shift[p] != Shift::none ? s_.past.before : s_.postures.plain; }
@@ -301,10 +235,6 @@ class Generation {
     return freedom_of(frame, stage_.legs, stage_.environment, static_cast<int>(p));
   }
 
-  static bool is_cut(const Playback& playback, const LayerHold& hold) {
-    return hold.action >= 0 && planned(playback, hold).cuts && playback.frame() <= hold.frame + 1;
-  }
-
   // Legs that walk have their own speeds: held back one by one, their feet would leave the ground that they stand on.
   void follow(const Playback& playback, std::size_t p) {
     const LayerStack& stack = s_.stacks[p];
@@ -316,59 +246,6 @@ class Generation {
       s_.path.pass(p, coords);
     else
       s_.behind[p] = s_.path.follow(p, coords);
-  }
-
-  bool falls_short(std::size_t p) const { return s_.rules.feedback()[p].shortfall > kMet; }
-
-  bool is_coming(const Playback& playback, const LayerHold& ik) const {
-    return come_in(playback, ik) < 1.0 || left_of(playback, ik) < 1.0 ||
-           s_.further.is_coming(playback, ik, s_.stacks, s_.postures.shown.root);
-  }
-
-  std::optional<Shortfall> shortfall_of(const Playback& playback, std::size_t p) const {
-    const Feedback& told = s_.rules.feedback()[p];
-    const LayerHold& ik = s_.stacks[p].ik();
-    const bool has_ik = ik.action >= 0;
-    if (told.failed) return Shortfall::rule_failed;
-    if (s_.shift[p] == Shift::held_off) return Shortfall::clearance;
-    if (s_.behind[p] != 0 || (has_ik && told.is_slower)) return Shortfall::joint_speed;
-    if (has_ik && told.at_range_end) return Shortfall::joint_range;
-    if (!falls_short(p)) return std::nullopt;
-    // An aim that ends while help is on its way would have needed more time.
-    const bool has_help = has_ik && s_.rules.body(planned(playback, ik)).has_help;
-    return has_help ? Shortfall::joint_speed : Shortfall::out_of_reach;
-  }
-
-  void note_lag(const Playback& playback, std::size_t p) {
-    const LayerHold& ik = s_.stacks[p].ik();
-    if (ik.action >= 0 && is_coming(playback, ik)) return s_.lags.note(playback.frame(), p, std::nullopt);
-    if (const auto why = shortfall_of(playback, p)) s_.lags.note(playback.frame(), p, why);
-  }
-
-  // Whether the use that aims is all that moves a part, which is where it wants it. Parts before it in the chain are not
-  // its own.
-  bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const {
-    const LayerHold& ik = s_.stacks[p].ik();
-    return ik.action >= 0 && planned(playback, ik).use == aim.use && come_in(playback, ik) >= 1.0 && s_.added[p] == 0 &&
-           s_.behind[p] == 0 && s_.shift[p] == Shift::none;
-  }
-
-  // Whether an aim is fully in force.
-  bool is_full(const Playback& playback, const LayerHold& hold) const {
-    const PlannedAction& action = planned(playback, hold);
-    return come_in(playback, hold) >= 1.0 && left_of(playback, hold) >= 1.0 && playback.frame() > hold.frame &&
-           std::ranges::all_of(action.aim->chain.joints, [&](int joint) {
-             return is_alone(playback, action, at(character_.joints()[at(joint)].part));
-           });
-  }
-
-  void record_aim(const Playback& playback, std::size_t p) {
-    const LayerHold& hold = s_.stacks[p].ik();
-    if (hold.action < 0) return;
-    const PlannedAction& action = planned(playback, hold);
-    if (action.aim == nullptr || action.named != static_cast<int>(p) || !is_full(playback, hold) || falls_short(p)) return;
-    const Vec3 target(action.params[1], action.params[2], action.params[3]);
-    s_.spans.aim(playback.frame(), hold.action, stage_.start * target);
   }
 
   const Stage& stage_;

@@ -69,6 +69,10 @@ bool moves_legs(const Playback& playback, const LayerHold& hold) {
   return planned(playback, hold).def->spread == Spread::legs;
 }
 
+bool is_cut(const Playback& playback, const LayerHold& hold) {
+  return hold.action >= 0 && planned(playback, hold).cuts && playback.frame() <= hold.frame + 1;
+}
+
 bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t part) {
   return moves_legs(playback, hold) && part != 0 && hold.eased >= 1.0;
 }

@@ -32,6 +32,9 @@ double covered(const Playback& playback, const LayerHold& hold);
 
 bool moves_legs(const Playback& playback, const LayerHold& hold);
 
+// Whether the action takes its part at once, as its use says, in this frame or the one before.
+bool is_cut(const Playback& playback, const LayerHold& hold);
+
 // Whether legs have put the foot where it belongs: blended angles would have it slide.
 bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t part);
 

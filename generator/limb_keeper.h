@@ -1,0 +1,32 @@
+// The last word on a limb once all of its parts are placed: feet that carry nothing new stay where they stand, and
+// limbs that act keep clear of bodies.
+#pragma once
+
+#include "generator/generate.h"
+
+namespace contort {
+
+class LimbKeeper {
+ public:
+  LimbKeeper(const Stage& stage, GenerateScratch& scratch) : stage_(stage), s_(scratch) {}
+
+  void finish(const Playback& playback, const Limb& limb);
+
+  // At the end of a frame: where feet stand.
+  void note_feet(const Playback& playback);
+
+ private:
+  bool makes_way(const Playback& playback, std::size_t p) const;
+  int held_socket(const Playback& playback, std::size_t p) const;
+  bool acts(const Playback& playback, const Limb& limb) const;
+  LegUse use_of(const Playback& playback, const Limb& limb) const;
+  const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
+  void shift(const Limb& limb, Shift shift);
+  void plant(const Limb& limb);
+  void keep_clear(const Limb& limb);
+
+  const Stage& stage_;
+  GenerateScratch& s_;
+};
+
+}  // namespace contort

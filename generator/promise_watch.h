@@ -1,0 +1,31 @@
+// Notes, after each frame, where a part is not where its action wants it, and why; and in which frames an aim is fully
+// in force.
+#pragma once
+
+#include <optional>
+
+#include "generator/generate.h"
+
+namespace contort {
+
+class PromiseWatch {
+ public:
+  PromiseWatch(const Stage& stage, GenerateScratch& scratch) : stage_(stage), s_(scratch) {}
+
+  // When all parts are placed.
+  void note(const Playback& playback, std::size_t part);
+
+ private:
+  bool falls_short(std::size_t p) const;
+  bool is_coming(const Playback& playback, const LayerHold& ik) const;
+  std::optional<Shortfall> shortfall_of(const Playback& playback, std::size_t p) const;
+  void note_lag(const Playback& playback, std::size_t p);
+  bool is_alone(const Playback& playback, const PlannedAction& aim, std::size_t p) const;
+  bool is_full(const Playback& playback, const LayerHold& hold) const;
+  void record_aim(const Playback& playback, std::size_t p);
+
+  const Stage& stage_;
+  GenerateScratch& s_;
+};
+
+}  // namespace contort
