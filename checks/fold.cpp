@@ -21,6 +21,11 @@ void MarginFold::tolerate(std::vector<double> tolerances, std::vector<std::uint8
   plain_ = plain_ && tolerances_.empty();
 }
 
+void MarginFold::begin_at(int frame) {
+  first_frame_ = frame;
+  plain_ = plain_ && frame <= 0;
+}
+
 void MarginFold::record(int frame_count) {
   recorded_frames_ = static_cast<std::size_t>(frame_count);
   recorded_.assign(smallest_.size() * recorded_frames_, std::numeric_limits<double>::infinity());
@@ -32,6 +37,7 @@ std::span<const double> MarginFold::recorded(int subject) const {
 }
 
 double MarginFold::tolerated_and_recorded(int subject, int frame, double margin) {
+  if (frame < first_frame_) return std::numeric_limits<double>::infinity();
   const auto s = static_cast<std::size_t>(subject), f = static_cast<std::size_t>(frame);
   if (!tolerances_.empty()) {
     const double more = tolerances_[s * phase_count_ + (phases_.empty() ? 0 : phases_[f])];

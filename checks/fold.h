@@ -43,6 +43,9 @@ class MarginFold {
   // frame) empty, the first number of each subject counts for every frame.
   void tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count);
 
+  // Margins of frames before this one are not judged.
+  void begin_at(int frame);
+
   // Keeps the margins themselves, too: frame_count of each subject.
   void record(int frame_count);
   // The margins of a subject that was recorded, by frame; +infinity where it was not judged.
@@ -90,7 +93,8 @@ class MarginFold {
   std::vector<double> smallest_;
   std::vector<int> open_;  // per subject: index of its last episode, or -1
   std::vector<Episode> episodes_;
-  bool plain_ = true;               // neither tolerances nor records
+  bool plain_ = true;               // no tolerances, no records, all frames
+  int first_frame_ = 0;
   std::vector<double> tolerances_;  // subjects x phases; empty: none
   std::vector<std::uint8_t> phases_;
   std::size_t phase_count_ = 1;

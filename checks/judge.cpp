@@ -45,7 +45,7 @@ int first_without_balance(const Motion& motion) {
 Evaluation Judge::evaluate(const Execution& execution, std::string_view only_check) {
   Evaluation evaluation;
   evaluation.motion_hash = motion_hash(execution.motion);
-  evaluation.frame_count = execution.motion.frame_count;
+  evaluation.frame_count = execution.motion.frame_count - execution.motion.first_frame;
   judge({*execution.character, execution.motion, {}, settings_, execution.environment, execution.said(),
          execution.path},
         only_check, evaluation);
@@ -75,6 +75,7 @@ void Judge::set_waived_apart(const Execution& execution, Evaluation& evaluation)
 MarginFold Judge::fold(const CheckDef& check, const CheckInput& input, bool record) const {
   MarginFold margins(check.subject_count(input.character), settings_.merge_gap_frames, check.resolution);
   if (record) margins.record(input.motion.frame_count);
+  margins.begin_at(input.motion.first_frame);
   apply_limits(check, input, margins);
   if (reason_not_to_judge(check, input).empty()) check.measure(input, margins);
   return margins;

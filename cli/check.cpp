@@ -40,12 +40,12 @@ void print_judged(const Evaluation& evaluation, const Character& character) {
   for (const std::string& line : judged_lines(summary)) std::printf("%s\n", line.c_str());
 }
 
-void check_spec(const std::string& file, bool as_json, Context& context) {
+void check_spec(const std::string& file, const std::string& level, bool as_json, Context& context) {
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
-  const Result<SpecInput> input = read_spec_input(file);
+  const Result<SpecInput> input = read_spec_input(file, level);
   if (!input) return context.fail(input.issue());
   Evaluator evaluator(*generator, *settings);
   const Result<Evaluation> run = evaluator.run(input->spec);
@@ -76,11 +76,15 @@ void check_spec(const std::string& file, bool as_json, Context& context) {
 // An option that was given and that a spec has no use for: it says its character, rate and limits itself.
 std::string option_for_animations(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json") return option->get_name();
+    if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json" &&
+        option->get_name() != "--level")
+      return option->get_name();
   return "";
 }
 
-void run(const ClipCheckOptions& options, const CLI::App& command, Context& context) {
+void run(const ClipCheckOptions& options, const std::string& level, const CLI::App& command, Context& context) {
+  if (!level.empty() && (options.all_clips || is_animation(options.files.front())))
+    return context.fail({"usage.for_specs", "", "--level is for specs and cases"});
   if (options.all_clips) return check_clips(options, context);
   if (options.files.size() > 1)
     return context.fail({"usage.too_many_files", "", "found several files; --all-clips checks more than one"});
@@ -89,13 +93,14 @@ void run(const ClipCheckOptions& options, const CLI::App& command, Context& cont
     return context.fail(
         {"usage.for_animations", "",
          option + " is for animations, and " + options.files.front() + " is none: .glb, .gltf, .bvh and .amc are"});
-  check_spec(options.files.front(), options.json, context);
+  check_spec(options.files.front(), level, options.json, context);
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Context& context) {
   auto options = std::make_shared<ClipCheckOptions>();
+  auto level = std::make_shared<std::string>();
   CLI::App* command =
       app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .gltf, .bvh, .amc)");
   command
@@ -149,9 +154,10 @@ void add_check(CLI::App& app, Context& context) {
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
       "         contort check captures --all-clips");
-  command->callback([options, command, rate, &context] {
+  add_level_option(*command, *level);
+  command->callback([options, level, command, rate, &context] {
     if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
-    run(*options, *command, context);
+    run(*options, *level, *command, context);
   });
 }
 

@@ -72,9 +72,24 @@ Result<CheckSettings> load_settings_file(const std::string& path) {
   return parsed;
 }
 
-Result<SpecInput> read_spec_input(const std::string& path) {
+Result<SpecInput> read_spec_input(const std::string& path, const std::string& level) {
   const Result<std::string> text = read_named_json(path, kSpecOrCase);
-  return text ? parse_spec_input(*text, path) : text.issue();
+  if (!text) return text.issue();
+  Result<SpecInput> input = parse_spec_input(*text, path);
+  if (!input || level.empty()) return input;
+  const Result<ReplayScope> scope = parse_scope(level);
+  if (!scope) return scope.issue();
+  SpecInput scoped_input = std::move(input).value();
+  scoped_input.spec = scoped(std::move(scoped_input.spec), *scope);
+  return scoped_input;
+}
+
+void add_level_option(CLI::App& command, std::string& level) {
+  command
+      .add_option("--level", level,
+                  "Only a sequence, a clip or a part of it: sequence:2, clip:2/1, part:arm_right. A sequence or a clip "
+                  "begins from the state that those before it have left")
+      ->type_name("LEVEL");
 }
 
 Result<Case> read_case_input(const std::string& path) {

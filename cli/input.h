@@ -7,9 +7,14 @@
 
 #include "checks/settings.h"
 #include "corpus/case.h"
+#include "corpus/replay_scope.h"
 #include "model/character/library.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
+
+namespace CLI {
+class App;
+}
 
 namespace contort::cli {
 
@@ -26,8 +31,9 @@ struct SpecInput {
 };
 Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path);  // the path is for messages
 
-// Read a file that is named on the command line; it may be a pipe: <(command), /dev/stdin.
-Result<SpecInput> read_spec_input(const std::string& path);
+// Read a file that is named on the command line; it may be a pipe: <(command), /dev/stdin. `level` is a scope of its
+// spec (corpus/replay_scope.h); "": the whole.
+Result<SpecInput> read_spec_input(const std::string& path, const std::string& level = "");
 Result<Case> read_case_input(const std::string& path);
 
 // The finding that a picture is about: the one that a case expects; of a spec, the deepest.
@@ -35,6 +41,9 @@ const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& fi
 
 // Whether the generator has changed since the case was stored: what it says is of another motion.
 bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation);
+
+// Declares --level, which takes a sequence, a clip or a part of a spec or case.
+void add_level_option(CLI::App& command, std::string& level);
 
 // "45s", "1.5m", "2h", and "90", which is in seconds. Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);

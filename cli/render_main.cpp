@@ -60,7 +60,7 @@ struct Shown {
 };
 
 Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file) {
-  Result<SpecInput> input = read_spec_input(file);
+  Result<SpecInput> input = read_spec_input(file, studio.options.level);
   if (!input) return input.issue();
   auto shown = std::make_unique<Shown>(
       Shown{std::move(input).value(), Evaluator(studio.generator, studio.options.settings), {}});
@@ -110,7 +110,7 @@ struct Performed {
 Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std::string>& files) {
   std::vector<Performed> all;
   for (const std::string& file : files) {
-    Result<SpecInput> input = read_spec_input(file);
+    Result<SpecInput> input = read_spec_input(file, studio.options.level);
     if (!input) return input.issue();
     Result<Execution> made = execute(studio.generator, input->spec);
     if (!made) return about_file(file, made.issue());
@@ -123,9 +123,12 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
 // Those of the command line, or spread over the shortest of the motions.
 std::vector<int> frames_of(const RenderOptions& options, const std::vector<Performed>& all) {
   if (!options.frames.empty()) return options.frames;
-  int shortest = all.front().made.motion.frame_count;
-  for (const Performed& one : all) shortest = std::min(shortest, one.made.motion.frame_count);
-  return spread_frames(shortest, options.tiles);
+  int first = all.front().made.motion.first_frame, shortest = all.front().made.motion.frame_count;
+  for (const Performed& one : all) {
+    first = std::max(first, one.made.motion.first_frame);
+    shortest = std::min(shortest, one.made.motion.frame_count);
+  }
+  return spread_frames(shortest, options.tiles, first);
 }
 
 std::string command_of(const RenderOptions& options, const std::vector<int>& frames) {
@@ -137,6 +140,7 @@ std::string command_of(const RenderOptions& options, const std::vector<int>& fra
   for (const int frame : frames) command += (&frame == frames.data() ? "" : ",") + std::to_string(frame);
   if (!options.azimuth_deg.empty()) command += " --azimuth " + shell_quoted(options.azimuth_deg);
   if (options.colliders) command += " --colliders";
+  if (!options.level.empty()) command += " --level " + shell_quoted(options.level);
   for (const std::string& label : options.labels) command += " --label " + shell_quoted(label);
   for (const std::string& folder : options.libraries) command += " --library " + shell_quoted(folder);
   return command;

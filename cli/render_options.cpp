@@ -32,6 +32,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->delimiter(',')
       ->check(refuse_empty)
       ->allow_extra_args(false);
+  add_level_option(command, options.level);
   command.add_option("--azimuth", options.azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
       ->type_name("DEGREES")
       ->check(range(-360.0, 360.0))

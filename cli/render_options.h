@@ -19,6 +19,7 @@ struct PictureOptions {
   std::string output;
   int tiles = 8;
   std::vector<int> frames;
+  std::string level;        // of each file; "": the whole
   std::string azimuth_deg;  // as it was written; "": none is given
   std::string clip;         // where the moving picture of one file goes; "": there is none
   std::string compared;     // with the one file; "": with nothing

@@ -272,8 +272,7 @@ void add_replay(CLI::App& app, Context& context) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with what they say");
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
-  command->add_option("--level", options->level,
-                      "Only a sequence, a clip or a part of each case: sequence:2, clip:2/1, part:arm_right");
+  add_level_option(*command, options->level);
   command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
   command->add_option("--time", options->time,
                       "Of a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");

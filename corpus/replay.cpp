@@ -34,8 +34,7 @@ bool as_expected(const Expectation& stored, const Expectation& now) {
 
 Replay replay_here(const Case& stored, Evaluator& evaluator, const ReplayScope& scope) {
   Replay result;
-  const Result<Spec> spec = scoped(stored.spec, scope);
-  const Result<Evaluation> run = spec ? evaluator.run(*spec) : spec.issue();
+  const Result<Evaluation> run = evaluator.run(scoped(stored.spec, scope));
   if (!run) {
     result.issue = run.issue();
     return result;

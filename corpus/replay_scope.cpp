@@ -14,32 +14,6 @@ std::optional<int> number_of(std::string_view text) {
   return value;
 }
 
-Result<SequenceDesc> sequence_of(const Spec& spec, int number) {
-  const auto queued = static_cast<int>(spec.sequences.size());
-  const int all = queued + static_cast<int>(spec.interrupts.size());
-  if (number > all)
-    return Issue{"level.no_sequence", "", "found sequence " + std::to_string(number) + ", the spec has " +
-                                              std::to_string(all)};
-  return number <= queued ? spec.sequences[static_cast<std::size_t>(number - 1)]
-                          : spec.interrupts[static_cast<std::size_t>(number - 1 - queued)].sequence;
-}
-
-Result<Spec> reduced(Spec spec, const ReplayScope& scope) {
-  Result<SequenceDesc> sequence = sequence_of(spec, scope.sequence);
-  if (!sequence) return sequence.issue();
-  spec.sequences = {*sequence};
-  spec.interrupts.clear();
-  if (scope.kind == ReplayScope::Kind::sequence) return spec;
-  std::vector<ClipDesc>& clips = spec.sequences.front().clips;
-  if (scope.clip > static_cast<int>(clips.size()))
-    return Issue{"level.no_clip", "", "found clip " + std::to_string(scope.clip) + ", sequence " +
-                                          std::to_string(scope.sequence) + " has " + std::to_string(clips.size())};
-  clips = {clips[static_cast<std::size_t>(scope.clip - 1)]};
-  clips.front().start_frame = 0;
-  spec.sequences.front().duration_frames = 0;
-  return spec;
-}
-
 }  // namespace
 
 Result<ReplayScope> parse_scope(const std::string& text) {
@@ -68,12 +42,10 @@ Result<ReplayScope> parse_scope(const std::string& text) {
   return scope;
 }
 
-Result<Spec> scoped(const Spec& spec, const ReplayScope& scope) {
-  if (scope.kind == ReplayScope::Kind::whole) return spec;
-  if (scope.kind != ReplayScope::Kind::part) return reduced(spec, scope);
-  Spec alone = spec;
-  alone.only_slot = scope.slot;
-  return alone;
+Spec scoped(Spec spec, const ReplayScope& scope) {
+  if (scope.kind == ReplayScope::Kind::part) spec.only_slot = scope.slot;
+  if (scope.sequence > 0) spec.only_sequence = scope.sequence, spec.only_clip = scope.clip;
+  return spec;
 }
 
 }  // namespace contort

@@ -21,8 +21,8 @@ struct ReplayScope {
 // "sequence:2", "clip:2/1", "part:arm_right". Code level.bad_name.
 Result<ReplayScope> parse_scope(const std::string& text);
 
-// The spec of that scope alone. A sequence or a clip begins at frame 0 from the spec's start; a part is moved in the
-// frames in which the whole spec moves it, and everything else stays. Codes level.no_sequence, .no_clip.
-Result<Spec> scoped(const Spec& spec, const ReplayScope& scope);
+// The spec of that scope alone. A sequence or a clip begins from the state that those before it have left; a part is
+// moved in the frames in which the whole spec moves it, and everything else stays.
+Spec scoped(Spec spec, const ReplayScope& scope);
 
 }  // namespace contort

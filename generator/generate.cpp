@@ -25,6 +25,8 @@ class Generation {
     for (int frame = 0; frame < stage_.most_frames && !finished(frame); ++frame) make_frame(frame);
     size_motion(motion_.frame_count);
     motion_.queue.assign(s_.queue.history().begin(), s_.queue.history().end());
+    if (stage_.level.sequence >= 0)
+      motion_.first_frame = s_.level.has_begun() ? s_.level.first_frame() : motion_.frame_count - 1;
   }
 
  private:
@@ -34,11 +36,12 @@ class Generation {
   }
 
   void prepare() {
-    motion_.rate_hz = stage_.rate_hz, motion_.frame_count = 0;
+    motion_.rate_hz = stage_.rate_hz, motion_.frame_count = motion_.first_frame = 0;
     motion_.coord_count = character_.coord_count();
     size_motion(stage_.most_frames);
     s_.spans.begin(timeline_, motion_);
-    s_.queue.start(timeline_.sequences, timeline_.interrupts, timeline_.queued);
+    s_.queue.start(timeline_.sequences, timeline_.interrupts, queued());
+    s_.level.begin(stage_.level);
     s_.signals.assign(timeline_.interrupts.size(), 0);
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
@@ -65,8 +68,15 @@ class Generation {
     s_.past.frame_s = 1.0 / stage_.rate_hz;
   }
 
-  // The queue ran dry hold_frames ago.
+  // Sequences after the one that is played alone are left out.
+  int queued() const {
+    const bool ends_before = stage_.level.sequence >= 0 && stage_.level.sequence < timeline_.queued;
+    return ends_before ? stage_.level.sequence + 1 : timeline_.queued;
+  }
+
+  // The queue ran dry, or the level was over, hold_frames ago.
   bool finished(int frame) const {
+    if (s_.level.is_over()) return frame > s_.level.last_frame() + stage_.hold_frames;
     if (frame == 0 || !s_.queue.idle()) return false;
     const std::span<const QueueSpan> history = s_.queue.history();
     return frame > (history.empty() ? 0 : history.back().last_frame) + stage_.hold_frames;
@@ -74,7 +84,8 @@ class Generation {
 
   void make_frame(int frame) {
     s_.queue.advance(frame, s_.signals);
-    const Playback playback(timeline_, s_.queue.history(), s_.further.acquired(), stage_.rate_hz, frame);
+    s_.level.advance(frame, s_.queue.history());
+    const Playback playback(timeline_, s_.queue.history(), s_.level, s_.further.acquired(), stage_.rate_hz, frame);
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
     remember_soles(playback);
@@ -96,7 +107,8 @@ class Generation {
     for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
       const PlannedInterrupt& interrupt = timeline_.interrupts[i];
       if (PlayQueue::knows(interrupt.when.event)) continue;
-      s_.signals[i] = condition_holds(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
+      s_.signals[i] = !s_.level.has_begun() &&
+                      condition_holds(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
     }
   }
 
@@ -214,7 +226,7 @@ class Generation {
   void add_additives(const Playback& playback, std::size_t p) {
     playback.for_each(p, Layer::additive, cut_fade_frames(stage_.rate_hz), [&](int run, int action) {
       const PlannedAction& plan = playback.action(action);
-      if (const auto weight = additive_weight(playback, plan, playback.run(run)))
+      if (const auto weight = additive_weight(playback, plan, playback.run_of(plan, run)))
         add(playback, p, {action, playback.content(playback.run(run)), plan.start, playback.frame(), 1.0}, *weight);
     });
   }

@@ -40,6 +40,7 @@ enum class Shift : char {
 struct GenerateScratch {
   SimulationScratch simulation;
   PlayQueue queue;
+  LevelPlay level;
   std::vector<char> signals;       // of the interrupts
   std::vector<LayerStack> stacks;  // of the parts
   std::vector<char> added;         // by part: an additive moved it in this frame

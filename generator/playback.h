@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "generator/level.h"
 #include "generator/timeline/timeline.h"
 #include "model/core/index.h"
 
@@ -11,19 +12,26 @@ namespace contort {
 
 // A view of a timeline and of its queue's history, as they are in one frame; both must outlive it. A run is an entry of
 // the history. Its content is the frame of its own sequence, which goes on from where an interrupt cut it.
-// `acquired` has, for each of the timeline's further actions, the frame from which it is in force; kDormant: never.
+// Actions that a level leaves out do not move their parts. `acquired` has, for each of the timeline's further actions, the frame from which it is in force; kDormant: never.
 class Playback {
  public:
   static constexpr int kDormant = 1 << 30;
 
-  Playback(const Timeline& timeline, std::span<const QueueSpan> history, std::span<const int> acquired, double rate_hz,
-           int frame)
-      : timeline_(timeline), history_(history), acquired_(acquired), rate_hz_(rate_hz), frame_(frame) {}
+  Playback(const Timeline& timeline, std::span<const QueueSpan> history, const LevelPlay& level,
+           std::span<const int> acquired, double rate_hz, int frame)
+      : timeline_(timeline), history_(history), level_(level), acquired_(acquired), rate_hz_(rate_hz), frame_(frame) {}
 
   int frame() const { return frame_; }
   double rate_hz() const { return rate_hz_; }
   const PlannedAction& action(int index) const { return timeline_.actions[at(index)]; }
   const QueueSpan& run(int index) const { return history_[at(index)]; }
+
+  // A run, as an action sees it: what the level leaves out has been cut where the level begins.
+  QueueSpan run_of(const PlannedAction& action, int index) const {
+    QueueSpan run = history_[at(index)];
+    if (level_.is_left_out(action, frame_)) run.last_frame = std::min(run.last_frame, level_.first_frame());
+    return run;
+  }
 
   static int content(const QueueSpan& run, int frame) { return run.first_content + frame - run.first_frame; }
   int content(const QueueSpan& run) const { return content(run, frame_); }
@@ -41,6 +49,7 @@ class Playback {
 
   // Whether an action moves its part in this frame of a run.
   bool moves(const PlannedAction& action, const QueueSpan& run) const {
+    if (level_.is_left_out(action, frame_)) return false;
     if (action.further >= 0 && frame_ < acquired_[at(action.further)]) return false;
     return content(run) >= action.first_frame && content(run) <= action.last_frame;
   }
@@ -59,6 +68,7 @@ class Playback {
  private:
   const Timeline& timeline_;
   std::span<const QueueSpan> history_;
+  const LevelPlay& level_;
   std::span<const int> acquired_;
   double rate_hz_;
   int frame_;

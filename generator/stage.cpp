@@ -72,7 +72,8 @@ class StageBuilder {
 
   Result<Stage> build() {
     for (const auto step : {&StageBuilder::add_timeline, &StageBuilder::add_environment, &StageBuilder::find_length,
-                            &StageBuilder::find_obstacles, &StageBuilder::leave_one_part, &StageBuilder::add_recording,
+                            &StageBuilder::find_obstacles, &StageBuilder::leave_one_part, &StageBuilder::leave_one_level,
+                            &StageBuilder::add_recording,
                             &StageBuilder::add_dynamics})
       if (const Result<Done> done = (this->*step)(); !done) return done.issue();
     return std::move(out_);
@@ -129,6 +130,26 @@ class StageBuilder {
     std::vector<std::vector<int>>& of_part = out_.timeline.of_part;
     for (std::size_t i = 0; i < of_part.size(); ++i)
       if (i % character_.parts().size() != static_cast<std::size_t>(part)) of_part[i].clear();
+    return Done{};
+  }
+
+  Result<Done> leave_one_level() {
+    if (spec_.only_sequence == 0 && spec_.only_clip == 0) return Done{};
+    const std::vector<PlannedSequence>& sequences = out_.timeline.sequences;
+    const auto all = static_cast<int>(sequences.size());
+    if (spec_.only_sequence < 1 || spec_.only_sequence > all)
+      return Issue{"spec.no_sequence", "/only_sequence",
+                   "found sequence " + std::to_string(spec_.only_sequence) + ", the spec has " + std::to_string(all)};
+    const PlannedSequence& sequence = sequences[static_cast<std::size_t>(spec_.only_sequence - 1)];
+    const auto clips = static_cast<int>(sequence.clips.size());
+    if (spec_.only_clip > clips)
+      return Issue{"spec.no_clip", "/only_clip", "found clip " + std::to_string(spec_.only_clip) + ", sequence " +
+                                                     std::to_string(spec_.only_sequence) + " has " +
+                                                     std::to_string(clips)};
+    out_.level = {spec_.only_sequence - 1, spec_.only_clip - 1, 0, sequence.length};
+    if (spec_.only_clip == 0) return Done{};
+    const PlannedClip& clip = sequence.clips[static_cast<std::size_t>(spec_.only_clip - 1)];
+    out_.level.begins = std::min(clip.start, sequence.length), out_.level.ends = clip.end;
     return Done{};
   }
 

@@ -15,6 +15,7 @@ namespace contort {
 struct Stage {
   std::shared_ptr<const Character> character;
   Timeline timeline;
+  Level level;
   std::shared_ptr<const Motion> recorded;  // played instead of the timeline; mostly null
   Environment environment;
   std::vector<Leg> legs;

@@ -59,12 +59,13 @@ std::vector<int> choose_frames(int first, int worst, int last, int frame_count, 
   return frames;
 }
 
-std::vector<int> spread_frames(int frame_count, int tiles) {
-  const int count = std::min(frame_count, tiles);
+std::vector<int> spread_frames(int frame_count, int tiles, int first) {
+  const int shown = frame_count - first, count = std::min(shown, tiles);
   if (count <= 0) return {};
-  if (count == 1) return {0};
+  if (count == 1) return {first};
   std::vector<int> frames;
-  for (int i = 0; i < count; ++i) frames.push_back(static_cast<int>(std::int64_t{i} * (frame_count - 1) / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    frames.push_back(first + static_cast<int>(std::int64_t{i} * (shown - 1) / (count - 1)));
   return frames;
 }
 

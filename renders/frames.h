@@ -12,8 +12,8 @@ namespace contort {
 // one tile `worst`.
 std::vector<int> choose_frames(int first, int worst, int last, int frame_count, int tiles = 8);
 
-// Without a finding: evenly spaced, with the first and the last frame.
-std::vector<int> spread_frames(int frame_count, int tiles = 8);
+// Without a finding: evenly spaced from `first` on, with the first and the last frame.
+std::vector<int> spread_frames(int frame_count, int tiles = 8, int first = 0);
 
 // A few frames to be shown one after the other, again and again.
 struct Clip {

@@ -135,7 +135,8 @@ int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices) 
   return add_accessor(model, std::move(accessor));
 }
 
-Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras) {
+Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras,
+                                         std::optional<int> only_part) {
   if (is_too_large(character, motion))
     return Issue{"gltf.too_large", "/frame_count",
                  "found " + std::to_string(motion.frame_count) + " frames; the file would be larger than the allowed " +
@@ -146,15 +147,15 @@ Result<std::vector<std::byte>> write_glb(const Character& character, const Motio
   model.buffers.emplace_back();
   add_nodes(model, character);
   add_meshes(model, character);
-  if (const auto added = add_motion(model, character, motion); !added) return added.issue();
+  if (const auto added = add_motion(model, character, motion, only_part); !added) return added.issue();
   add_scene(model, character, extras);
   if (model.buffers[0].data.empty()) model.buffers.clear();  // neither mesh nor frames
   return to_bytes(model);
 }
 
 Result<Done> save_glb(const std::string& path, const Character& character, const Motion& motion,
-                      const GltfExtras& extras) {
-  const auto bytes = write_glb(character, motion, extras);
+                      const GltfExtras& extras, std::optional<int> only_part) {
+  const auto bytes = write_glb(character, motion, extras, only_part);
   if (!bytes) return bytes.issue();
   return write_output(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }

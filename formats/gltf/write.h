@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,12 @@ struct GltfExtras {
 // Codes: gltf.not_finite (a value that no 32-bit float can hold: the first frame and joint), gltf.not_unit (a rotation
 // of length 0), gltf.bad_rate, gltf.wrong_character (rows of another size), gltf.too_large, gltf.bad_text (not UTF-8).
 // Pointers lead into the Motion: "/coords/17", "/root/3". A motion without frames gives the character at rest.
-Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras);
+// The animation begins with the motion's first_frame, at 0 s. With `only_part`, it moves the joints of that part alone.
+Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras,
+                                         std::optional<int> only_part = {});
 
 // To a file, never half of one. Also code file.unwritable.
 Result<Done> save_glb(const std::string& path, const Character& character, const Motion& motion,
-                      const GltfExtras& extras);
+                      const GltfExtras& extras, std::optional<int> only_part = {});
 
 }  // namespace contort

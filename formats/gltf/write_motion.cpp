@@ -62,7 +62,7 @@ Result<Done> add_key(Track& track, const Joint& joint, const Motion& motion, int
 Result<std::vector<Track>> make_tracks(const Character& character, const Motion& motion) {
   const std::span<const Joint> joints = character.joints();
   std::vector<Track> tracks(joints.size());
-  for (int frame = 0; frame < motion.frame_count; ++frame)  // frames outside: the first bad frame is the one reported
+  for (int frame = motion.first_frame; frame < motion.frame_count; ++frame)  // frames outside: the first bad frame is the one reported
     for (std::size_t i = 0; i < joints.size(); ++i)
       if (const auto added = add_key(tracks[i], joints[i], motion, frame); !added) return added.issue();
   return tracks;
@@ -70,10 +70,10 @@ Result<std::vector<Track>> make_tracks(const Character& character, const Motion&
 
 Result<std::vector<float>> key_times(const Motion& motion) {
   std::vector<float> out;
-  for (int frame = 0; frame < motion.frame_count; ++frame) {
-    out.push_back(static_cast<float>(frame / motion.rate_hz));
+  for (int frame = motion.first_frame; frame < motion.frame_count; ++frame) {
+    out.push_back(static_cast<float>((frame - motion.first_frame) / motion.rate_hz));
     // After hours at high rates, neighbouring frames become one 32-bit time.
-    if (frame > 0 && !(out.back() > out[out.size() - 2]))
+    if (frame > motion.first_frame && !(out.back() > out[out.size() - 2]))
       return Issue{"gltf.too_large", "/frame_count",
                    "32-bit times cannot tell frame " + std::to_string(frame) + " from the one before"};
   }
@@ -111,7 +111,8 @@ Result<Done> check_shape(const Character& character, const Motion& motion) {
 
 }  // namespace
 
-Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion) {
+Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion,
+                        std::optional<int> only_part) {
   if (motion.frame_count == 0) return Done{};
   if (const auto checked = check_shape(character, motion); !checked) return checked.issue();
   const Result<std::vector<Track>> tracks = make_tracks(character, motion);
@@ -124,6 +125,7 @@ Result<Done> add_motion(tinygltf::Model& model, const Character& character, cons
   for (std::size_t i = 0; i < tracks->size(); ++i) {
     const Track& track = (*tracks)[i];
     const int node = static_cast<int>(i);
+    if (only_part && character.joints()[i].part != *only_part) continue;
     if (!track.rotations.empty()) add_channel(model, animation, node, "rotation", times, track.rotations, 4);
     if (!track.translations.empty()) add_channel(model, animation, node, "translation", times, track.translations, 3);
   }

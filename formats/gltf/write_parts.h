@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "model/character/character.h"
@@ -23,7 +24,8 @@ int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices);
 // Meshes with their materials, each on its joint's node. Nodes must be there.
 void add_meshes(tinygltf::Model& model, const Character& character);
 
-// The animation.
-Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion);
+// The animation; of one part alone where it is given.
+Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion,
+                        std::optional<int> only_part);
 
 }  // namespace contort

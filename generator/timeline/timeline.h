@@ -45,6 +45,14 @@ struct FurtherAction {
   int action = 0;  // index into Timeline::actions: on the part that is to help, a torso or the root
 };
 
+// The level that is played alone, in numbers of the timeline.
+struct Level {
+  int sequence = -1;  // index, of interrupts' sequences too; -1: the whole spec
+  int clip = -1;      // -1: the whole sequence
+  int begins = 0;     // frames of its sequence
+  int ends = 0;
+};
+
 struct Timeline {
   std::vector<PlannedSequence> sequences;  // the spec's, then those of its interrupts
   std::vector<PlannedInterrupt> interrupts;

@@ -44,6 +44,9 @@ struct Spec {
   RecordingDesc recording;
   DynamicsDesc dynamics;
   std::string only_slot;  // the part of this slot moves alone, as the whole moves it; "": all do
+  int only_sequence = 0;  // plays this one alone, from the state that those before it leave; counted from 1, those of
+                          // interrupts after the queue's; 0: all
+  int only_clip = 0;      // of that sequence, the same; 0: all
   bool operator==(const Spec&) const = default;
 };
 

@@ -139,6 +139,9 @@ void fields(V& v, const Spec*) {
   v.field("recording", &Spec::recording, {}, "An animation made elsewhere, instead of sequences.");
   v.field("dynamics", &Spec::dynamics, {}, "Mass, loads and impacts.");
   v.field("only_slot", &Spec::only_slot, {.may_be_empty = true}, "Moves this slot's part alone; all others stay.");
+  v.field("only_sequence", &Spec::only_sequence, {.low = 0, .high = 128},
+          "Plays this sequence alone, from the state that those before it leave; interrupts' count after the queue's.");
+  v.field("only_clip", &Spec::only_clip, {.low = 0, .high = 1000000}, "Plays this clip of that sequence alone.");
 }
 
 }  // namespace contort

@@ -31,7 +31,7 @@ Result<Done> check_input(const StripInput& input) {
 std::vector<int> frames_of(const StripInput& input) {
   const int count = input.motion.frame_count;
   if (!input.frames.empty()) return input.frames;
-  if (!input.finding) return spread_frames(count, input.tiles);
+  if (!input.finding) return spread_frames(count, input.tiles, input.motion.first_frame);
   return choose_frames(input.finding->first_frame, input.finding->worst_frame, input.finding->last_frame, count,
                        input.tiles);
 }
@@ -91,7 +91,7 @@ Result<Image> draw_tiles(Renderer& renderer, const StripInput& input, const Plan
 
 // A sheet of one tile for each frame of the half second, as they follow each other.
 Result<Done> write_clip(Renderer& renderer, const StripInput& input, const View& view, const std::string& path) {
-  const int middle = input.finding ? input.finding->worst_frame : input.motion.frame_count / 2;
+  const int middle = input.finding ? input.finding->worst_frame : (input.motion.first_frame + input.motion.frame_count) / 2;
   const Clip clip = choose_clip(middle, input.motion.frame_count, input.motion.rate_hz);
   Plan plan = plan_strip(input, clip.frames);
   plan.camera = frame_strip(plan.shots.outlines, plan.shots.anchors, view, Sheet::picture_aspect(input));

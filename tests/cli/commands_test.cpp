@@ -185,14 +185,6 @@ TEST_F(Commands, ATruncatedFileIsRefusedAtAnyLength) {
   }
 }
 
-TEST_F(Commands, GenerateWritesATableOfNumbersToo) {
-  const std::string path = folder_ / "motion.json";
-  ASSERT_EQ(contort_program({"generate", spec_file(100), "-o", path}).code, 0);
-  const Json table = Json::parse(slurp(path), nullptr, false);
-  ASSERT_TRUE(table.is_object());
-  EXPECT_EQ(table["frames"].size(), 61U);
-}
-
 TEST_F(Commands, BuiltInProfilesArePrintedAsFilesOfThem) {
   const Json list = Json::parse(contort_program({"list", "profiles", "--json"}).out, nullptr, false);
   ASSERT_EQ(list.size(), built_in_profiles().size());

@@ -97,7 +97,7 @@ TEST(JsonFields, UnknownFieldsAreNamedWithWhatIsAllowed) {
   EXPECT_EQ(to_line(spec.issue()),
             "spec.unknown_field at /colour: found \"colour\", allowed are \"format\", \"character\", \"rate_hz\", "
             "\"hold_frames\", \"environment\", \"start\", \"sequences\", \"interrupts\", \"recording\", \"dynamics\", "
-            "\"only_slot\"");
+            "\"only_slot\", \"only_sequence\", \"only_clip\"");
 }
 
 TEST(JsonFields, PointersAreEscaped) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "corpus/evaluator.h"
 #include "generator/built_in.h"
 #include "tests/generator/scenes_of_one.h"
 
@@ -28,10 +31,8 @@ Spec two_sequences() {
 Result<Execution> run(const std::string& text) {
   const Result<ReplayScope> scope = parse_scope(text);
   if (!scope) return scope.issue();
-  const Result<Spec> spec = scoped(two_sequences(), *scope);
-  if (!spec) return spec.issue();
   BuiltInGenerator generator;
-  return execute(generator, *spec);
+  return execute(generator, scoped(two_sequences(), *scope));
 }
 
 Motion play(const std::string& scope) {
@@ -40,19 +41,97 @@ Motion play(const std::string& scope) {
   return execution->motion;
 }
 
+std::vector<double> posture(const Motion& motion, int frame) {
+  const std::span<const double> row = motion.row(frame);
+  return {row.begin(), row.end()};
+}
+
 std::string refusal(const std::string& scope) {
   const Result<Execution> execution = run(scope);
   return execution ? "" : execution.issue().code;
 }
 
-TEST(ReplayScopes, ASequenceAndAClipBeginAtFrameZero) {
+// The frames of a level are those of the whole motion: what came before has left the same state.
+TEST(ReplayScopes, ASequenceBeginsFromTheStateThatTheOneBeforeHasLeft) {
+  const Motion whole = generate(*build_stage(two_sequences(), stock_library()));
   const Motion second = play("sequence:2");
-  EXPECT_EQ(second.frame_count, 36);
-  EXPECT_EQ(coord(second, 10, human(), "arm_left/elbow"), 60 * kRadPerDeg);
+  EXPECT_EQ(second.first_frame, 30);
+  ASSERT_EQ(second.frame_count, whole.frame_count);
+  for (int f = 0; f < whole.frame_count; ++f) EXPECT_EQ(posture(second, f), posture(whole, f)) << f;
+}
+
+TEST(ReplayScopes, ASequenceEndsWithoutThoseBehindIt) {
+  const Motion first = play("sequence:1");
+  EXPECT_EQ(first.first_frame, 0);
+  EXPECT_EQ(first.frame_count, 31);
+}
+
+TEST(ReplayScopes, AClipBeginsFromTheStateThatTheOneBeforeHasLeft) {
+  const Motion whole = generate(*build_stage(two_sequences(), stock_library()));
   const Motion clip = play("clip:2/2");
-  EXPECT_EQ(clip.frame_count, 16);
-  EXPECT_EQ(coord(clip, 15, human(), "arm_left/elbow"), 30 * kRadPerDeg);
-  EXPECT_EQ(coord(clip, 15, human(), "arm_right/elbow"), 70 * kRadPerDeg);
+  EXPECT_EQ(clip.first_frame, 50);
+  ASSERT_EQ(clip.frame_count, 66);
+  EXPECT_EQ(coord(clip, 50, human(), "arm_left/elbow"), 60 * kRadPerDeg);
+  EXPECT_EQ(coord(clip, 65, human(), "arm_left/elbow"), 30 * kRadPerDeg);
+  for (int f = 50; f <= 65; ++f) EXPECT_EQ(posture(clip, f), posture(whole, f)) << f;
+}
+
+// The elbow is on its way from 0 to 90 when a second clip begins on the other arm.
+TEST(ReplayScopes, AClipCutsThoseThatGoOnBesideIt) {
+  Spec spec;
+  SequenceDesc both = sequence({elbow(0, 40, 90)});
+  both.clips.push_back(both.clips[0]);
+  both.clips[1].start_frame = 20;
+  both.clips[1].actions = {use("pose", "arm_right", 0, 30, {{"elbow_deg", 70.0}})};
+  spec.sequences = {both};
+  BuiltInGenerator generator;
+  const Result<Execution> execution = execute(generator, scoped(spec, *parse_scope("clip:1/2")));
+  ASSERT_TRUE(execution.ok());
+  const Motion& clip = execution->motion;
+  EXPECT_EQ(clip.first_frame, 20);
+  EXPECT_EQ(clip.frame_count, 51);
+  EXPECT_NEAR(coord(clip, 20, human(), "arm_left/elbow"), 45 * kRadPerDeg, 1e-9);
+  EXPECT_EQ(coord(clip, 50, human(), "arm_left/elbow"), coord(clip, 20, human(), "arm_left/elbow"));
+  EXPECT_EQ(coord(clip, 50, human(), "arm_right/elbow"), 70 * kRadPerDeg);
+}
+
+TEST(ReplayScopes, TheSequenceOfAnInterruptBeginsWhereItFires) {
+  Spec spec = two_sequences();
+  InterruptDesc interrupt;
+  interrupt.when.event = Event::frame, interrupt.when.frame = 12;
+  interrupt.sequence = sequence({elbow(0, 10, 10)});
+  spec.interrupts = {interrupt};
+  BuiltInGenerator generator;
+  const Result<Execution> whole = execute(generator, spec);
+  const Result<Execution> level = execute(generator, scoped(spec, *parse_scope("sequence:3")));
+  ASSERT_TRUE(level.ok());
+  const Motion& motion = level->motion;
+  EXPECT_GE(motion.first_frame, 12);
+  EXPECT_LE(motion.first_frame, 13);
+  EXPECT_EQ(motion.frame_count, motion.first_frame + 11);
+  for (int f = 0; f < motion.frame_count - 1; ++f) EXPECT_EQ(posture(motion, f), posture(whole->motion, f)) << f;
+}
+
+// A seam that jumps is found when the level behind it is played alone, and what was wrong before it is not.
+TEST(ReplayScopes, AJumpAtTheSeamIsFoundAndWhatCameBeforeIsNot) {
+  Spec spec;
+  ActionUse wild = elbow(0, 30, 90);
+  wild.params["elbow_deg"] = 200.0;  // out of range
+  ActionUse jump = elbow(0, 0, 0);
+  jump.blend_in_frames = 0;
+  spec.sequences = {sequence({wild}), sequence({elbow(0, 30, 100)}), sequence({jump, elbow(1, 30, 0)})};
+  BuiltInGenerator generator;
+  Evaluator evaluator(generator, {});
+  const auto checks_of = [&](const char* scope) {
+    std::set<std::string> checks;
+    const Result<Evaluation> run = evaluator.run(scoped(spec, *parse_scope(scope)));
+    EXPECT_TRUE(run.ok());
+    for (const Finding& finding : run->findings) checks.insert(finding.check);
+    return checks;
+  };
+  EXPECT_TRUE(checks_of("sequence:1").contains("joint_range"));
+  EXPECT_FALSE(checks_of("sequence:3").contains("joint_range"));
+  EXPECT_TRUE(checks_of("sequence:3").contains("pop"));
 }
 
 TEST(ReplayScopes, APartMovesAsInTheWholeAndAllElseStays) {
@@ -69,8 +148,8 @@ TEST(ReplayScopes, WhatIsNotThereIsRefused) {
   for (const char* bad :
        {"", "sequence", "sequence:", "sequence:0", "sequence:1/1", "clip:1", "clip:1/x", "part:", "whole:1"})
     EXPECT_EQ(refusal(bad), "level.bad_name") << bad;
-  EXPECT_EQ(refusal("sequence:3"), "level.no_sequence");
-  EXPECT_EQ(refusal("clip:1/2"), "level.no_clip");
+  EXPECT_EQ(refusal("sequence:3"), "spec.no_sequence");
+  EXPECT_EQ(refusal("clip:1/2"), "spec.no_clip");
   EXPECT_EQ(refusal("part:tail"), "spec.unknown_slot");
 }
 

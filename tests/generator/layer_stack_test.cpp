@@ -38,7 +38,8 @@ struct Scene {
     timeline.of_part.resize(1);
     for (int i = 0; i < static_cast<int>(timeline.actions.size()); ++i) timeline.of_part[0].push_back(i);
   }
-  Playback at_frame(int frame) const { return {timeline, history, {}, kRate_hz, frame}; }
+  LevelPlay whole;
+  Playback at_frame(int frame) const { return {timeline, history, whole, {}, kRate_hz, frame}; }
   LayerStack::Change advance(int frame, std::size_t part = 0) { return stack.advance(at_frame(frame), part); }
   LayerStack::Change play_to(int frame) {
     LayerStack::Change change;
