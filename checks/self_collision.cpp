@@ -27,6 +27,8 @@ class Watch {
         paths_m_(in.character.judged_pairs().size(), 0.0),
         no_nearer_m_(paths_m_.size(), std::numeric_limits<double>::quiet_NaN()) {
     for (std::size_t p = 0; p < paths_m_.size(); ++p) matters_m_.push_back(matters_below(p));
+    if (in.intent != nullptr)
+      for (const Grasp& grasp : in.intent->grasps) add_grasp(grasp);
   }
 
   // Frames in order.
@@ -58,7 +60,35 @@ class Watch {
     return true;
   }
 
+  // The hand of a grasp may overlap its object.
+  void add_grasp(const Grasp& grasp) {
+    for (std::size_t p = 0; p < paths_m_.size(); ++p) {
+      const JudgedPair& pair = in_.character.judged_pairs()[p];
+      if ((pair.body_a == grasp.body && is_beyond(grasp.joint, pair.body_b)) ||
+          (pair.body_b == grasp.body && is_beyond(grasp.joint, pair.body_a)))
+        grasped_.push_back({p, grasp.first_frame, grasp.last_frame});
+    }
+  }
+
+  bool is_beyond(int joint, int body) const {
+    int own = in_.character.bodies()[static_cast<std::size_t>(body)].joint;
+    while (own > joint) own = in_.character.joint(own).parent;
+    return own == joint;
+  }
+
+  bool is_grasped(std::size_t judged, int frame) const {
+    return std::ranges::any_of(grasped_, [&](const GraspedPair& grasped) {
+      return grasped.judged == judged && grasped.first_frame <= frame && frame <= grasped.last_frame;
+    });
+  }
+
+  // A grasp that has ended in the frame before counts between the frames, too.
   void judge(const DuePair& due, int frame) {
+    if (is_grasped(due.judged, frame) || is_grasped(due.judged, frame - 1)) {
+      no_nearer_m_[due.judged] = clearances_.distance_m(due);
+      matters_m_[due.judged] = matters_below(due.judged);
+      return;
+    }
     const double before_m = no_nearer_m_[due.judged], now_m = clearances_.distance_m(due);
     double margin_m = now_m >= in_.settings.collision_band_m ? std::numeric_limits<double>::infinity() : now_m;
     if (between_.may_overlap(due.judged, before_m, now_m)) {
@@ -70,6 +100,12 @@ class Watch {
     matters_m_[due.judged] = matters_below(due.judged);
   }
 
+  struct GraspedPair {
+    std::size_t judged = 0;
+    int first_frame = 0;
+    int last_frame = -1;
+  };
+
   const CheckInput& in_;
   MarginFold& fold_;
   Clearances clearances_;
@@ -78,6 +114,7 @@ class Watch {
   std::vector<double> no_nearer_m_;  // than this is a judged pair; NaN where that is unknown
   std::vector<double> matters_m_;    // distances from here up change nothing
   std::vector<DuePair> due_;
+  std::vector<GraspedPair> grasped_;
 };
 
 }  // namespace

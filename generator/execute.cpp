@@ -10,6 +10,7 @@ void execute(const Stage& stage, GenerateScratch& scratch, Execution& execution)
   generate(stage, scratch, execution.motion);
   if (!execution.intent) execution.intent.emplace();
   say_intent(stage, execution.motion, scratch.rules, scratch.lags.lags(), *execution.intent);
+  execution.intent->grasps = scratch.grasps.grasps();
 }
 
 Intent intent_of(const Stage& stage) {

@@ -28,6 +28,11 @@ Vec3 target_of(const Stage& stage, const PlannedAction& action) {
   return stage.start * Vec3(action.params[first], action.params[first + 1], action.params[first + 2]);
 }
 
+// The azimuth, off its easiest one, from which on an aim asks for help.
+double easy_rad(const PlannedAction& aim) {
+  return aim.aim->second.arm >= 0 ? kEasyOfTwoHands_rad : kEasyAim_rad;
+}
+
 // Whether another use aims somewhere else: a figure that steps round would take it from its target.
 bool aims_elsewhere(const Playback& playback, std::span<const LayerStack> stacks, const Stage& stage,
                     const PlannedAction& aim, const Rigid& root) {
@@ -68,9 +73,9 @@ bool FurtherActions::needs_help(const Playback& playback, const LayerHold& hold,
   if (rules.feedback()[at(aim.named)].shortfall > kMisses_rad) return true;
   if (aim.aim->chest < 0) return false;
   const Rigid chest = world_from_socket(*stage_->character, rules.world(), aim.aim->chest);
-  const double azimuth = std::fabs(azimuth_rad(chest, target_of(*stage_, aim)));
+  const double azimuth = std::fabs(wrap_angle(azimuth_rad(chest, target_of(*stage_, aim)) - aim.aim->second.easy_rad));
   const double left_s = (aim.last_frame - content(playback, hold)) / playback.rate_hz();
-  return azimuth > kEasyAim_rad && left_s > kComesIn_s + azimuth / kTurns_rad_s;
+  return azimuth > easy_rad(aim) && left_s > kComesIn_s + azimuth / kTurns_rad_s;
 }
 
 // The first one that is of use and not acquired yet, unless one before it will do by itself.
@@ -79,7 +84,7 @@ bool FurtherActions::acquire(const Playback& playback, const PlannedAction& aim,
   for (const FurtherAction& further : of_use(aim.use)) {
     const PlannedAction& help = playback.action(further.action);
     if (is_helped(playback, stacks, help.part)) {
-      if (rules.feedback()[at(help.part)].shortfall <= kEasyAim_rad) return false;
+      if (rules.feedback()[at(help.part)].shortfall <= easy_rad(aim)) return false;
     } else if (acquired_at(further) == Playback::kDormant && stacks[at(help.part)].ik().action < 0 &&
                (help.aim != nullptr ||
                 (faces_elsewhere(help, root) && !aims_elsewhere(playback, stacks, *stage_, aim, root)))) {

@@ -46,6 +46,7 @@ class Generation {
     s_.stacks.assign(character_.parts().size(), {});
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
+    s_.held_off.assign(character_.parts().size(), 0);
     s_.free_arm.assign(character_.parts().size(), 0);
     for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
       s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);
@@ -119,10 +120,10 @@ class Generation {
     if (change.settles) settle(p);
     if (change.overwrite_begins) begin(playback, stack.overwrite(), p, layers.base, layers.from_overwrite);
     if (stack.overwrite().action >= 0) overwrite(playback, p, change.overwrite_begins);
-    const Posture& present = change.ik_follows ? seen(p) : layers.base;
-    if (change.ik_begins) begin(playback, stack.ik(), p, present, layers.from_ik);
+    const Posture& present = change.ik_follows || change.ik_restarts ? seen(p) : layers.base;
+    if (change.ik_begins || change.ik_restarts) begin(playback, stack.ik(), p, present, layers.from_ik);
     if (stack.ik().action >= 0)
-      solve_ik(playback, p, change.ik_begins);
+      solve_ik(playback, p, change);
     else
       copy_part(character_, p, layers.base, layers.plain);
     copy_part(character_, p, layers.plain, layers.shown);
@@ -174,9 +175,10 @@ class Generation {
     move(playback, hold, p, s_.postures.from_overwrite, s_.postures.from_overwrite, s_.postures.base);
   }
 
-  void solve_ik(const Playback& playback, std::size_t p, bool begins) {
+  void solve_ik(const Playback& playback, std::size_t p, const LayerStack::Change& change) {
     const LayerHold& hold = s_.stacks[p].ik();
-    s_.spans.hold(playback.frame(), planned(playback, hold), begins);
+    const bool begins = change.ik_begins || change.ik_restarts;
+    s_.spans.hold(playback.frame(), planned(playback, hold), change.ik_begins);
     move(playback, hold, p, s_.postures.from_ik, s_.postures.base, s_.postures.plain);
     if (begins && takes_its_time(planned(playback, hold))) s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
     if (p == 0) remember_soles(playback);
@@ -271,6 +273,7 @@ class Generation {
 
 void generate(const Stage& stage, GenerateScratch& scratch, Motion& motion) {
   scratch.lags.begin(stage.character->parts().size());
+  scratch.grasps.begin(stage.character->parts().size());
   if (stage.recorded)
     motion = *stage.recorded;
   else

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "generator/further_actions.h"
+#include "generator/grasps.h"
 #include "generator/lags.h"
 #include "generator/layer_stack.h"
 #include "generator/motion/clearance.h"
@@ -52,10 +53,12 @@ struct GenerateScratch {
   Past past;                       // what was shown
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
+  std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
   int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere
   RootCarry carry;
   SpanRecorder spans;
   LagRecorder lags;  // of the last motion
+  GraspRecorder grasps;
   FurtherActions further;
 };
 

@@ -66,9 +66,8 @@ class Goals {
     if (promise == Promise::arrives) add_arrival(*action, span, *run);
     if (promise == Promise::none && action->def->timing == Timing::goal)
       add_unmet_end(*action, span, *run);
-    const bool is_computed = action->script != nullptr && action->def->timing == Timing::course;
-    if (promise == Promise::holds || promise == Promise::aims || action->def->spread == Spread::legs || is_computed)
-      add_while_in_force(*action, span);
+    const bool is_told = action->def->layer == Layer::ik || action->script != nullptr;
+    if (action->def->timing == Timing::course && is_told) add_while_in_force(*action, span);
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "generator/layer_stack.h"
 
+#include <utility>
+
 namespace contort {
 
 namespace {
@@ -88,7 +90,17 @@ LayerStack::Change LayerStack::advance(const Playback& playback, std::size_t par
   const LayerHold overwrite = next_hold(playback, overwrite_, Layer::overwrite, part);
   change.overwrite_begins = take_over(playback, part, overwrite, overwrite_);
   change.ik_begins = take_over(playback, part, ik, ik_);
+  change.ik_restarts = restart(playback) && !change.ik_begins;
   return change;
+}
+
+bool LayerStack::restart(const Playback& playback) {
+  const bool is_due = std::exchange(restarts_, false) && ik_.action >= 0;
+  if (!is_due) return false;
+  ik_.frame = playback.frame(), ik_.came = content(playback, ik_);
+  ik_.eased = 0.0, ik_.blend_frames = -1;
+  ++ik_.restarts;
+  return true;
 }
 
 // Gives a layer to the action that has it now; true if that begins.

@@ -14,6 +14,7 @@ struct LayerHold {
   int frame = -1;         // of the motion, in which it took over
   double came = 0.0;      // the content frame at which it took over
   double eased = 0.0;     // [0, 1]
+  int restarts = 0;       // of this hold, by restart_ik
   int blend_frames = -1;  // over which an action comes in that takes its time; -1: not known yet
   double since = -1e30;   // when the last action that had the layer began, in frames of the motion
   int since_action = -1;  // that action: none that began earlier gets the layer
@@ -46,6 +47,7 @@ class LayerStack {
     bool overwrite_begins = false;  // from the base
     bool ik_begins = false;         // from the base, or,
     bool ik_follows = false;        // where ik had the layer already, from what was shown
+    bool ik_restarts = false;       // the same action, from what was shown
     bool operator==(const Change&) const = default;
   };
 
@@ -55,15 +57,20 @@ class LayerStack {
   // Sets the frames in which the action that has just begun comes in, if it takes its time.
   void set_ik_blend(int frames) { ik_.blend_frames = frames; }
 
+  // Has the action that has the layer ik come in once more, from where its part is, in the next frame.
+  void restart_ik() { restarts_ = ik_.action >= 0; }
+
   const LayerHold& overwrite() const { return overwrite_; }
   const LayerHold& ik() const { return ik_; }
 
  private:
+  bool restart(const Playback& playback);
   bool take_over(const Playback& playback, std::size_t part, const LayerHold& next, LayerHold& hold) const;
   bool stands_for(const Playback& playback, const LayerHold& next, std::size_t part) const;
 
   LayerHold overwrite_;
   LayerHold ik_;
+  bool restarts_ = false;
 };
 
 }  // namespace contort

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "generator/actions/hand.h"
+
 namespace contort {
 
 // Poses are taken as their authors give them, and walking legs as their gait has them.
@@ -11,10 +13,21 @@ bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   return s_.added[p] != 0 || (s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0);
 }
 
-int LimbKeeper::held_socket(const Playback& playback, std::size_t p) const {
+HeldObject LimbKeeper::held_by(const Playback& playback, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
-  const bool holds = ik.action >= 0 && planned(playback, ik).def->promise == Promise::holds;
-  return holds ? static_cast<int>(planned(playback, ik).params[0]) : -1;
+  if (ik.action < 0 || planned(playback, ik).def->promise != Promise::holds) return {};
+  const PlannedAction& action = planned(playback, ik);
+  return held_object(*stage_.character, action.named, static_cast<int>(action.params[0]));
+}
+
+// A hand that no action keeps at its object any longer may still be round it.
+void LimbKeeper::note_grasp(const Playback& playback, const Limb& limb, const HeldObject& held) {
+  const std::size_t part = at(limb.parts.front());
+  const HeldObject before = s_.grasps.held_before(playback.frame(), part);
+  if (held.body >= 0)
+    s_.grasps.note(playback.frame(), part, held);
+  else if (before.body >= 0 && s_.rules.room().is_at(before, part, s_.rules.world()))
+    s_.grasps.note(playback.frame(), part, before);
 }
 
 bool LimbKeeper::acts(const Playback& playback, const Limb& limb) const {
@@ -36,9 +49,34 @@ LegUse LimbKeeper::use_of(const Playback& playback, const Limb& limb) const {
 void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   const LegUse use = use_of(playback, limb);
   shift(limb, Shift::none);
-  s_.rules.room().hold(at(limb.parts.back()), held_socket(playback, at(limb.parts.front())));
+  int& held_off = s_.held_off[at(limb.parts.back())];
+  const HeldObject held = held_by(playback, at(limb.parts.front()));
+  s_.rules.room().hold(at(limb.parts.back()), held);
   if (use == LegUse::acts) keep_clear(limb);
   if (use == LegUse::idle) plant(limb);
+  held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
+  if (held_off > 0) try_again(playback, limb);
+  note_grasp(playback, limb, held);
+}
+
+// A limb that would have room where it is wanted, and does not get there, comes in once more from where it is: its rule
+// chooses again, and finds a way round.
+void LimbKeeper::try_again(const Playback& playback, const Limb& limb) {
+  constexpr double kWaits_s = 0.15;
+  constexpr int kMostTries = 3;
+  const LayerHold& hold = s_.stacks[at(limb.parts.front())].ik();
+  if (hold.action < 0 || s_.held_off[at(limb.parts.back())] < kWaits_s * stage_.rate_hz) return;
+  const PlannedAction& action = planned(playback, hold);
+  if (action.cuts || action.def->timing != Timing::course || hold.restarts == kMostTries) return;
+  if (come_in(playback, hold) < 1.0 || left_of(playback, hold) < 1.0) return;
+  s_.held_off[at(limb.parts.back())] = 0;
+  if (s_.clearance.wanted_room_m() < -kTooNear_m) {
+    s_.rules.body(action).chooses_swivel = true;
+    return;
+  }
+  for (const int p : limb.parts)
+    if (const LayerHold& other = s_.stacks[at(p)].ik(); other.action >= 0 && planned(playback, other).use == action.use)
+      s_.stacks[at(p)].restart_ik();
 }
 
 void LimbKeeper::shift(const Limb& limb, Shift shift) {

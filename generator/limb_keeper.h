@@ -17,13 +17,15 @@ class LimbKeeper {
 
  private:
   bool makes_way(const Playback& playback, std::size_t p) const;
-  int held_socket(const Playback& playback, std::size_t p) const;
+  HeldObject held_by(const Playback& playback, std::size_t p) const;
+  void note_grasp(const Playback& playback, const Limb& limb, const HeldObject& held);
   bool acts(const Playback& playback, const Limb& limb) const;
   LegUse use_of(const Playback& playback, const Limb& limb) const;
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
   void keep_clear(const Limb& limb);
+  void try_again(const Playback& playback, const Limb& limb);
 
   const Stage& stage_;
   GenerateScratch& s_;

@@ -64,16 +64,30 @@ struct ActionTime {
   double frame_s = 0.0;     // of the motion; each takes duration_s / takes_s times as much of the content
 };
 
+// The other hand that is to hold the object that is aimed.
+struct SecondHand {
+  int arm = -1;            // its part; -1: the object is aimed with one hand
+  int point = -1;          // the socket that it holds
+  double reach_m = 0.0;    // from its shoulder to its grip, stretched
+  double easy_rad = 0.0;   // the azimuth of the target from the chest at which both hands reach with ease
+  bool operator==(const SecondHand&) const = default;
+};
+
 // The data that an aiming action has from the start.
 struct AimPlan {
   AimChain chain;
   std::shared_ptr<const AimTable> table;
   int chest = -1;      // the face of the torso on which the part hangs, which can turn to help it; -1: no torso does
   bool helps = false;  // a torso that helps: it turns about the vertical, and does not lean
+  SecondHand second;
 };
 
 // A target whose azimuth from the chest is greater has the torso turn, as people do (docs/aim.md).
 inline constexpr double kEasyAim_rad = 60.0 * kRadPerDeg;
+
+// With two hands on the object, people stand with the shoulder of the front hand forward, and aim across the chest.
+inline constexpr double kBladed_rad = 30.0 * kRadPerDeg;
+inline constexpr double kEasyOfTwoHands_rad = 15.0 * kRadPerDeg;  // more or less than that
 
 // From where a socket's +Z faces to a point, about its +Y; [-pi, pi].
 double azimuth_rad(const Rigid& world_from_socket, const Vec3& point_world_m);
@@ -88,6 +102,11 @@ struct WholeBody {
   std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
   std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
   double swivel_rad = 0.0;                    // of a limb whose request leaves it open
+  int way_chosen_in = -1;                     // frame in which the part was taken
+  Vec3 detour_rad{0.0};                       // round bodies on the way in (limb_way.h)
+  double wanted_swivel_rad = 0.0;             // to which it turns while its target moves
+  bool chooses_swivel = false;                // again, as bodies are too near where the limb is wanted
+  Vec3 swivel_chosen_for_m{0.0};              // the target then, from the limb's shoulder, in its carrier's frame
   Quat faced = kNoRotation;                   // where a course faced at its first begin, in the world
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
   bool has_help = false;                      // a torso or legs are turning for this aim

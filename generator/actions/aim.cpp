@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "generator/actions/hand.h"
+#include "generator/actions/limb_way.h"
+#include "generator/actions/two_hands.h"
 #include "generator/motion/blend.h"
 #include "generator/motion/ik.h"
 #include "model/core/detmath.h"
@@ -15,6 +17,7 @@ namespace contort {
 namespace {
 
 constexpr std::size_t kCandidates = 96;  // postures of the table that are tried
+constexpr std::size_t kCandidatesOfTwoHands = 400;  // most of them put the object where the other hand cannot be
 
 void place_chain(const RuleInput& in, const Posture& posture) {
   const std::span<const int> joints = in.aim->chain.joints;
@@ -32,64 +35,71 @@ void for_coords(const RuleInput& in, Copy copy) {
   }
 }
 
-bool has_room(const RuleInput& in, const Posture& posture) {
+bool has_room_for_aim(const RuleInput& in, const Posture& posture) {
   const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
   for (const int j : in.room.limb_of(part).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
   return in.room.room_m(part, in.world) >= -kTooNear_m;
 }
 
-// Whether there is room on the way from where the part was taken, too: a limb that meets a body there stays behind it.
-bool has_way(const RuleInput& in, Posture& posture) {
-  constexpr int kStops = 8;
-  const int last = in.character.joint(in.aim->chain.joints.back()).part;
-  const int first = static_cast<int>(&in.part - in.character.parts().data());
-  std::array<double, kMaxAimCoords> wanted{};
-  for_coords(in, [&](std::size_t coord, std::size_t at) { wanted[at] = posture.coords[coord]; });
-  const auto restore = [&] {
-    for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = wanted[at]; });
-  };
-  bool is_free = true;
-  for (int stop = 1; stop < kStops && is_free; ++stop) {
-    for (int p = last; p >= first; p = p == first ? -1 : carrier_of(in.character, p))
-      blend_part(in.character, static_cast<std::size_t>(p), in.from, posture, static_cast<double>(stop) / kStops, posture);
-    is_free = has_room(in, posture);
-    restore();
+// Puts those postures first in which two hands hold the object with ease.
+void prefer_for_two_hands(const RuleInput& in, Posture& posture, std::span<AimHit> hits) {
+  const AimTable& table = *in.aim->table;
+  for (AimHit& hit : hits) {
+    const std::span<const double> coords = table.coords(hit.posture);
+    for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = coords[at]; });
+    place_chain(in, posture);
+    hit.chord = awkwardness_of_two_hands(in);
   }
-  return is_free;
+  std::ranges::sort(hits, [](const AimHit& a, const AimHit& b) {
+    return a.chord != b.chord ? a.chord < b.chord : a.posture < b.posture;
+  });
 }
 
 // Chooses, from the postures of the table that point there, the best one in which no bodies are too near, and on the way
-// to it, if there is one. False where all have such bodies or miss the target; then `posture` is of no use.
+// to it, if there is one; or in which the other hand can hold the object, too. False where all have such bodies or miss
+// the target; then `posture` is of no use.
 bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
   const AimTable& table = *in.aim->table;
   const auto base = static_cast<std::size_t>(in.character.joint(in.aim->chain.joints.front()).parent);
   std::array<double, kMaxAimCoords> present{};
   for_coords(in, [&](std::size_t coord, std::size_t at) { present[at] = in.from.coords[coord]; });
-  std::array<AimHit, kCandidates> hits;
-  const int found = table.nearest_to_point(inverse(in.world[base]) * target.world, hits);
-  const std::span<AimHit> near = std::span(hits).first(static_cast<std::size_t>(found));
-  table.prefer_sighted(present, near);
+  std::array<AimHit, kCandidatesOfTwoHands> hits;
+  const bool both = in.aim->second.arm >= 0 && !in.part.reach.empty();
+  const std::span<AimHit> most = std::span(hits).first(both ? kCandidatesOfTwoHands : kCandidates);
+  const int found = table.nearest_to_point(inverse(in.world[base]) * target.world, most);
+  const std::span<AimHit> near = most.first(static_cast<std::size_t>(found));
+  both ? prefer_for_two_hands(in, posture, near) : table.prefer_sighted(present, near);
   const auto fits = [&](const AimHit& hit) {
     const std::span<const double> coords = table.coords(hit.posture);
     for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = coords[at]; });
     place_chain(in, posture);
-    return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached && has_room(in, posture);
+    return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached && has_room_for_aim(in, posture);
   };
-  const AimHit* first = nullptr;
-  for (const AimHit& hit : near)
-    if (fits(hit)) {
-      if (has_way(in, posture)) return true;
-      if (first == nullptr) first = &hit;
-    }
-  return first != nullptr && fits(*first);
+  constexpr double kNoFault = 1e-6;
+  constexpr int kMostTries = 30;
+  const AimHit* second_best = nullptr;
+  double least = 1e30;
+  int tries = 0;
+  for (const AimHit& hit : near) {
+    if (!fits(hit)) continue;
+    const double fault = both ? fault_of_second_hand(in, posture) : has_way(in, posture) ? 0.0 : 1.0;
+    if (fault < kNoFault) return true;
+    if (fault < least) second_best = &hit, least = fault;
+    if (both && ++tries == kMostTries) break;
+  }
+  return second_best != nullptr && fits(*second_best);
 }
 
-// The point, brought to an azimuth of at most `most_rad` about the frame's +Y; also by how much it was beyond that.
-Vec3 limited_azimuth(const Rigid& frame, const Vec3& point_m, double most_rad, double& beyond_rad) {
-  const double azimuth = azimuth_rad(frame, point_m);
+Vec3 turned_about(const Rigid& frame, const Vec3& point_m, double angle_rad) {
+  return frame.p_m + axis_angle(frame.q * Vec3(0, 1, 0), angle_rad) * (point_m - frame.p_m);
+}
+
+// The point, brought to an azimuth about the frame's +Y that is within `most_rad` of `easy_rad`; also by how much it was
+// beyond that.
+Vec3 limited_azimuth(const Rigid& frame, const Vec3& point_m, double easy_rad, double most_rad, double& beyond_rad) {
+  const double azimuth = wrap_angle(azimuth_rad(frame, point_m) - easy_rad);
   beyond_rad = std::max(0.0, std::fabs(azimuth) - most_rad);
-  const Quat turn = axis_angle(frame.q * Vec3(0, 1, 0), azimuth > 0.0 ? -beyond_rad : beyond_rad);
-  return frame.p_m + turn * (point_m - frame.p_m);
+  return turned_about(frame, point_m, azimuth > 0.0 ? -beyond_rad : beyond_rad);
 }
 
 // The target of a torso while legs turn: no farther to a side than backs twist; and level, if it only helps.
@@ -98,7 +108,8 @@ Vec3 target_of_chest(const RuleInput& in, const Vec3& target_m, double& beyond_r
   const Rigid here{in.world[0].q, world_from_socket(in.character, in.world, in.aim->chain.socket).p_m};
   const Vec3 up = here.q * Vec3(0, 1, 0);
   const double above_m = in.aim->helps ? dot(target_m - here.p_m, up) : 0.0;
-  return limited_azimuth(here, target_m - above_m * up, kTwist_rad, beyond_rad);
+  const double easy_rad = in.aim->helps ? in.aim->second.easy_rad : 0.0;
+  return limited_azimuth(here, turned_about(here, target_m - above_m * up, -easy_rad), 0.0, kTwist_rad, beyond_rad);
 }
 
 // While the torso turns to a target, the part goes on to the easiest direction that is nearest to it: it would have to
@@ -107,7 +118,8 @@ Vec3 easy_target(const RuleInput& in, const Vec3& target_m, double& beyond_rad) 
   if (!in.aim->helps && !in.body.has_help) return target_m;
   if (in.aim->chest < 0) return target_of_chest(in, target_m, beyond_rad);
   const Rigid chest = world_from_socket(in.character, in.world, in.aim->chest);
-  return limited_azimuth(chest, target_m, kEasyAim_rad, beyond_rad);
+  const double most_rad = in.aim->second.arm >= 0 ? kEasyOfTwoHands_rad : kEasyAim_rad;
+  return limited_azimuth(chest, target_m, in.aim->second.easy_rad, most_rad, beyond_rad);
 }
 
 AimResult from_table(const RuleInput& in, const AimTarget& target, Posture& posture) {
@@ -161,6 +173,7 @@ void solve(const RuleInput& in, Posture& posture) {
   const AimTarget target{AimTarget::Kind::point, easy_target(in, target_m, beyond_rad)};
   const AimResult result = aims_its_face(in) ? face(in, target, posture) : point(in, target, posture);
   for_coords(in, [&](std::size_t coord, std::size_t at) { in.body.aimed[at] = posture.coords[coord]; });
+  if (!aims_its_face(in)) go_round(in, posture);
   in.feedback.aim_reached = result.reached && beyond_rad == 0.0;
   in.feedback.shortfall = beyond_rad + (result.reached ? 0.0 : result.error_rad);
 }

@@ -42,6 +42,15 @@ Vec3 easy_grip_m(const Character& character, const Part& arm) {
   return shoulder + 0.8 * (world_from_socket(character, world, grip_of(character, arm)).p_m - shoulder);
 }
 
+HeldObject held_object(const Character& character, int arm, int point) {
+  const std::string_view name = character.sockets()[static_cast<std::size_t>(point)].name;
+  const auto body = std::ranges::find(character.bodies(), name.substr(0, name.rfind('/')), &Body::name);
+  if (body == character.bodies().end()) return {};
+  const int grip = grip_of(character, character.parts()[static_cast<std::size_t>(arm)]);
+  return {character.sockets()[static_cast<std::size_t>(grip)].joint,
+          static_cast<int>(body - character.bodies().begin())};
+}
+
 void rest_part(const Character& character, const Part& part, Posture& posture) {
   std::copy_n(character.rest_coords().begin() + part.first_coord, part.coord_count,
               posture.coords.begin() + part.first_coord);
@@ -52,7 +61,7 @@ namespace {
 constexpr int kWristPasses = 4;
 
 // A place for a hand, in the world: the grip goes to the point, and the palm faces the direction.
-struct Grasp {
+struct HandPlace {
   Vec3 point_m{0.0};
   Vec3 palm{0.0, 0.0, 1.0};  // a unit vector
 };
@@ -95,23 +104,23 @@ void turn_wrist(const RuleInput& in, const ReachChain& chain, const Vec3& palm, 
 }
 
 // Wrist and arm in turn, as each moves what the other one has reached; from the wrist as it is.
-void reach_and_turn(const RuleInput& in, const ReachChain& chain, const Grasp& grasp, double swivel_rad,
+void reach_and_turn(const RuleInput& in, const ReachChain& chain, const HandPlace& hand_at, double swivel_rad,
                     Posture& posture) {
   for (int pass = 0; pass < kWristPasses; ++pass) {
-    reach_for(in.character, chain, in.world, grasp.point_m, swivel_rad, posture.coords);
+    reach_for(in.character, chain, in.world, hand_at.point_m, swivel_rad, posture.coords);
     place(in, posture);
-    turn_wrist(in, chain, grasp.palm, posture);
+    turn_wrist(in, chain, hand_at.palm, posture);
   }
-  reach_for(in.character, chain, in.world, grasp.point_m, swivel_rad, posture.coords);
+  reach_for(in.character, chain, in.world, hand_at.point_m, swivel_rad, posture.coords);
   place(in, posture);
 }
 
-double swivel_for(const RuleInput& in, const ReachChain& chain, const Grasp& grasp, Posture& posture) {
+double swivel_for(const RuleInput& in, const ReachChain& chain, const HandPlace& hand_at, Posture& posture) {
   constexpr double kOfPalm = 2.0;  // each radian
   return cheapest_swivel(in.part.side, [&](double swivel) {
     for_wrist(in, chain, [&](int j) { angle_of(in, j, posture) = 0.0; });
-    reach_and_turn(in, chain, grasp, swivel, posture);
-    return cost_of_placed(in, posture) + kOfPalm * off_palm_rad(in, chain, grasp.palm);
+    reach_and_turn(in, chain, hand_at, swivel, posture);
+    return cost_of_placed(in, posture) + kOfPalm * off_palm_rad(in, chain, hand_at.palm);
   });
 }
 
@@ -138,20 +147,20 @@ void take_wrist(const RuleInput& in, int hand, Posture& posture) {
   });
 }
 
-double bring_palm_to(const RuleInput& in, const Grasp& grasp, Posture& posture) {
+double bring_palm_to(const RuleInput& in, const HandPlace& hand_at, Posture& posture) {
   const int own = index_of(in.character, in.part);
   if (in.part.reach.empty()) return take_wrist(in, own, posture), 0.0;
   const ReachChain chain = chain_to_grip(in.character, in.part);
   const bool begins = in.body.begun != in.took_over;
   rest_carried(in.character, own, posture);
-  reach_with_travels(in, chain, grasp.point_m, std::nullopt, posture);  // travels come out
-  if (begins) in.body.swivel_rad = swivel_for(in, chain, grasp, posture);
+  reach_with_travels(in, chain, hand_at.point_m, std::nullopt, posture);  // travels come out
+  if (begins) in.body.swivel_rad = swivel_for(in, chain, hand_at, posture);
   std::size_t at = 0;
   for_wrist(in, chain, [&](int j) { angle_of(in, j, posture) = begins ? 0.0 : in.body.aimed[at++]; });
-  reach_and_turn(in, chain, grasp, in.body.swivel_rad, posture);
+  reach_and_turn(in, chain, hand_at, in.body.swivel_rad, posture);
   at = 0;
   for_wrist(in, chain, [&](int j) { in.body.aimed[at++] = angle_of(in, j, posture); });
-  return length(world_from_socket(in.character, in.world, chain.tip).p_m - grasp.point_m);
+  return length(world_from_socket(in.character, in.world, chain.tip).p_m - hand_at.point_m);
 }
 
 // The least distance from a plane of the bodies that the elbow moves, m.
@@ -169,20 +178,20 @@ double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& po
   const int arm = index_of(in.character, in.part);
   rest_carried(in.character, arm, posture);
   // With the hand at rest the grip is as fixed to the forearm as the wrist is: two bones, the second one longer.
-  return reach_with_travels(in, chain_to_grip(in.character, in.part), point_world_m, std::nullopt, posture);
+  return follow_with_travels(in, chain_to_grip(in.character, in.part), point_world_m, posture);
 }
 
 double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture) {
   constexpr double kClear_m = 0.002;
   constexpr int kPasses = 3;  // a forearm comes nearer or farther as the grip is moved
-  Grasp grasp{point_m + gap_m * normal, -normal};
-  double missing_m = bring_palm_to(in, grasp, posture);
+  HandPlace hand_at{point_m + gap_m * normal, -normal};
+  double missing_m = bring_palm_to(in, hand_at, posture);
   if (in.part.reach.empty()) return missing_m;
   for (int pass = 0; pass < kPasses; ++pass) {
     const double lacks_m = kClear_m - over_plane_m(in, point_m, normal);
     if (lacks_m <= 0.0) break;
-    grasp.point_m += lacks_m * normal;
-    missing_m = bring_palm_to(in, grasp, posture);
+    hand_at.point_m += lacks_m * normal;
+    missing_m = bring_palm_to(in, hand_at, posture);
   }
   return missing_m;
 }

@@ -15,6 +15,9 @@ int grip_of(const Character& character, const Part& arm);
 // the character's frame.
 Vec3 easy_grip_m(const Character& character, const Part& arm);
 
+// The hand of an arm, and the attached object that has a point.
+HeldObject held_object(const Character& character, int arm, int point);
+
 void rest_part(const Character& character, const Part& part, Posture& posture);
 
 // Brings the grip of an arm to a point with the hand's joints at rest. For the hand, which is moved after the arm: rest.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "generator/motion/ik.h"
 #include "generator/motion/joint_clamp.h"
@@ -139,6 +140,11 @@ double cheapest_swivel(Side side, FunctionRef<double(double swivel_rad)> cost) {
     const double swivel = outward * 2.0 * kPi * (i % 2 == 1 ? (i + 1) / 2 : -i / 2) / kSwivels;
     if (const double now = cost(swivel); now < least - kBetter) least = now, best = swivel;
   }
+  for (double step = kPi / kSwivels; step > 0.4 * kPi / kSwivels; step *= 0.5) {
+    const double middle = best;
+    for (const double swivel : {middle + outward * step, middle - outward * step})
+      if (const double now = cost(swivel); now < least - kBetter) least = now, best = swivel;
+  }
   return best;
 }
 
@@ -155,6 +161,24 @@ double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Ve
   in.body.swivel_rad = choose_swivel(in, chain, target_world_m, swivel_rad, posture);
   reach_for(in.character, chain, in.world, target_world_m, in.body.swivel_rad, posture.coords);
   return missing_m(in, chain, target_world_m, posture);
+}
+
+double follow_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m, Posture& posture) {
+  constexpr double kMoved_m = 0.03;
+  constexpr double kTurns_rad_s = 150.0 * kRadPerDeg;
+  WholeBody& body = in.body;
+  const bool begins = body.begun != in.took_over;
+  const Vec3 local_m = inverse(in.world[at(in.character.joint(chain.upper).parent)]) * target_world_m;
+  reach_with_travels(in, chain, target_world_m, std::nullopt, posture);
+  if (begins) {
+    body.wanted_swivel_rad = body.swivel_rad, body.swivel_chosen_for_m = local_m;
+  } else if (std::exchange(body.chooses_swivel, false) || length(local_m - body.swivel_chosen_for_m) > kMoved_m) {
+    body.wanted_swivel_rad = choose_swivel(in, chain, target_world_m, std::nullopt, posture);
+    body.swivel_chosen_for_m = local_m;
+  }
+  const double most_rad = kTurns_rad_s * in.time.frame_s;
+  body.swivel_rad += std::clamp(wrap_angle(body.wanted_swivel_rad - body.swivel_rad), -most_rad, most_rad);
+  return reach_as_far(in, chain, target_world_m, posture);
 }
 
 }  // namespace contort

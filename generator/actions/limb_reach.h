@@ -15,8 +15,12 @@ namespace contort {
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
 
+// The same for a target that moves: the swivel is chosen again where the target has moved by more than 3 cm against the
+// limb's shoulder, and where bodies are too near there; and the limb turns to it at up to 150 degrees a second.
+double follow_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m, Posture& posture);
+
 // The turn of a limb about its line to the target, rad, with the least cost: 24 turns, the first one 0, then to either
-// side. Of turns that cost the same the first one is taken, as rounding must not choose; a limb on the right tries the
+// side, and finer ones beside the best. Of turns that cost the same the first one is taken, as rounding must not choose; a limb on the right tries the
 // mirror images.
 double cheapest_swivel(Side side, FunctionRef<double(double swivel_rad)> cost);
 

@@ -1,7 +1,9 @@
 // reach: the part's tip goes to a point, given in the character's frame (on the ground under the root, +Z forward).
 #include <cmath>
 
+#include "generator/actions/hand.h"
 #include "generator/actions/limb_reach.h"
+#include "generator/actions/limb_way.h"
 
 namespace contort {
 
@@ -32,6 +34,7 @@ void reach_rule(const RuleInput& in, Posture& posture) {
   const std::optional<double> swivel_rad =
       std::isnan(in.params[3]) ? std::nullopt : std::optional(in.params[3] * kRadPerDeg);
   in.feedback.shortfall = reach_with_travels(in, in.part.reach.front(), target, swivel_rad, posture);
+  if (is_arm(in.character, in.part)) go_round(in, posture);
 }
 
 }  // namespace contort

@@ -1,6 +1,7 @@
 // touch: the hand lightly touches the nearest obstacle while something else goes on. Where none is near enough, the arm
 // does what it did.
 #include "generator/actions/hand.h"
+#include "generator/actions/limb_way.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
@@ -28,6 +29,7 @@ void touch_rule(const RuleInput& in, Posture& posture) {
   const Surface surface = in.environment.nearest_obstacle(world_from_character * in.easy_grip_m);
   if (surface.obstacle < 0 || surface.distance_m > in.params[0]) return;
   const double missing_m = lay_hand_on(in, surface.point_m, surface.normal, in.params[1], posture);
+  if (!in.part.reach.empty()) go_round(in, posture);
   in.feedback.contact = !in.part.reach.empty() && missing_m < kTouch_m;
 }
 

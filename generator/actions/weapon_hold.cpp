@@ -1,6 +1,7 @@
 // weapon_hold: a second hand on an attached object. The wrist straightens, and the arm keeps the grip on a point of the
 // object while whatever carries the object moves it.
 #include "generator/actions/hand.h"
+#include "generator/actions/limb_way.h"
 #include "model/motion/kinematics.h"
 
 namespace contort {
@@ -21,6 +22,7 @@ bool weapon_hold_supports(const Character& character, const Part& part) {
 void weapon_hold_rule(const RuleInput& in, Posture& posture) {
   const Vec3 point_m = world_from_socket(in.character, in.world, static_cast<int>(in.params[0])).p_m;
   in.feedback.shortfall = bring_grip_to(in, point_m, posture);
+  if (!in.part.reach.empty()) go_round(in, posture);
 }
 
 }  // namespace contort

@@ -185,7 +185,7 @@ Clearance::Kept Clearance::keep(std::size_t part, const Past& past, Posture& sho
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, world};
-  const double wanted_m = now.room_m();
+  const double wanted_m = wanted_m_ = now.room_m();
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;
   if (wanted_m >= kSlowsDown_m && is_easy) return as_wanted;

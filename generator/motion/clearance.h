@@ -26,6 +26,9 @@ class Clearance {
   // `shown` holds where the joints of the part's limb are to go, and then where they go. A foot that stands is lifted.
   // `world` holds the transforms of all joints; those of the limb and of what it carries are brought up to date. Joints
   // get out of the way at a third of their greatest speed.
+  // The room that the limb would have had where it was wanted, of the last call.
+  double wanted_room_m() const { return wanted_m_; }
+
   Kept keep(std::size_t part, const Past& past, Posture& shown, std::span<Rigid> world);
 
  private:
@@ -35,6 +38,7 @@ class Clearance {
   LimbRoom* room_ = nullptr;
   Posture wanted_;
   Posture saved_;
+  double wanted_m_ = 0.0;
 };
 
 }  // namespace contort

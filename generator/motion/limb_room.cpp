@@ -60,7 +60,7 @@ std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs
 
 void LimbRoom::begin(const Character& character, const Environment& environment, const StandingFeet& feet) {
   character_ = &character, environment_ = &environment, feet_ = &feet;
-  std::ranges::fill(held_, -1);
+  std::ranges::fill(held_, HeldObject{});
   if (character_hash_ == character.hash() && !limbs_.empty()) return;
   character_hash_ = character.hash();
   begin_bodies();
@@ -93,7 +93,7 @@ bool LimbRoom::is_moved_by(int limb, int other) const {
 
 void LimbRoom::begin_pairs() {
   limbs_ = limbs_of(*character_, feet_->legs());
-  held_.assign(limbs_.size(), -1);
+  held_.assign(limbs_.size(), {});
   limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {}), safe_m_.clear();
   for (std::size_t l = 0; l < limbs_.size(); ++l)
     for (const int p : limbs_[l].parts) limb_of_[at(p)] = static_cast<int>(l);
@@ -188,22 +188,25 @@ double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Env
   return least;
 }
 
+// By the points that span its colliders; infinite beyond the band. A hand may lie on an obstacle.
+double LimbRoom::off_obstacles_m(int body, const Rigid& world_from_body) const {
+  if (environment_->obstacles().empty()) return kFar;
+  const Vec3 center = world_from_body * ball_center_m_[at(body)];
+  if (environment_->nearest_obstacle(center).distance_m > ball_radius_m_[at(body)] + kRoomBand_m) return kFar;
+  double least = kFar;
+  const Body& own = character_->bodies()[at(body)];
+  for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
+    for (const Vec3& point : core_m_[at(c)])
+      least = std::min(least, environment_->nearest_obstacle(world_from_body * point).distance_m - own_[at(c)].radius_m);
+  return least;
+}
+
 std::size_t LimbRoom::part_of(int body) const {
   return at(character_->joint(character_->bodies()[at(body)].joint).part);
 }
 
 const std::string& LimbRoom::kind_of(int limb) const {
   return character_->parts()[at(limbs_[at(limb)].parts.front())].kind;
-}
-
-void LimbRoom::hold(std::size_t part, int socket) {
-  int& held = held_[at(limb_of_[part])];
-  held = -1;
-  if (socket < 0) return;
-  const std::string& name = character_->sockets()[at(socket)].name;
-  const std::string_view object = std::string_view(name).substr(0, name.rfind('/'));
-  for (std::size_t body = 0; body < character_->bodies().size(); ++body)
-    if (character_->bodies()[body].name == object) held = static_cast<int>(body);
 }
 
 double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
@@ -217,10 +220,21 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
   for (const int b : bodies_[at(limb)]) {
     const Rigid& world_from_body = world[at(character_->bodies()[at(b)].joint)];
     least = std::min(least, over_ground_m(b, world_from_body, *environment_) - safe_over_ground_m_[at(b)]);
+    if (!is_leg(limb)) least = std::min(least, off_obstacles_m(b, world_from_body));
   }
   for (const int leg : limbs_[at(limb)].legs)
     if (limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]) || feet_->is_planted(at(leg)))
       least = std::min(least, feet_->room_m(at(leg), world));
+  return least;
+}
+
+double LimbRoom::room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world) {
+  double least = kRoomBand_m;
+  for (const int p : pairs_[at(limb_of_[part])]) {
+    const JudgedPair& pair = character_->judged_pairs()[at(p)];
+    if (!is_of(held, pair.body_a, pair.body_b) && !is_of(held, pair.body_b, pair.body_a))
+      least = std::min(least, distance_m(p, -1, world) - safe_m_[at(p)]);
+  }
   return least;
 }
 
@@ -245,10 +259,26 @@ bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
   });
 }
 
-// Whether the limb with one body holds the other one.
+// Whether one body is of the hand, and the other one the object.
+bool LimbRoom::is_of(const HeldObject& held, int body, int object) const {
+  if (held.body < 0 || held.body != object) return false;
+  int joint = character_->bodies()[at(body)].joint;
+  while (joint > held.joint) joint = character_->joint(joint).parent;
+  return joint == held.joint;
+}
+
 bool LimbRoom::holds(int body, int object) const {
   const int limb = limb_of_[part_of(body)];
-  return limb >= 0 && held_[at(limb)] == object;
+  return limb >= 0 && is_of(held_[at(limb)], body, object);
+}
+
+bool LimbRoom::is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world) {
+  constexpr double kAt_m = 0.002;
+  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
+    const JudgedPair& pair = character_->judged_pairs()[at(p)];
+    return (is_of(held, pair.body_a, pair.body_b) || is_of(held, pair.body_b, pair.body_a)) &&
+           distance_m(p, limb_of_[part], world) < kAt_m;
+  });
 }
 
 }  // namespace contort

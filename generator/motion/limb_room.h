@@ -30,6 +30,13 @@ std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs
 inline constexpr double kTooNear_m = 1e-4;
 inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measured
 
+// The hand, by the joint that it and all beyond it hang on, and the body of the object; -1: nothing is held.
+struct HeldObject {
+  int joint = -1;
+  int body = -1;
+  bool operator==(const HeldObject&) const = default;
+};
+
 class LimbRoom {
  public:
   // Measures the figure at rest: bodies may be as near as they are there. Everything that is given must outlive this
@@ -44,14 +51,20 @@ class LimbRoom {
   // the left arm would choose otherwise than the right one, which is placed after it.
   void begin_frame(std::span<const Rigid> world) { before_.assign(world.begin(), world.end()); }
 
-  // The limb of this part holds the object with this socket, and may touch it; -1: none. Until it is said otherwise.
-  void hold(std::size_t part, int socket);
+  // The limb of this part holds an object with a hand, whose bodies may touch it. Until it is said otherwise.
+  void hold(std::size_t part, const HeldObject& held) { held_[static_cast<std::size_t>(limb_of_[part])] = held; }
+
+  // Whether a hand is within 2 mm of an object, or in it.
+  bool is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world);
 
   // The least distance of the bodies of this part's limb, and of what it carries, from others, from each other and from
-  // the ground, beyond what they must have, and of what its feet have to spare, m; negative where they are too near, and
-  // at most 0.08. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
+  // the ground and obstacles, beyond what they must have, and of what its feet have to spare, m; negative where they are
+  // too near, and at most 0.08. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
   // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
+
+  // The same where all joints are as in `world`, with a hand that holds an object; without the ground and feet.
+  double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);
 
   // The least distance of the bodies on a joint from a plane, on the side of its normal, m.
   double over_plane_m(int joint, const Vec3& point_m, const Vec3& normal, std::span<const Rigid> world) const;
@@ -64,6 +77,7 @@ class LimbRoom {
   bool is_moved_by(int limb, int other) const;
   std::size_t part_of(int body) const;
   bool is_object(int body) const;
+  bool is_of(const HeldObject& held, int body, int object) const;
   bool holds(int body, int object) const;
   bool is_leg(int limb) const;
   bool has_grip(int limb) const;
@@ -75,6 +89,7 @@ class LimbRoom {
   const Rigid& where(int body, int limb, std::span<const Rigid> world) const;
   double distance_m(int pair, int limb, std::span<const Rigid> world);
   double collider_distance_m(const JudgedPair& pair, double band_m) const;
+  double off_obstacles_m(int body, const Rigid& world_from_body) const;
   double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment);
 
   const Character* character_ = nullptr;
@@ -86,7 +101,7 @@ class LimbRoom {
   std::vector<Rigid> before_;             // by joint
   std::vector<std::vector<int>> pairs_;   // by limb: judged pairs whose distance it changes
   std::vector<char> swings_;              // by limb: it is an arm that swings with a gait
-  std::vector<int> held_;                 // by limb: the body of what it holds, or -1
+  std::vector<HeldObject> held_;          // by limb
   std::vector<double> safe_m_;            // by judged pair: the gap that it must have
   std::vector<std::vector<int>> bodies_;  // by limb: its own and those that it carries, but those of legs
   std::vector<double> safe_over_ground_m_;  // by body

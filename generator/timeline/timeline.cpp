@@ -6,6 +6,7 @@
 #include "generator/actions/hand.h"
 #include "generator/motion/aim_tables.h"
 #include "generator/timeline/part_order.h"
+#include "generator/timeline/second_hand.h"
 #include "model/core/nearest.h"
 #include "model/motion/legs.h"
 
@@ -97,6 +98,7 @@ class Layout {
     for (std::size_t i = 0; i < input_.interrupts.size(); ++i)
       if (Result<Done> done = check_names(input_.interrupts[i], "/interrupts/" + std::to_string(i)); !done)
         return done.issue();
+    pair_hands(character_, out_);
     list_by_part(character_.parts().size(), out_);
     if (Result<Done> done = order_parts(character_, out_); !done) return done.issue();
     return std::move(out_);

@@ -65,6 +65,16 @@ struct Goal {
   bool operator==(const Goal&) const = default;
 };
 
+// In these frames a hand takes hold of an object, holds it, or lets go of it: a hand that closes round a thing overlaps
+// it, as rigid bodies have them.
+struct Grasp {
+  int first_frame = 0;
+  int last_frame = -1;  // inclusive
+  int joint = 0;        // of the character: the bodies on it, and on joints beyond it, are the hand
+  int body = 0;         // of the character: the object
+  bool operator==(const Grasp&) const = default;
+};
+
 // The reason for which a request cannot be met.
 enum class Shortfall : std::uint8_t {
   out_of_reach,  // the limb is too short, or what it stands on too high, too low or too steep
@@ -90,6 +100,7 @@ struct Intent {
   std::vector<IntendedSequence> sequences;
   std::vector<IntendedAction> actions;  // in the spec's order
   std::vector<Goal> goals;
+  std::vector<Grasp> grasps;
   std::vector<UnmetRequest> unmet;  // in the order of their first frames
   bool operator==(const Intent&) const = default;
 };

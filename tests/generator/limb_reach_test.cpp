@@ -189,11 +189,15 @@ TEST(LimbRoom, AHandMayTouchWhatItHoldsUntilTheNextMotion) {
   RestingRoom begun(human);
   LimbRoom& room = begun.room;
   room.begin_frame(world);
-  EXPECT_LT(room.room_m(arm, world), -0.001);
-  room.hold(arm, human.find_socket("object:rifle/foregrip"));
+  EXPECT_LT(room.room_m(arm, world), -kTooNear_m);
+  const int hand = human.sockets()[static_cast<std::size_t>(human.find_socket("hand_left/grip"))].joint;
+  const auto rifle = std::ranges::find(human.bodies(), "object:rifle", &Body::name) - human.bodies().begin();
+  const HeldObject held{hand, static_cast<int>(rifle)};
+  EXPECT_TRUE(room.is_at(held, arm, world));
+  room.hold(arm, held);
   EXPECT_GT(room.room_m(arm, world), 0.0);
   begun.begin(human);
-  EXPECT_LT(room.room_m(arm, world), -0.001);
+  EXPECT_LT(room.room_m(arm, world), -kTooNear_m);
 }
 
 }  // namespace

@@ -1,0 +1,18 @@
+// The way of a limb from where an action found it to where the action wants it: a blend of joints, which may lead
+// through other bodies, or round them.
+#pragma once
+
+#include "generator/actions/action.h"
+
+namespace contort {
+
+// Whether bodies have room at seven stops on the blend of the limb from in.from to the posture.
+bool has_way(const RuleInput& in, Posture& posture);
+
+// Takes the limb round bodies that are on its way: when the action takes the part, it chooses the least detour that is
+// free, or else the one with the most room, and in each frame it raises the first joint by what is left of it. `posture`
+// is what the action wants.
+// Only for courses on the layer ik, whose joints blend in.
+void go_round(const RuleInput& in, Posture& posture);
+
+}  // namespace contort
