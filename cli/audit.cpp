@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <thread>
 
+#include "cli/audit_page.h"
 #include "cli/commands.h"
+#include "cli/input.h"
 #include "cli/progress_line.h"
 #include "fuzz/audit.h"
-#include "model/core/files.h"
 #include "model/core/json_fields.h"
 
 namespace contort::cli {
@@ -21,34 +21,16 @@ struct AuditCommand {
   AuditOptions audit;
   bool json = false;
   std::string folder;  // for the worst spec of each row; "": none
+  std::string page;    // the folder of the page; "": none
 };
 
 double percent(int count, int of) { return 100.0 * count / std::max(1, of); }
-
-// "rifle at hand_right/grip"; "" without an object.
-std::string object_of(const AuditRow& row) {
-  if (row.character.attachments.empty()) return "";
-  const AttachmentDesc& object = row.character.attachments.front();
-  return object.object + " at " + object.slot + "/" + object.socket;
-}
 
 // "mech/arm_left (mech_arm_slim)", "human/arm_left, rifle at hand_right/grip".
 std::string place_of(const AuditRow& row) {
   const std::string object = object_of(row);
   return row.character.name + "/" + row.slot + (row.character.parts.empty() ? "" : " (" + row.part + ")") +
          (object.empty() ? "" : ", " + object);
-}
-
-std::string counts_text(const std::map<std::string, int>& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts) text += (text.empty() ? "" : ", ") + name + " " + std::to_string(count);
-  return text;
-}
-
-// "self_collision 2; unmet: joint_speed 5".
-std::string details_of(const AuditRow& row) {
-  const std::string findings = counts_text(row.findings), reasons = counts_text(row.reasons);
-  return findings + (findings.empty() || reasons.empty() ? "" : "; ") + (reasons.empty() ? "" : "unmet: " + reasons);
 }
 
 void print_table(const std::vector<AuditRow>& rows) {
@@ -83,27 +65,15 @@ Json rows_json(const std::vector<AuditRow>& rows) {
   return list;
 }
 
-// "human-arm_left-reach.json", "human-arm_right-aim-muzzle-rifle-hand_right-grip.json": no two rows have the same name.
-std::string file_of(const AuditRow& row) {
-  std::string name = row.character.name + "-" + row.slot;
-  if (!row.character.parts.empty()) name += "-" + row.part;
-  name += "-" + row.action;
-  if (!row.point.empty()) name += "-" + row.point;
-  for (const AttachmentDesc& object : row.character.attachments)
-    name += "-" + object.object + "-" + object.slot + "-" + object.socket;
-  return name;
-}
-
-Result<Done> write_worst(const std::string& folder, const std::vector<AuditRow>& rows) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Issue{"file.unwritable", "", folder + ": " + error.message()};
-  for (const AuditRow& row : rows) {
-    if (row.worst == Spec{}) continue;
-    const std::string path = folder + "/" + file_of(row) + ".json";
-    if (const Result<Done> written = write_file(path, pretty_spec(row.worst)); !written) return written.issue();
-  }
-  return Done{};
+std::string command_of(const AuditCommand& options, const Context& context) {
+  std::string command = "contort audit --draws " + std::to_string(options.audit.draws) + " --seed " +
+                        std::to_string(options.audit.seed);
+  const auto add = [&](const char* name, const std::vector<std::string>& values) {
+    for (const std::string& value : values) command += std::string(" ") + name + " " + shell_quoted(value);
+  };
+  add("--library", context.library_folders), add("--character", options.audit.characters);
+  add("--action", options.audit.actions), add("--slot", options.audit.slots);
+  return command + " --page " + shell_quoted(options.page);
 }
 
 int clean_rows(const std::vector<AuditRow>& rows) {
@@ -131,8 +101,13 @@ void run(const AuditCommand& options, Context& context) {
       return context.fail(written.issue(), kInternal);
   const int clean = clean_rows(rows);
   context.exit_code = clean == static_cast<int>(rows.size()) ? kClean : kFindings;
+  if (!options.page.empty()) {
+    const Result<Done> written = write_audit_page(options.page, command_of(options, context), rows, context);
+    if (!written) return context.fail(written.issue(), kInternal);
+  }
   if (options.json) return void(std::printf("%s\n", rows_json(rows).dump(2).c_str()));
   print_table(rows);
+  if (!options.page.empty()) std::printf("page: %s/index.html\n", options.page.c_str());
   std::printf("RESULT rows=%zu clean=%d\n", rows.size(), clean);
 }
 
@@ -152,6 +127,8 @@ void add_audit(CLI::App& app, Context& context) {
   command->add_option("--seed", audit.seed, "Other seeds draw other motions")->capture_default_str();
   command->add_option("--jobs", audit.jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
   command->add_option("--worst", options->folder, "Folder for the spec of each row's worst motion");
+  command->add_option("--page", options->page, "Folder for a page with a picture of each row's worst motion")
+      ->type_name("DIR");
   command->add_flag("--json", options->json, "JSON on standard output");
   command->footer("Example: contort audit --character human --action reach");
   command->callback([options, &context] { run(*options, context); });

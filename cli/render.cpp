@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 
 #include "cli/commands.h"
 #include "cli/render_options.h"
 #include "corpus/corpus.h"
+#include "fuzz/parallel.h"
 #include "process/program.h"
 
 namespace contort::cli {
@@ -24,6 +26,26 @@ std::vector<std::string> renderer_call(const Context& context) {
   for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
   if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
   return call;
+}
+
+int draw_strips(const std::vector<StripFile>& strips, const std::vector<std::string>& more, const Context& context,
+                const std::function<void()>& progress) {
+  const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<int> codes(static_cast<std::size_t>(jobs), 0);
+  parallel_for(
+      jobs, jobs,
+      [&](int, int share) {
+        std::vector<std::string> call = renderer_call(context);
+        call.push_back("--many");
+        call.insert(call.end(), more.begin(), more.end());
+        const std::size_t fixed = call.size();
+        for (std::size_t i = static_cast<std::size_t>(share); i < strips.size(); i += static_cast<std::size_t>(jobs))
+          call.insert(call.end(), {strips[i].file, strips[i].png});
+        const Result<int> code = call.size() > fixed ? run_in_foreground(call) : Result<int>(0);
+        codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
+      },
+      progress);
+  return *std::ranges::max_element(codes);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // Starting the renderer.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,17 @@ namespace contort::cli {
 
 // Path of contort-render, beside the running program.
 std::string renderer_path();
+
+// A spec or case file, and the strip that is drawn of it.
+struct StripFile {
+  std::string file;
+  std::string png;
+};
+
+// Draws strips, each process a share of them; Mesa renders in one thread of each (renders/raster/renderer.h). `more` are
+// options of contort-render; `progress` is called now and then. Answers the worst exit code.
+int draw_strips(const std::vector<StripFile>& strips, const std::vector<std::string>& more, const Context& context,
+                const std::function<void()>& progress);
 
 // The start of every call of it: its path, --gl, --library and --settings.
 std::vector<std::string> renderer_call(const Context& context);

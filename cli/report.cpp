@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <thread>
 
 #include "checks/check.h"
 #include "cli/case_pages.h"
@@ -24,7 +23,6 @@
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
-#include "fuzz/parallel.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
@@ -242,25 +240,13 @@ void show_drawn(const std::vector<Picture>& pictures, const ProgressLine& line) 
             std::to_string(drawn) + " of " + std::to_string(pictures.size()) + " failures drawn");
 }
 
-// Each process draws a share of the pictures; Mesa renders in one thread of each (renders/raster/renderer.h).
 int draw(const std::vector<Picture>& pictures, const Context& context) {
   const ProgressLine line;
-  const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  std::vector<int> codes(static_cast<std::size_t>(jobs), 0);
-  parallel_for(
-      jobs, jobs,
-      [&](int, int share) {
-        std::vector<std::string> call = renderer_call(context);
-        call.insert(call.end(), {"--many", "--clips", "--views"});
-        const std::size_t fixed = call.size();
-        for (std::size_t i = static_cast<std::size_t>(share); i < pictures.size(); i += static_cast<std::size_t>(jobs))
-          call.insert(call.end(), {pictures[i].case_path, pictures[i].png});
-        const Result<int> code = call.size() > fixed ? run_in_foreground(call) : Result<int>(0);
-        codes[static_cast<std::size_t>(share)] = code ? *code : kInternal;
-      },
-      [&] { show_drawn(pictures, line); });
+  std::vector<StripFile> strips;
+  for (const Picture& picture : pictures) strips.push_back({picture.case_path, picture.png});
+  const int code = draw_strips(strips, {"--clips", "--views"}, context, [&] { show_drawn(pictures, line); });
   line.clear();
-  return *std::max_element(codes.begin(), codes.end());
+  return code;
 }
 
 }  // namespace

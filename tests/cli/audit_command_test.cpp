@@ -54,6 +54,24 @@ TEST_F(AuditCommand, WritesTheWorstOfEachRowInAFileOfItsOwn) {
   EXPECT_EQ(files, with_worst);
 }
 
+TEST_F(AuditCommand, MakesAPageWithTheWorstMotionsAndNoScript) {
+  const std::string page = folder_ / "page";
+  const Json rows = Json::parse(audit({"--json", "--page", page, "--gl", "none"}).out);
+  const std::string html = slurp(page + "/index.html");
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+  EXPECT_NE(html.find("contort audit --draws 40 --seed 1 --library"), std::string::npos);
+  std::size_t places = 0, links = 0;
+  for (const Json& row : rows) links += row["worst"].is_null() ? 0 : 1;
+  for (std::size_t at = html.find("href='motions/"); at != std::string::npos; at = html.find("href='motions/", at + 1)) {
+    const std::size_t begin = at + std::string("href='").size();
+    EXPECT_TRUE(std::filesystem::exists(page + "/" + html.substr(begin, html.find('\'', begin) - begin)));
+    ++places;
+  }
+  EXPECT_EQ(places, links);
+  EXPECT_EQ(html.find("<img"), std::string::npos) << "no pictures were drawn";
+}
+
 TEST_F(AuditCommand, RefusesANameThatIsNotThere) {
   const Ran ran = audit({"--action", "rech"});
   EXPECT_EQ(ran.code, 2);

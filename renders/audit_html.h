@@ -1,0 +1,31 @@
+// The page of an audit: how many motions of each action are clean, and a picture of the worst one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace contort {
+
+struct AuditPageRow {
+  std::string character;
+  std::string part;    // "arm_left, rifle at hand_left/grip"
+  std::string action;  // "aim muzzle"
+  int draws = 0;       // > 0
+  int clean = 0;       // without a finding
+  int unmet = 0;       // with a request that was not met
+  int still = 0;       // in which nothing moved
+  std::string details;  // "self_collision 2; unmet: joint_speed 5"
+  std::string spec;     // of the worst motion, relative to the page; "": there is none
+  std::string picture;  // the same
+};
+
+struct AuditPage {
+  std::string command;  // that makes the page again
+  std::string tool;     // the version
+  std::vector<AuditPageRow> rows;
+};
+
+// One file without scripts, which opens from anywhere. Rows of a character stand together, the worst first.
+std::string audit_html(const AuditPage& page);
+
+}  // namespace contort
