@@ -48,11 +48,12 @@ LegUse LimbKeeper::use_of(const Playback& playback, const Limb& limb) const {
 // All parts of the limb are placed.
 void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   const LegUse use = use_of(playback, limb);
+  const bool was_lifted = s_.shift[at(limb.parts.back())] == Shift::lifted;
   shift(limb, Shift::none);
   int& held_off = s_.held_off[at(limb.parts.back())];
   const HeldObject held = held_by(playback, at(limb.parts.front()));
   s_.rules.room().hold(at(limb.parts.back()), held);
-  if (use == LegUse::acts) keep_clear(limb);
+  if (use == LegUse::acts) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
   if (held_off > 0) try_again(playback, limb);
@@ -97,8 +98,8 @@ void LimbKeeper::note_feet(const Playback& playback) {
     s_.rules.feet().note(leg, use_of(playback, limb_at(at(stage_.legs[leg].part))), s_.rules.world());
 }
 
-void LimbKeeper::keep_clear(const Limb& limb) {
-  switch (s_.clearance.keep(at(limb.parts.back()), s_.past, s_.postures.shown, s_.rules.world())) {
+void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
+  switch (s_.clearance.keep(at(limb.parts.back()), s_.past, was_lifted, s_.postures.shown, s_.rules.world())) {
     case Clearance::Kept::as_wanted: return;
     case Clearance::Kept::foot_lifted: return shift(limb, Shift::lifted);
     case Clearance::Kept::elsewhere: break;

@@ -24,7 +24,7 @@ class LimbKeeper {
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
-  void keep_clear(const Limb& limb);
+  void keep_clear(const Limb& limb, bool was_lifted);
   void try_again(const Playback& playback, const Limb& limb);
 
   const Stage& stage_;

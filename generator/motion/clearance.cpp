@@ -40,6 +40,7 @@ struct Clearance::Case {
   std::span<Rigid> world;
   double enough_m = -kTooNear_m;
   bool is_lifted = false;
+  bool was_lifted = false;
 
   // A foot of the limb's own that stands is lifted, and those on legs that it carries stay where they stood.
   void place() {
@@ -80,16 +81,21 @@ struct Clearance::Case {
   // A blend along the edge of a range may be longer than its ends are apart. The knee of a leg that starts from straight
   // gets fast at once, and must be able to stop at once.
   bool is_slow() const {
-    const double share = is_lifted || plants() ? kLifted : 1.0;
+    const double share = is_lifted || was_lifted || plants() ? kLifted : 1.0;
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
-  bool is_smooth() const {
-    return all_joints([&](int j) {
+  bool is_smooth() const { return jerk() <= past.frame_s / kRise_s; }
+  // The greatest change of a joint's step, in shares of its greatest step.
+  double jerk() const {
+    double most = 0.0;
+    all_joints([&](int j) {
       const Joint& joint = character.joint(j);
       const double *earlier = past.earlier.coords.data(), *before = past.before.coords.data();
       const Vec3 last = joint_way_vector(joint, earlier + joint.coord, before + joint.coord);
-      return length(step_of(j) - last) <= greatest_step(j) * past.frame_s / kRise_s;
+      most = std::max(most, length(step_of(j) - last) / greatest_step(j));
+      return true;
     });
+    return most;
   }
   // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {
@@ -113,12 +119,25 @@ struct Clearance::Case {
     for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
   }
 
-  // The greatest share of the way that is clear, and smooth if there is one.
+  // The greatest share of the way that is clear and smooth; where none is smooth, the clear one that is smoothest.
   bool stop_on_the_way() {
     const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
     return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth() && can_stop(); }) ||
            std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
-           std::ranges::any_of(kShares, is_good);
+           go_smoothest(is_good);
+  }
+
+  template <class IsGood>
+  bool go_smoothest(IsGood is_good) {
+    constexpr double kSmoother = 1e-3;  // rounding must not choose
+    double best = -1.0, least = 1e30;
+    for (const double share : kShares)
+      if (is_good(share))
+        if (const double now = jerk(); now < least - kSmoother) best = share, least = now;
+    if (best < 0.0) return false;
+    go(best);
+    place();
+    return true;
   }
 
   // Joints that may go where they are wanted go there, one by one, those that carry the others first.
@@ -181,10 +200,12 @@ void Clearance::begin(const Character& character, LimbRoom& room) {
   saved_ = wanted_;
 }
 
-Clearance::Kept Clearance::keep(std::size_t part, const Past& past, Posture& shown, std::span<Rigid> world) {
+Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown,
+                                std::span<Rigid> world) {
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, world};
+  now.was_lifted = was_lifted;
   const double wanted_m = wanted_m_ = now.room_m();
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;

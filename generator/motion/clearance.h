@@ -29,7 +29,9 @@ class Clearance {
   // The room that the limb would have had where it was wanted, of the last call.
   double wanted_room_m() const { return wanted_m_; }
 
-  Kept keep(std::size_t part, const Past& past, Posture& shown, std::span<Rigid> world);
+  // A limb whose foot was lifted in the frame before comes back slowly enough to stop: its knee, which ends straight, is
+  // fastest at the end.
+  Kept keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown, std::span<Rigid> world);
 
  private:
   struct Case;  // one call

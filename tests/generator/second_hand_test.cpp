@@ -132,5 +132,19 @@ TEST(LimbWay, AnArmGoesRoundTheBody) {
   EXPECT_LT(length(hand - foregrip), 0.05);
 }
 
+// A knee that ends straight is fastest at the end: it snapped back in one frame when the reaction was over.
+TEST(Clearance, ALegThatWasLiftedComesBackSlowlyEnoughToStop) {
+  for (const double strength_deg : {14.0, 27.0, 57.0}) {
+    Spec spec;
+    spec.character.name = "mech";
+    spec.hold_frames = 30;
+    spec.sequences = {fixtures::sequence({fixtures::use(
+        "hit_reaction", "leg_left", 0, 60, {{"azimuth_deg", 0.0}, {"strength_deg", strength_deg}})})};
+    const JudgedMotion judged = judge_both(spec);
+    for (const Finding& finding : judged.evaluation.findings)
+      ADD_FAILURE() << strength_deg << ": " << finding.check << " " << finding.subject;
+  }
+}
+
 }  // namespace
 }  // namespace contort
