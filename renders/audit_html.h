@@ -15,7 +15,7 @@ struct AuditPageRow {
   int unmet = 0;       // with a request that was not met
   int still = 0;       // in which nothing moved
   std::string details;  // "self_collision 2; unmet: joint_speed 5"
-  std::string spec;     // of the worst motion, relative to the page; "": there is none
+  std::string spec;     // of the worst motion, relative to the page; "" if every motion is clean and met
   std::string picture;  // the same
 };
 

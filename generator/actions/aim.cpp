@@ -73,7 +73,8 @@ bool find_room(const RuleInput& in, const AimTarget& target, Posture& posture) {
     const std::span<const double> coords = table.coords(hit.posture);
     for_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = coords[at]; });
     place_chain(in, posture);
-    return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached && has_room_for_aim(in, posture);
+    return continue_aim(in.character, in.aim->chain, in.world, target, posture.coords).reached &&
+           has_room_for_aim(in, posture);
   };
   constexpr double kNoFault = 1e-6;
   constexpr int kMostTries = 30;

@@ -107,7 +107,8 @@ void go_round(const RuleInput& in, Posture& posture) {
     body.way_chosen_in = in.took_over;
     body.detour_rad = choose_detour(in, posture);
   }
-  if (in.came_in < 1.0 && body.detour_rad != Vec3(0.0)) raise(in, left_of_detour(in.came_in) * body.detour_rad, posture);
+  if (in.came_in < 1.0 && body.detour_rad != Vec3(0.0))
+    raise(in, left_of_detour(in.came_in) * body.detour_rad, posture);
 }
 
 }  // namespace contort

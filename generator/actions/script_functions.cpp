@@ -59,7 +59,7 @@ int lua_ground_height(lua_State* lua) {
   return answer(lua, (inverse(in.world_from_character) * point).y);
 }
 
-// From a point (x, y, z) in the character's frame to the nearest obstacle; infinite where there are none.
+// From a point (x, y, z) in the character's frame to the nearest obstacle; infinite without obstacles.
 int lua_obstacle_distance(lua_State* lua) {
   const ScriptInput& in = input_of(lua);
   const Vec3 point(number(lua, 1), number(lua, 2), number(lua, 3));
