@@ -86,6 +86,7 @@ class Generation {
   void make_frame(int frame) {
     s_.queue.advance(frame, s_.signals);
     s_.level.advance(frame, s_.queue.history());
+    if (s_.level.has_begun()) s_.queue.leave_out_interrupts();
     const Playback playback(timeline_, s_.queue.history(), s_.level, s_.further.acquired(), stage_.rate_hz, frame);
     s_.rules.begin_frame(), std::ranges::fill(s_.added, 0);
     for (const int p : timeline_.part_order) move_part(playback, at(p));
@@ -108,8 +109,7 @@ class Generation {
     for (std::size_t i = 0; i < timeline_.interrupts.size(); ++i) {
       const PlannedInterrupt& interrupt = timeline_.interrupts[i];
       if (PlayQueue::knows(interrupt.when.event)) continue;
-      s_.signals[i] = !s_.level.has_begun() &&
-                      condition_holds(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
+      s_.signals[i] = condition_holds(interrupt, stage_, s_.rules.feedback(), s_.postures.shown.root);
     }
   }
 

@@ -27,6 +27,11 @@ void PlayQueue::advance(int frame, std::span<const char> signals) {
   note_progress(frame);
 }
 
+void PlayQueue::leave_out_interrupts() {
+  std::ranges::fill(fired_, 1);
+  pending_.clear();
+}
+
 void PlayQueue::note_progress(int frame) {
   if (!runs_) return;
   history_.back().last_frame = frame;

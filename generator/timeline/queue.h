@@ -42,6 +42,9 @@ class PlayQueue {
   // holds, for those that the queue does not know itself (see knows).
   void advance(int frame, std::span<const char> signals);
 
+  // From now on no interrupt fires, and those that wait for a clip's end do not enter.
+  void leave_out_interrupts();
+
   bool idle() const { return !runs_ && waiting_.empty(); }
   bool has_fired(int interrupt) const { return fired_[static_cast<std::size_t>(interrupt)] != 0; }
   // The spans in which sequences ran; the last entry grows while it runs.

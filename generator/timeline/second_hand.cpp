@@ -49,6 +49,7 @@ void tell(const SecondHand& second, PlannedAction& action) {
 void pair_hands(const Character& character, Timeline& out) {
   for (PlannedAction& aim : out.actions) {
     if (aim.aim == nullptr || aim.further >= 0) continue;
+    if (character.parts()[at(aim.named)].reach.empty()) continue;  // a torso or head that carries the object
     const auto hold =
         std::ranges::find_if(out.actions, [&](const PlannedAction& other) { return holds(character, aim, other); });
     if (hold == out.actions.end()) continue;

@@ -95,6 +95,23 @@ TEST(ReplayScopes, AClipCutsThoseThatGoOnBesideIt) {
   EXPECT_EQ(coord(clip, 50, human(), "arm_right/elbow"), 70 * kRadPerDeg);
 }
 
+// Interrupts that fire at a frame are the queue's own matter, others are told to it.
+TEST(ReplayScopes, ALevelIsNotInterrupted) {
+  for (const Event event : {Event::frame, Event::near_obstacle}) {
+    Spec spec = two_sequences();
+    spec.environment.obstacles = {{"ball", Sphere{Vec3(0.0, 1.0, 2.0), 0.1}}};
+    InterruptDesc interrupt;
+    interrupt.when.event = event, interrupt.when.frame = 12, interrupt.when.distance_m = 5.0;
+    interrupt.sequence = sequence({elbow(0, 10, 10)});
+    spec.interrupts = {interrupt};
+    BuiltInGenerator generator;
+    const Result<Execution> level = execute(generator, scoped(spec, *parse_scope("sequence:1")));
+    ASSERT_TRUE(level.ok()) << to_line(level.issue());
+    EXPECT_EQ(level->motion.frame_count, 31) << event_name(event);
+    EXPECT_EQ(coord(level->motion, 30, human(), "arm_left/elbow"), 90 * kRadPerDeg) << event_name(event);
+  }
+}
+
 TEST(ReplayScopes, TheSequenceOfAnInterruptBeginsWhereItFires) {
   Spec spec = two_sequences();
   InterruptDesc interrupt;
