@@ -84,18 +84,13 @@ struct Clearance::Case {
     const double share = is_lifted || was_lifted || plants() ? kLifted : 1.0;
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
-  bool is_smooth() const { return jerk() <= past.frame_s / kRise_s; }
-  // The greatest change of a joint's step, in shares of its greatest step.
-  double jerk() const {
-    double most = 0.0;
-    all_joints([&](int j) {
+  bool is_smooth() const {
+    return all_joints([&](int j) {
       const Joint& joint = character.joint(j);
       const double *earlier = past.earlier.coords.data(), *before = past.before.coords.data();
       const Vec3 last = joint_way_vector(joint, earlier + joint.coord, before + joint.coord);
-      most = std::max(most, length(step_of(j) - last) / greatest_step(j));
-      return true;
+      return length(step_of(j) - last) <= greatest_step(j) * past.frame_s / kRise_s;
     });
-    return most;
   }
   // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {
@@ -119,25 +114,12 @@ struct Clearance::Case {
     for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
   }
 
-  // The greatest share of the way that is clear and smooth; where none is smooth, the clear one that is smoothest.
+  // The greatest share of the way that is clear, and smooth if there is one.
   bool stop_on_the_way() {
     const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
     return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth() && can_stop(); }) ||
            std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
-           go_smoothest(is_good);
-  }
-
-  template <class IsGood>
-  bool go_smoothest(IsGood is_good) {
-    constexpr double kSmoother = 1e-3;  // rounding must not choose
-    double best = -1.0, least = 1e30;
-    for (const double share : kShares)
-      if (is_good(share))
-        if (const double now = jerk(); now < least - kSmoother) best = share, least = now;
-    if (best < 0.0) return false;
-    go(best);
-    place();
-    return true;
+           std::ranges::any_of(kShares, is_good);
   }
 
   // Joints that may go where they are wanted go there, one by one, those that carry the others first.

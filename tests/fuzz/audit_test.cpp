@@ -155,5 +155,16 @@ TEST(Audit, RefusesNamesThatAreNotThere) {
   EXPECT_EQ(refusal("", "walk", "head", all).code, "audit.nothing_matches");
 }
 
+// The built-in generator keeps arms off walls: forearm and shield, too, not only the hand that is laid on one.
+TEST(Audit, ArmsThatTouchWallsDoNotEnterThem) {
+  BuiltInGenerator generator(stock_library());
+  AuditOptions options;
+  options.actions = {"touch"}, options.draws = 40, options.slots = {"arm_left"};
+  for (const AuditRow& row : audited(options, generator)) {
+    EXPECT_GE(row.clean, 38) << row.character.name << " " << row.part;
+    EXPECT_LT(row.still, row.draws / 2) << row.part;
+  }
+}
+
 }  // namespace
 }  // namespace contort
