@@ -111,7 +111,7 @@ struct WholeBody {
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
   bool has_help = false;                      // a torso or legs are turning for this aim
   bool had_help = false;                      // in the frame before
-  double pace = 1.0;                          // share of its speed that legs can go, [0, 1]
+  Pace pace;                                  // as much of its gait as legs can go
   GaitParams gait_params;                     // at this pace
   double lasts_s = 0.0;                       // of content: then it stands
   bool is_slower = false;                     // than it was asked for, or it turns less

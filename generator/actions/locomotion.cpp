@@ -112,12 +112,7 @@ double heading_rad(const RuleInput& in) {
   return wrap_angle(in.params[2] * kRadPerDeg - 2.0 * det::atan2(turned.y, turned.w));
 }
 
-using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad);
-
-// A walk from where the feet stand that goes nearly straight needs no trial up to this square root of its Froude
-// number.
-constexpr double kEasy = 0.4;
-constexpr double kEasyTurn_rad = 20.0 * kRadPerDeg;
+using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad, const Pace& pace);
 
 bool begins_on_its_feet(const RuleInput& in) {
   constexpr double kStands_m = 0.002;
@@ -126,14 +121,17 @@ bool begins_on_its_feet(const RuleInput& in) {
   return true;
 }
 
-bool is_easy(const RuleInput& in, const GaitParams& params) {
-  return in.environment.is_level() && params.heading_rad == 0.0 && std::fabs(params.turn_rad) <= kEasyTurn_rad &&
-         !params.trot && in.legs.size() <= 2 && root_of_froude(in.legs, params.speed_m_s) <= kEasy &&
-         begins_on_its_feet(in);
+// Half a cycle in the middle of a course, where it goes straight and evenly over level ground; 0 where it does not, or
+// where it turns much before that.
+double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s) {
+  constexpr double kLittle_rad = 20.0 * kRadPerDeg;
+  const bool is_straight = params.heading_rad == 0.0 && std::fabs(params.turn_rad) <= kLittle_rad;
+  const bool is_plain = in.environment.is_level() && is_straight && params.speed_m_s > 0.0 && begins_on_its_feet(in);
+  return is_plain && lasts_s > 3.0 * params.cycle_s ? 0.5 * params.cycle_s : 0.0;
 }
 
-GaitParams params_at(const RuleInput& in, ParamsFor params_for, double pace) {
-  GaitParams params = params_for(in.legs, pace * in.params[1], heading_rad(in));
+GaitParams params_at(const RuleInput& in, ParamsFor params_for, const Pace& pace) {
+  GaitParams params = params_for(in.legs, in.params[1], heading_rad(in), pace);
   params.lead = static_cast<int>(in.params[0]);
   return params;
 }
@@ -147,27 +145,29 @@ double turn_to_target_rad(const RuleInput& in) {
   return is_above ? 0.0 : azimuth_rad(in.stands_at, target_m);
 }
 
-// `params_at(pace)` gives the parameters at a share of the speed that is asked for, (0, 1].
+// `params_at(pace)` gives the parameters at a share of what is asked for.
 template <class ParamsAt>
 void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
   begin_course(in);
   const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
-  GaitParams params = params_at(1.0);
-  double pace_of_params = 1.0;
-  const auto frame_at = [&](Gait& gait, double pace, double time_s) {
-    if (pace != pace_of_params) params = params_at(pace), pace_of_params = pace;
+  GaitParams params = params_at(Pace{});
+  Pace pace_of_params;
+  const auto frame_at = [&](Gait& gait, const Pace& pace, double time_s) {
+    if (!(pace == pace_of_params)) params = params_at(pace), pace_of_params = pace;
     return gait.at(params, time_s, lasts_s);
   };
-  body.pace = 1.0;
-  if (step_s > 0.0 && !is_easy(in, params))
-    body.pace = fitting_pace(in.character, in.room, body.gait, {frame_at, lasts_s, step_s, in.time.frame_s}, in.world,
-                             in.scratch, posture.coords);
+  body.pace = {};
+  if (step_s > 0.0) {
+    const double even_s = even_for_s(in, params, lasts_s);
+    const CourseTrial course{frame_at, lasts_s, step_s, in.time.frame_s, 0.5 * lasts_s - 0.5 * params.cycle_s, even_s};
+    body.pace = fitting_pace(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
+  }
   body.gait_params = params_at(body.pace);
   const GaitTiming timing(body.gait_params, in.legs, lasts_s);
   // On the spot it stands when it has turned, and the speed of its steps was not asked for.
   const bool stays = body.gait_params.speed_m_s == 0.0;
-  body.is_slower = body.pace < (stays ? 1e-9 : 1.0) || std::fabs(timing.turn_rad() - body.gait_params.turn_rad) > 1e-9;
+  body.is_slower = body.pace.speed < (stays ? 1e-9 : 1.0) || std::fabs(timing.turn_rad() - body.gait_params.turn_rad) > 1e-9;
   body.lasts_s = stays ? std::min(lasts_s, timing.turn_s() + 1.5 * body.gait_params.cycle_s) : lasts_s;
 }
 
@@ -176,7 +176,7 @@ void go(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   WholeBody& body = in.body;
   if (body.begun < 0 || (is_root(in) && body.begun != in.took_over)) begin_gait(in, params_at, posture);
   follow(in, posture, [&](Gait& gait) {
-    return body.pace > 0.0 ? gait.at(body.gait_params, in.time.since_s, body.lasts_s) : gait.stand(0.0);
+    return body.pace.speed > 0.0 ? gait.at(body.gait_params, in.time.since_s, body.lasts_s) : gait.stand(0.0);
   });
   if (is_root(in)) in.feedback.is_slower = body.is_slower;
 }
@@ -208,13 +208,13 @@ void bend(const RuleInput& in, double share, double peak, Posture& posture) {
 std::vector<ParamDef> walk_params(const Character&, const Part&) { return params_of_gait(3.0, 1.2); }
 bool walk_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void walk_rule(const RuleInput& in, Posture& posture) {
-  go(in, [&](double pace) { return params_at(in, contort::walk_params, pace); }, posture);
+  go(in, [&](const Pace& pace) { return params_at(in, contort::walk_params, pace); }, posture);
 }
 
 std::vector<ParamDef> run_params(const Character&, const Part&) { return params_of_gait(8.0, 3.0); }
 bool run_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void run_rule(const RuleInput& in, Posture& posture) {
-  go(in, [&](double pace) { return params_at(in, contort::run_params, pace); }, posture);
+  go(in, [&](const Pace& pace) { return params_at(in, contort::run_params, pace); }, posture);
 }
 
 std::vector<ParamDef> turn_params(const Character&, const Part&) {
@@ -232,7 +232,7 @@ bool turn_supports(const Character& character, const Part& part) { return is_roo
 void turn_rule(const RuleInput& in, Posture& posture) {
   const bool begins = in.body.begun < 0 || (is_root(in) && in.body.begun != in.took_over);
   const double turn_rad = begins ? turn_to_target_rad(in) : 0.0;
-  go(in, [&](double pace) { return contort::turn_params(in.legs, turn_rad, pace); }, posture);
+  go(in, [&](const Pace& pace) { return contort::turn_params(in.legs, turn_rad, pace.speed); }, posture);
 }
 
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }

@@ -15,18 +15,17 @@ Rigid turned_about(double z_m, double angle_rad) {
 
 }  // namespace
 
-double heel_rise(double stance, double swing) {
-  constexpr double kRises = 0.5;   // from here on, of the stance
-  constexpr double kLevel = 0.75;  // here again, of the swing
-  if (swing > 0.0) return 1.0 - minimum_jerk(std::min(swing / kLevel, 1.0));
-  return minimum_jerk(std::max(0.0, (stance - kRises) / (1.0 - kRises)));
+double heel_rise(const RollTimes& times, double duty, double stance, double swing) {
+  const double rises = times.heel_rises * duty, peaks = duty + times.heel_peaks * (1.0 - duty);
+  const double level = duty + times.heel_level * (1.0 - duty);
+  const double now = swing > 0.0 ? duty + swing * (1.0 - duty) : stance * duty;
+  if (now <= peaks) return minimum_jerk(std::max(0.0, (now - rises) / (peaks - rises)));
+  return 1.0 - minimum_jerk(std::min((now - peaks) / (level - peaks), 1.0));
 }
 
-double toe_rise(double stance, double swing) {
-  constexpr double kRise = 0.6;   // from here on, of the swing
-  constexpr double kFlat = 0.25;  // of the stance
-  if (swing > 0.0) return minimum_jerk(std::max(0.0, (swing - kRise) / (1.0 - kRise)));
-  return 1.0 - minimum_jerk(std::min(stance / kFlat, 1.0));
+double toe_rise(const RollTimes& times, double stance, double swing) {
+  if (swing > 0.0) return minimum_jerk(std::max(0.0, (swing - times.toes_rise) / (1.0 - times.toes_rise)));
+  return 1.0 - minimum_jerk(std::min(stance / times.toes_flat, 1.0));
 }
 
 Rigid rolled_sole(const Leg& leg, double heel_up_rad, double toes_up_rad) {

@@ -7,10 +7,20 @@
 
 namespace contort {
 
+// When a sole rolls, in shares of a stance or a swing, [0, 1].
+struct RollTimes {
+  double heel_rises = 0.5;   // of the stance
+  double heel_peaks = 0.0;   // of the swing: the foot turns on in the air
+  double heel_level = 0.75;  // of the swing, later than heel_peaks
+  double toes_rise = 0.6;    // of the swing
+  double toes_flat = 0.25;   // of the stance
+};
+
 // Shares of the largest angles, in [0, 1]. `stance` is how much of the stance is over, [0, 1]; `swing` of the swing, 0
-// while the foot stands. Neither jumps where a stance begins or ends.
-double heel_rise(double stance, double swing);
-double toe_rise(double stance, double swing);
+// while the foot stands; `duty`, (0, 1), is the share of the cycle in which it stands. Neither jumps where a stance
+// begins or ends.
+double heel_rise(const RollTimes& times, double duty, double stance, double swing);
+double toe_rise(const RollTimes& times, double stance, double swing);
 
 // From the sole that lies flat to the one that rolls: the heel is raised about the footprint's front end, the toes
 // about its rear end. No point of the sole is lower for it. Angles >= 0.

@@ -11,7 +11,8 @@ namespace contort {
 namespace {
 
 constexpr double kGap = 0.9;    // of the gap at home: as near as feet come to each other sideways
-constexpr double kBend = 0.01;  // of a moving leg's length: a knee never snaps straight
+constexpr double kSoft = 0.010;  // of the shortest leg: before its legs are that short of straight, hips go down
+constexpr double kBend = 0.005;  // of a moving leg's length: a knee never snaps straight
 
 // The weight with which a runner's leg holds the hips down, [0, 1]: none while it swings, when its foot may trail.
 double hold_of(double swing) {
@@ -34,6 +35,12 @@ double too_high_m(const Vec3& hip, const Vec3& ankle, double reach_m) {
   const double across2 = (hip.x - ankle.x) * (hip.x - ankle.x) + (hip.z - ankle.z) * (hip.z - ankle.z);
   const double up_m = std::sqrt(std::max(reach_m * reach_m - across2, 0.04 * reach_m * reach_m));
   return hip.y - ankle.y - up_m;
+}
+
+// max(x, 0), but a parabola where |x| < width: never less, and without a kink. x >= -width; width >= 0.
+double soft_excess(double x, double width) {
+  if (x >= width) return x;
+  return (x + width) * (x + width) / (4.0 * width);
 }
 
 // The share by which a course has begun, or has not ended yet: eased over half a cycle, [0, 1].
@@ -181,16 +188,18 @@ Rigid Gait::root_over(std::span<const Vec3> feet, const Rigid& course, double lo
   return root;
 }
 
-// As low as the leg with the longest way needs.
+// As low as the leg with the longest way needs, without a kink where it begins to need it while it moves.
 void Gait::lower_to_reach(std::span<const double> holds, double bend, GaitFrame& frame) const {
-  double lower_m = 0.0;
+  const double soft_m = bend * kSoft * least_length_m(legs_);
+  double high_m = -soft_m;
   const Rigid world_from_character = frame.root * inverse(character_->rest_root());
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     const Vec3 ankle = frame.feet[i].world_from_sole * legs_[i].sole_from_ankle;
     const double reach_m = (1.0 - bend * kBend) * legs_[i].length_m;
-    lower_m = std::max(lower_m, holds[i] * too_high_m(world_from_character * legs_[i].hip_m, ankle, reach_m));
+    const double over_m = too_high_m(world_from_character * legs_[i].hip_m, ankle, reach_m);
+    high_m = std::max(high_m, holds[i] * (over_m + soft_m) - soft_m);
   }
-  frame.root.p_m.y -= lower_m;
+  frame.root.p_m.y -= soft_excess(high_m, soft_m);
 }
 
 GaitFrame Gait::stand(double lower_share) {
@@ -237,14 +246,14 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
     take_step(params, timing, legs_[i], cycle.step, step);
     holds[i] = params.trot ? hold_of(cycle.swing) : 1.0;
     feet[i] = straight_way(step, cycle.swing);
-    frame.feet[i] = {swung_sole(*environment_, legs_[i], step, cycle, params.heel_up_rad * moving,
-                                params.toes_up_rad * moving),
+    frame.feet[i] = {swung_sole(*environment_, legs_[i], step, cycle, params, moving),
                      cycle.swing == 0.0 || step.bump_m == 0.0};
   }
   swing_arms(params, timing, time_s, moving, frame);
   const double bounce_m = params.bounce_m * root_beat(params, time_s / params.cycle_s) * timing.step_share(time_s);
   frame.stands_at = course(params, timing, time_s);
   frame.root = root_over(feet, frame.stands_at, moving * (params.lower_m - bounce_m));
+  frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), params.lean_rad * timing.step_share(time_s));
   lower_to_reach(holds, moving, frame);
   return frame;
 }

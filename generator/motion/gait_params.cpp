@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/motion/foot_roll.h"
 #include "model/core/detmath.h"
 
 namespace contort {
@@ -64,6 +63,10 @@ double lower_for(const Leg& leg, double ahead_m, const Rigid& flat_from_rolled) 
   return leg.hip_m.y - ankle.y - std::sqrt(std::max(reach_m * reach_m - along_m * along_m, 0.5 * reach_m * reach_m));
 }
 
+double heel_up_at_lift_rad(const GaitParams& params) {
+  return params.heel_up_rad * heel_rise(params.roll, params.duty, 1.0, 0.0);
+}
+
 // The distance by which hips must be lower at their lowest than over a standing foot, so that no leg is stretched where
 // it reaches farthest: in front when its swing has all but ended, behind when it leaves the ground.
 double dip_for(std::span<const Leg> legs, const GaitParams& params) {
@@ -73,8 +76,8 @@ double dip_for(std::span<const Leg> legs, const GaitParams& params) {
   const double in_front = root_beat(params, -early), behind = root_beat(params, params.duty);
   double dip_m = 0.0;
   for (const Leg& leg : legs) {
-    const Rigid heel_first = rolled_sole(leg, 0.0, params.toes_up_rad * toe_rise(0.0, kArrives));
-    const Rigid toes_last = rolled_sole(leg, params.heel_up_rad, 0.0);
+    const Rigid heel_first = rolled_sole(leg, 0.0, params.toes_up_rad * toe_rise(params.roll, 0.0, kArrives));
+    const Rigid toes_last = rolled_sole(leg, heel_up_at_lift_rad(params), 0.0);
     const double front_m = params.under * stance_m + early * stride_m, back_m = (params.under - 1.0) * stance_m;
     dip_m = std::max({dip_m, (lower_for(leg, front_m, heel_first) - params.lower_m) / in_front,
                       (lower_for(leg, back_m, toes_last) - params.lower_m) / behind});
@@ -91,23 +94,30 @@ GaitParams walk_on_many(std::span<const Leg> legs, double speed_m_s, double head
   return params;
 }
 
-// Feet roll forward, the more the longer the stance is, up to 0.8 of a leg; sideways and backward they stay flat.
-// Angles, duty and where the hips are were chosen so that human and mech walk up to 2 m/s within their joints' speeds.
-GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
-  const double length_m = least_length_m(legs), forward = std::max(0.0, det::cos(heading_rad));
-  GaitParams params = params_for(legs, speed_m_s, heading_rad, 1.7 + 0.3 * forward);
+// Feet roll forward, the more the longer the stance is, up to 0.8 of a leg; sideways and backward they stay flat. The
+// numbers were searched for curves of hip, knee and ankle like those of people (CMU 02_01, 12_01, DeepMimic walk) and
+// for walks of human and mech up to 2 m/s within their joints' speeds (docs/gait.md).
+GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double heading_rad, double roll_share) {
+  const double length_m = least_length_m(legs), rolling = roll_share * std::max(0.0, det::cos(heading_rad));
+  const auto mixed = [&](double flat, double rolled) { return flat + rolling * (rolled - flat); };
   const double relative = root_of_froude(legs, speed_m_s);
-  const double fast = std::clamp((relative - 0.4) / 0.26, 0.0, 1.0);  // 1 where people run
-  params.duty = 0.62 - 0.07 * fast;
-  const double roll = forward * std::min(1.0, params.duty * params.cycle_s * speed_m_s / (0.8 * length_m));
-  params.heel_up_rad = roll * 42.0 * kRadPerDeg;
-  params.toes_up_rad = roll * 15.0 * kRadPerDeg;
-  params.under = 0.5 - 0.06 * roll;
-  params.lower_m = (0.03 - 0.01 * forward) * length_m;
+  const double fast = std::clamp((relative - 0.42) / 0.24, 0.0, 1.0);  // 1 where people run
+  GaitParams params = params_for(legs, speed_m_s, heading_rad, mixed(1.7, 2.35 - 0.065 * fast));
+  params.duty = mixed(0.62, 0.6) - 0.13 * fast;
+  const double stance = params.duty * params.cycle_s * speed_m_s / length_m;
+  const double roll = rolling * std::min(1.0, stance / 0.8);
+  params.heel_up_rad = roll * (59.4 - 20.0 * fast) * kRadPerDeg;
+  params.toes_up_rad = roll * (16.8 + 9.4 * fast) * kRadPerDeg;
+  params.roll = {.heel_rises = 0.68, .heel_peaks = 0.259, .heel_level = 0.709, .toes_rise = 0.51, .toes_flat = 0.276};
+  params.under = 0.5 - (0.13 - 0.064 * fast) * roll;
+  params.lift_m = mixed(0.08, 0.069 + 0.015 * fast) * length_m;
+  params.rise = mixed(0.25, 0.5), params.fall = mixed(0.25, 0.286 - 0.04 * fast);
+  params.late = (0.68 * fast - 0.4) * rolling;
+  params.lower_m = mixed(0.03, 0.0172 + 0.036 * fast) * length_m;
   // Arms swing by 30 degrees in all at 1.2 m/s (CMU 02_01).
   params.arm_swing_rad = std::min(1.3, relative / 0.4) * 15.0 * kRadPerDeg;
   params.arm_back_rad = 5.0 * kRadPerDeg, params.elbow_rad = 15.0 * kRadPerDeg;
-  params.bounce_m = -forward * std::min(dip_for(legs, params), (0.05 + 0.04 * fast) * length_m);
+  params.bounce_m = -rolling * std::min(dip_for(legs, params), (0.032 + 0.062 * fast) * length_m);
   return params;
 }
 
@@ -122,30 +132,34 @@ GaitParams run_on_many(std::span<const Leg> legs, double speed_m_s) {
 }
 
 // People keep the cadence of 0.8 sqrt(g / l) steps a second when they run, and stand for less of it the faster they are
-// (39 % at 2.5 m/s, 30 % at 4 m/s). What is left was searched for the fastest run of the human within its joints'
-// speeds.
-GaitParams run_on_two(std::span<const Leg> legs, double speed_m_s) {
+// (39 % at 2.5 m/s, 30 % at 4 m/s). The other numbers were searched for curves of hip, knee and ankle like those of people
+// (CMU 02_03, DeepMimic run) and for runs of human and mech within their joints' speeds.
+GaitParams run_on_two(std::span<const Leg> legs, double speed_m_s, double roll_share) {
   const double length_m = least_length_m(legs), relative = root_of_froude(legs, speed_m_s);
   GaitParams params;
   params.speed_m_s = speed_m_s;
-  params.cycle_s = 2.0 / (0.9 * std::sqrt(kGravity_m_s2 / length_m));
-  params.duty = std::clamp(0.39 - 0.3 * (relative - 0.83), 0.22, 0.42);
-  params.under = 0.36;
-  params.heel_up_rad = 52.0 * kRadPerDeg;
-  params.toes_up_rad = 9.5 * kRadPerDeg;
-  params.lift_m = 0.2 * length_m;
-  params.rise = 0.15, params.fall = 0.35, params.late = 0.6;
+  params.cycle_s = 2.0 / (0.807 * std::sqrt(kGravity_m_s2 / length_m));
+  params.duty = std::clamp(0.386 - 0.351 * (relative - 0.83), 0.22, 0.42);
+  params.under = 0.253;
+  const double brisk = roll_share * std::min(1.0, relative / 0.85);
+  params.heel_up_rad = brisk * 64.0 * kRadPerDeg;
+  params.toes_up_rad = brisk * 14.4 * kRadPerDeg;
+  params.roll = {.heel_rises = 0.265, .heel_peaks = 0.257, .heel_level = 0.85, .toes_rise = 0.629, .toes_flat = 0.299};
+  params.lift_m = (0.1 + 0.165 * brisk) * length_m;
+  params.rise = 0.384, params.fall = 0.119, params.late = -1.04;
   params.arm_swing_rad = 28.0 * kRadPerDeg, params.arm_back_rad = 15.0 * kRadPerDeg;  // CMU 02_03: -53 to 8 degrees
   params.elbow_rad = 85.0 * kRadPerDeg;
+  params.bounce_m = 0.076 * length_m;
+  params.lean_rad = 12.0 * kRadPerDeg * std::min(1.0, relative / 1.3);  // the trunk of DeepMimic's runner: 21 to 33 degrees
   const double stance_m = params.duty * params.cycle_s * speed_m_s;
-  double lower_m = 0.07 * length_m;
+  double lower_m = 0.095 * length_m;
   for (const Leg& leg : legs) {
     const Rigid heel_first = rolled_sole(leg, 0.0, params.toes_up_rad);
-    const Rigid toes_last = rolled_sole(leg, params.heel_up_rad, 0.0);
+    const Rigid toes_last = rolled_sole(leg, heel_up_at_lift_rad(params), 0.0);
     lower_m = std::max({lower_m, lower_for(leg, params.under * stance_m, heel_first),
                         lower_for(leg, (params.under - 1.0) * stance_m, toes_last)});
   }
-  params.lower_m = std::min(lower_m, 0.1 * length_m);
+  params.lower_m = std::min(lower_m, 0.2 * length_m);
   return params;
 }
 
@@ -171,18 +185,20 @@ double root_beat(const GaitParams& params, double cycles) {
   return 0.5 - 0.5 * det::cos(4.0 * kPi * (cycles - params.under * params.duty));
 }
 
-GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
-  const double turn_rad = turn_for(legs, speed_m_s, heading_rad), left_rad = heading_rad - turn_rad;
-  GaitParams params =
-      legs.size() > 2 ? walk_on_many(legs, speed_m_s, left_rad) : walk_on_two(legs, speed_m_s, left_rad);
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace) {
+  const double slower_m_s = pace.speed * speed_m_s;
+  const double turn_rad = turn_for(legs, slower_m_s, heading_rad), left_rad = heading_rad - turn_rad;
+  GaitParams params = legs.size() > 2 ? walk_on_many(legs, slower_m_s, left_rad)
+                                      : walk_on_two(legs, slower_m_s, left_rad, pace.roll);
   params.turn_rad = turn_rad;
   return params;
 }
 
-GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad) {
-  GaitParams params = legs.size() > 2 ? run_on_many(legs, speed_m_s) : run_on_two(legs, speed_m_s);
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace) {
+  const double slower_m_s = pace.speed * speed_m_s;
+  GaitParams params = legs.size() > 2 ? run_on_many(legs, slower_m_s) : run_on_two(legs, slower_m_s, pace.roll);
   params.trot = true;
-  params.turn_rad = turn_for(legs, speed_m_s, heading_rad);
+  params.turn_rad = turn_for(legs, slower_m_s, heading_rad);
   params.heading_rad = heading_rad - params.turn_rad;
   return params;
 }

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "generator/motion/foot_roll.h"
 #include "model/motion/legs.h"
 
 namespace contort {
@@ -20,21 +21,30 @@ struct GaitParams {
   double lift_m = 0.08;      // of a swinging foot, at least
   double lower_m = 0.0;      // the root below its height at rest
   double bounce_m = 0.0;     // of the root, twice in a cycle: up between the feet (run), or down there where < 0 (walk)
-  double heel_up_rad = 0.0;  // >= 0, of a sole when it leaves the ground over its toes
+  double lean_rad = 0.0;     // of the root, forward
+  double heel_up_rad = 0.0;  // >= 0, of a sole about its toes at most
   double toes_up_rad = 0.0;  // >= 0, of a sole that comes down on its heel
+  RollTimes roll;
   double arm_swing_rad = 0.0;  // of the arms, to either side of their middle; 0: they hang
   double arm_back_rad = 0.0;   // of this middle, behind how they hang
   double elbow_rad = 0.0;      // of the elbows, more than at rest
   double rise = 0.25;        // (0, 1): the share of a swing in which the foot gets as fast as it is,
   double fall = 0.25;        // and in which it slows down; together at most 1
-  double late = 0.0;         // [-1, 1]: by how much it is lifted more in the second half of its swing than in the first
+  double late = 0.0;         // [-2, 2]: by how much it is lifted more in the second half of its swing than in the first
+};
+
+// The shares of a requested gait that are made, [0, 1].
+struct Pace {
+  double speed = 1.0;  // 0: it stands
+  double roll = 1.0;   // of how far soles roll, and of how high runners lift them: gentler on joints at the same speed
+  bool operator==(const Pace&) const = default;
 };
 
 // Sensible parameters for a speed on these legs: longer legs step more slowly, as pendulums do (Froude number).
 // `heading_rad` is the way from where the character faces at first. It turns there, but for walks that are slow enough
 // to be made sideways or backward.
-GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
-GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad);
+GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
+GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
 
 // Steps on the spot while the body turns, to the left where `turn_rad` > 0. `pace`, in (0, 1]: a share of the usual cadence.
 GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace);

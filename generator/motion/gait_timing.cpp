@@ -7,6 +7,8 @@ namespace contort {
 
 namespace {
 
+constexpr double kMostAcceleration_m_s2 = 2.2;  // on average, from rest to full speed
+
 // The integral of a speed that rises along 3u^2 - 2u^3 to 1 within ramp_s.
 double ramped_s(double time_s, double ramp_s) {
   const double u = ramp_s > 0.0 ? std::clamp(time_s / ramp_s, 0.0, 1.0) : 1.0;
@@ -33,8 +35,10 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
   for (const Leg& leg : legs) lift_s = std::max(lift_s, first_lift_s(leg));
   const double half_stance_s = 0.5 * params.duty * params.cycle_s;
   const double wanted_s = std::sqrt(lift_s * lift_s * lift_s / half_stance_s);
-  up_s_ = std::min(std::max(wanted_s, 0.6 * params.cycle_s), 0.6 * moving_s_);
-  down_s_ = std::min(0.6 * params.cycle_s, moving_s_ - up_s_);
+  // Nobody gets faster or slower than friction and balance allow.
+  const double ramp_s = std::max(0.6 * params.cycle_s, params.speed_m_s / kMostAcceleration_m_s2);
+  up_s_ = std::min(std::max(wanted_s, ramp_s), 0.6 * moving_s_);
+  down_s_ = std::min(ramp_s, moving_s_ - up_s_);
   const double hurry = wanted_s / std::max(up_s_, 1e-9);  // above 1 on a way too short for the speed
   if (hurry > 1.0) speed_m_s_ /= hurry * hurry;
   // Feet turn with the body, step by step.

@@ -13,9 +13,13 @@ namespace contort {
 
 namespace {
 
-constexpr std::array kPaces = {1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1};
+// Gentler gaits before slower ones.
+constexpr std::array kSpeeds = {1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1};
+constexpr std::array kRolls = {1.0, 0.6, 0.3};
 constexpr double kOfSpeed = 0.985;         // of a joint's greatest speed: room for what the frames in between do
 constexpr double kShortestRise_s = 0.0205;  // from rest to a joint's greatest speed
+constexpr double kEasySpeed = 0.75;    // of a joint's greatest speed, for courses that need no trial,
+constexpr double kEasyRange_rad = 0.08;  // and how far they keep from the ends of ranges: starts and stops are not even
 constexpr int kMostJoints = 64;            // of legs that are tried
 
 class Trial {
@@ -24,7 +28,19 @@ class Trial {
         const TrialSpace& scratch, std::span<double> row)
       : character_(character), room_(room), course_(course), world_(world), scratch_(scratch), row_(row) {}
 
-  bool fits(Gait gait, double pace) {
+  bool is_easy(Gait gait) {
+    constexpr int kSamples = 12;
+    if (course_.even_for_s <= 0.0) return false;
+    const double step_s = course_.even_for_s / kSamples;
+    for (int n = 0; n <= kSamples; ++n) {
+      place(course_.frame_at(gait, {}, course_.even_s + n * step_s));
+      if (!keeps_joints_easily(n > 0 ? step_s * course_.frame_s / course_.step_s : 0.0) || !has_room()) return false;
+      std::ranges::copy(row_, scratch_.row.begin());
+    }
+    return true;
+  }
+
+  bool fits(Gait gait, const Pace& pace) {
     steps_ = {};
     is_first_ = true, knows_step_ = false;
     const int frames = static_cast<int>(course_.lasts_s / course_.step_s);
@@ -56,6 +72,22 @@ class Trial {
     return true;
   }
 
+  // `way_s` is the time since the row in scratch_; 0 where that is none of this course.
+  bool keeps_joints_easily(double way_s) const {
+    return std::ranges::all_of(legs(), [&](const Leg& leg) {
+      return std::ranges::all_of(leg.joints, [&](int j) { return keeps_easily(character_.joint(j), way_s); });
+    });
+  }
+
+  bool keeps_easily(const Joint& joint, double way_s) const {
+    if (!is_in_range(joint, row_)) return false;
+    const double angle = row_[at(joint.coord)];
+    const bool is_free = joint.kind != JointKind::hinge || joint.high - joint.low < 2.0 * kEasyRange_rad ||
+                         std::min(angle - joint.low, joint.high - angle) > kEasyRange_rad;
+    const double way = joint_way(joint, scratch_.row.data() + joint.coord, row_.data() + joint.coord);
+    return is_free && (way_s <= 0.0 || way <= kEasySpeed * joint.max_speed * way_s);
+  }
+
   bool keeps_joint(const Joint& joint, Vec3& last_step) {
     if (!is_in_range(joint, row_)) return false;
     if (is_first_) return true;
@@ -84,11 +116,14 @@ class Trial {
 
 }  // namespace
 
-double fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
+Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
   Trial trial(character, room, course, world, scratch, row);
-  const auto found = std::ranges::find_if(kPaces, [&](double pace) { return trial.fits(begun, pace); });
-  return found == kPaces.end() ? 0.0 : *found;
+  if (trial.is_easy(begun)) return {};
+  for (const double speed : kSpeeds)
+    for (const double roll : kRolls)
+      if (trial.fits(begun, {speed, roll})) return {speed, roll};
+  return {0.0, 0.0};
 }
 
 }  // namespace contort

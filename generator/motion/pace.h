@@ -8,15 +8,18 @@ namespace contort {
 
 // A course that is tried before it is made.
 struct CourseTrial {
-  FunctionRef<GaitFrame(Gait&, double pace, double time_s)> frame_at;  // times are of the course's content
+  FunctionRef<GaitFrame(Gait&, const Pace& pace, double time_s)> frame_at;  // times are of the course's content
   double lasts_s = 0.0;                                                // of content
   double step_s = 0.0;                                                 // of content, in a frame; > 0
   double frame_s = 0.0;                                                // of the motion
+  double even_s = 0.0;       // from here on it goes evenly on level ground,
+  double even_for_s = 0.0;   // at least for half a cycle of this length; 0: nowhere
 };
 
 // Tries a few shares of the requested speed, and answers the greatest at which a course that begins as `begun` keeps to
-// what joints and bodies allow, [0, 1]; 0 if it does at none of them. The rest is as for deepest_bend().
-double fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
+// what joints and bodies allow; a speed of 0 if it does at none of them. A course that is far from those limits in half a
+// cycle of its even part is taken without a trial of the rest. The other arguments are as for deepest_bend().
+Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
 
 }  // namespace contort

@@ -83,21 +83,37 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
 
 double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
                     const TrialSpace& scratch, std::span<double> row) {
-  constexpr int kStops = 24;
-  constexpr double kShareOfSpeed = 0.8;
+  constexpr int kStops = 24, kFineStops = 8;  // on the whole way, and between two where joints begin to hurry
+  constexpr double kShareOfSpeed = 0.8, kHurry = 2.0;
   const std::span<const Leg> legs = room.feet().legs();
   const std::span<double> before = scratch.row;
+  const auto bent_at = [&](double share) {
+    return stand_bent(character, legs, bend.frame_at(share), world, scratch.world, row);
+  };
+  // The longest time that a joint needs for the way from `before` on, in steps to a share: for the whole way at that rate.
+  const auto slowest_to = [&](double from, double to, int steps) {
+    double longest_s = 0.0;
+    for (int n = 1; n <= steps; ++n) {
+      bent_at(from + (to - from) * n / steps);
+      longest_s = std::max(longest_s, slowest_s(character, legs, before, row) * steps / (to - from));
+      std::ranges::copy(row, before.begin());
+    }
+    return longest_s;
+  };
+  bent_at(0.0);
+  const bool needs_room = has_room(room, scratch.world);
   double slowest_s_per_way = 0.0;
-  bool needs_room = true;
-  for (int n = 0; n <= kStops; ++n) {
-    const double share = static_cast<double>(n) / kStops;
-    const bool fit = stand_bent(character, legs, bend.frame_at(share), world, scratch.world, row);
-    if (n > 0) slowest_s_per_way = std::max(slowest_s_per_way, kStops * slowest_s(character, legs, before, row));
-    const bool fast = share * bend.peak * slowest_s_per_way > kShareOfSpeed * bend.takes_s;
-    if (n == 0) needs_room = has_room(room, scratch.world);
-    if (n > 0 && (!fit || fast || (needs_room && !has_room(room, scratch.world))))
-      return static_cast<double>(n - 1) / kStops;
+  std::ranges::copy(row, before.begin());
+  for (int n = 1; n <= kStops; ++n) {
+    const double last = static_cast<double>(n - 1) / kStops, share = static_cast<double>(n) / kStops;
+    const bool fits = bent_at(share);
+    double way_s = kStops * slowest_s(character, legs, before, row);
+    // Heels that begin to rise can do so at once, which a long step does not show.
+    if (n > 1 && way_s > kHurry * slowest_s_per_way) way_s = slowest_to(last, share, kFineStops);
     std::ranges::copy(row, before.begin());
+    slowest_s_per_way = std::max(slowest_s_per_way, way_s);
+    const bool is_fast = share * bend.peak * slowest_s_per_way > kShareOfSpeed * bend.takes_s;
+    if (!fits || is_fast || (needs_room && !has_room(room, scratch.world))) return last;
   }
   return 1.0;
 }

@@ -132,13 +132,14 @@ Vec3 straight_way(const Step& step, double swing) {
 }
 
 Rigid swung_sole(const Environment& environment, const Leg& leg, const Step& step, const FootCycle& cycle,
-                 double heel_up_rad, double toes_up_rad) {
+                 const GaitParams& params, double moving) {
   const double toes_up = cycle.swing > 0.0 ? step.lands_up : step.landed_up;
   Rigid sole{slerp_short(step.from.q, step.to.q, swing_share(step, cycle.swing)),
              straight_way(step, cycle.swing)};
   sole.p_m.y += step.bump_m * swing_bump(step, cycle.swing);
-  sole = sole * rolled_sole(leg, heel_up_rad * step.leaves_up * heel_rise(cycle.stance, cycle.swing),
-                            toes_up_rad * toes_up * toe_rise(cycle.stance, cycle.swing));
+  const double heel_share = step.leaves_up * heel_rise(params.roll, params.duty, cycle.stance, cycle.swing);
+  const double toe_share = toes_up * toe_rise(params.roll, cycle.stance, cycle.swing);
+  sole = sole * rolled_sole(leg, moving * heel_share * params.heel_up_rad, moving * toe_share * params.toes_up_rad);
   if (environment.is_level())  // elsewhere the swing is fitted to the ground with level toes
     sole.q = sole.q * axis_angle(Vec3(1, 0, 0), toes_down_rad(leg, step, cycle.swing));
   return sole;

@@ -30,8 +30,8 @@ void choose_rolling(const Environment& environment, const Leg& leg, double strid
 // The sole's place on its straight way, without lift and roll.
 Vec3 straight_way(const Step& step, double swing);
 
-// The sole with both; the angles are those of GaitParams.
+// The sole with both; `moving`, [0, 1], is the share of its roll.
 Rigid swung_sole(const Environment& environment, const Leg& leg, const Step& step, const FootCycle& cycle,
-                 double heel_up_rad, double toes_up_rad);
+                 const GaitParams& params, double moving);
 
 }  // namespace contort

@@ -47,17 +47,28 @@ TEST(FootRoll, KnowsWhatAFootStandsOn) {
 // In stance and swing, and where one becomes the other: a thousandth of either moves the share by a hundredth at most.
 TEST(FootRoll, NeverJumps) {
   constexpr int kSteps = 1000;
-  double heel = heel_rise(0.0, 0.0), toes = toe_rise(0.0, 0.0);
-  for (int n = 1; n < 2 * kSteps; ++n) {
-    const double stance = std::min(1.0, double(n) / kSteps), swing = std::max(0.0, double(n - kSteps) / kSteps);
-    EXPECT_NEAR(heel_rise(stance, swing), heel, 0.01) << n;
-    EXPECT_NEAR(toe_rise(stance, swing), toes, 0.01) << n;
-    heel = heel_rise(stance, swing), toes = toe_rise(stance, swing);
+  constexpr double kDuty = 0.6;
+  for (const double peaks : {0.0, 0.3}) {
+    const RollTimes times{.heel_peaks = peaks};
+    double heel = heel_rise(times, kDuty, 0.0, 0.0), toes = toe_rise(times, 0.0, 0.0);
+    for (int n = 1; n < 2 * kSteps; ++n) {
+      const double stance = std::min(1.0, double(n) / kSteps), swing = std::max(0.0, double(n - kSteps) / kSteps);
+      EXPECT_NEAR(heel_rise(times, kDuty, stance, swing), heel, 0.01) << n;
+      EXPECT_NEAR(toe_rise(times, stance, swing), toes, 0.01) << n;
+      heel = heel_rise(times, kDuty, stance, swing), toes = toe_rise(times, stance, swing);
+    }
+    EXPECT_NEAR(heel_rise(times, kDuty, 0.0, 0.0), heel, 0.01);
+    EXPECT_NEAR(toe_rise(times, 0.0, 0.0), toes, 0.01);
+    EXPECT_EQ(toe_rise(times, 0.4, 0.0), 0.0) << "it lies flat then";
   }
-  EXPECT_NEAR(heel_rise(0.0, 0.0), heel, 0.01);
-  EXPECT_NEAR(toe_rise(0.0, 0.0), toes, 0.01);
-  EXPECT_EQ(heel_rise(1.0, 0.0), 1.0);
-  EXPECT_EQ(toe_rise(0.4, 0.0), 0.0) << "it lies flat then";
+}
+
+TEST(FootRoll, TurnsOnInTheAir) {
+  const RollTimes times{.heel_peaks = 0.3};
+  EXPECT_EQ(heel_rise(RollTimes{}, 0.6, 1.0, 0.0), 1.0);
+  EXPECT_LT(heel_rise(times, 0.6, 1.0, 0.0), 0.95);
+  EXPECT_EQ(heel_rise(times, 0.6, 1.0, 0.3), 1.0);
+  EXPECT_EQ(heel_rise(times, 0.6, 1.0, times.heel_level), 0.0);
 }
 
 // A sole that lies on a slope is tilted, and stands on its toes for all that no more than a level one.

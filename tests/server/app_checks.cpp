@@ -127,7 +127,7 @@ TEST(Sessions, TheNextTakeBeginsWhereTheFigureStands) {
   const Json state = server.get(session);
   EXPECT_EQ(state["take"], 2);
   EXPECT_TRUE(state["playing"]);
-  EXPECT_GT(state["spec"]["start"]["position_m"][2], 0.1) << state["spec"];
+  EXPECT_GT(state["spec"]["start"]["position_m"][2], 0.05) << state["spec"];
   EXPECT_EQ(state["spec"]["character"]["name"], "mech");
   EXPECT_EQ(last(listen(stream, 2), "frames")["take"], 2);
 }
