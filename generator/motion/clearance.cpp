@@ -22,6 +22,8 @@ constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets
 constexpr int kRounds = 2;
 constexpr double kRise_s = 0.022;  // from rest to the greatest speed
 constexpr double kCoast = 0.35;   // of its last step: the way of a joint that stops as soon as it can
+constexpr double kFarStep = 0.2;       // of a joint's greatest step in a frame
+constexpr std::array kBetween = {0.25, 0.5, 0.75};
 constexpr double kLifted = 0.7;    // of a joint's greatest speed, while a foot is lifted
 constexpr double kMore_m = 1e-5;  // rounding must not choose
 
@@ -37,6 +39,7 @@ struct Clearance::Case {
   const Posture& wanted;
   Posture& shown;
   Posture& saved;
+  Posture& spare;
   std::span<Rigid> world;
   double enough_m = -kTooNear_m;
   bool is_lifted = false;
@@ -103,12 +106,24 @@ struct Clearance::Case {
     place();
     return is_clear_there;
   }
+  // Whether the limb is clear on its way from the frame before, if it goes so far that it could pass through something.
+  bool is_clear_between() {
+    if (all_joints([&](int j) { return length(step_of(j)) <= kFarStep * greatest_step(j); })) return true;
+    for (const int p : limb.parts) copy_part(character, at(p), shown, spare);
+    const bool is_clear_there = std::ranges::all_of(kBetween, [&](double share) {
+      for (const int p : limb.parts) blend_part(character, at(p), past.before, spare, share, shown);
+      return room_m() >= -kTooNear_m;
+    });
+    for (const int p : limb.parts) copy_part(character, at(p), spare, shown);
+    place();
+    return is_clear_there;
+  }
   Vec3 step_of(int j) const {
     const Joint& joint = character.joint(j);
     return joint_way_vector(joint, past.before.coords.data() + joint.coord, shown.coords.data() + joint.coord);
   }
   double greatest_step(int j) const { return character.joint(j).max_speed * past.frame_s; }
-  bool is_clear() { return room_m() >= enough_m; }
+  bool is_clear() { return room_m() >= enough_m && is_clear_between(); }
 
   void go(double share) const {
     for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
@@ -179,14 +194,14 @@ struct Clearance::Case {
 void Clearance::begin(const Character& character, LimbRoom& room) {
   character_ = &character, room_ = &room;
   wanted_.coords.assign(at(character.coord_count()), 0.0);
-  saved_ = wanted_;
+  saved_ = spare_ = wanted_;
 }
 
 Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown,
                                 std::span<Rigid> world) {
   const Limb& limb = room_->limb_of(part);
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
-  Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, world};
+  Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, spare_, world};
   now.was_lifted = was_lifted;
   const double wanted_m = wanted_m_ = now.room_m();
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
@@ -196,8 +211,7 @@ Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lif
   const double room_m = now.room_m();
   now.enough_m = std::max(-kTooNear_m, std::min(kApproach * room_m, room_m - kCreep_m));
   now.go(1.0);
-  now.place();
-  if (wanted_m >= now.enough_m && is_easy) return as_wanted;
+  if (is_easy && now.is_clear()) return as_wanted;
   now.stop_on_the_way() ? now.slide() : now.get_out();
   return Kept::elsewhere;
 }

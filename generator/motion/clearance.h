@@ -40,6 +40,7 @@ class Clearance {
   LimbRoom* room_ = nullptr;
   Posture wanted_;
   Posture saved_;
+  Posture spare_;
   double wanted_m_ = 0.0;
 };
 

@@ -50,6 +50,18 @@ TEST(Promises, APoseThatIsTooQuickArrivesLaterAndSaysSo) {
   EXPECT_EQ(intent.unmet[0].why, Shortfall::joint_speed);
 }
 
+// A foot on its quick way back passes the other one: no frame shows it, but the way between two did.
+TEST(Promises, AFootPassesThroughNothingBetweenFrames) {
+  for (const double aside_m : {0.12, 0.16, 0.2})
+    for (const int frames : {20, 24, 28}) {
+      ActionUse reach = use("reach", "leg_right", 0, frames, {{"target_m", Vec3(aside_m, 0.96, -0.16)},
+                                                              {"swivel_deg", -180.0}});
+      reach.blend_in_frames = -1;
+      for (const Finding& finding : findings_of(reach))
+        EXPECT_NE(finding.check, "self_collision") << aside_m << " m in " << frames << ": " << finding.subject;
+    }
+}
+
 TEST(Promises, AHeadThatIsToFaceBackwardsTurnsAsFarAsItsRangeAndSaysSo) {
   const Stage stage = stage_of({sequence({use("direction", "head", 0, 60, {{"azimuth_deg", 170.0}})})}, 10);
   StageEvaluator evaluator;
