@@ -121,13 +121,17 @@ bool begins_on_its_feet(const RuleInput& in) {
   return true;
 }
 
-// Half a cycle in the middle of a course, where it goes straight and evenly over level ground; 0 where it does not, or
-// where it turns much before that.
-double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s) {
+// The length of a half cycle from `even_s` on, if the course goes straight over level ground there at its full speed and
+// has not turned much before; else 0.
+double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s, double even_s) {
   constexpr double kLittle_rad = 20.0 * kRadPerDeg;
+  const GaitTiming timing(params, in.legs, lasts_s);
+  const double half_s = 0.5 * params.cycle_s;
+  const bool is_even = timing.speed_m_s(even_s) == params.speed_m_s && timing.turn_s() <= even_s &&
+                       timing.speed_m_s(even_s + half_s) == params.speed_m_s;
   const bool is_straight = params.heading_rad == 0.0 && std::fabs(params.turn_rad) <= kLittle_rad;
   const bool is_plain = in.environment.is_level() && is_straight && params.speed_m_s > 0.0 && begins_on_its_feet(in);
-  return is_plain && lasts_s > 3.0 * params.cycle_s ? 0.5 * params.cycle_s : 0.0;
+  return is_plain && is_even ? half_s : 0.0;
 }
 
 GaitParams params_at(const RuleInput& in, ParamsFor params_for, const Pace& pace) {
@@ -159,8 +163,8 @@ void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   };
   body.pace = {};
   if (step_s > 0.0) {
-    const double even_s = even_for_s(in, params, lasts_s);
-    const CourseTrial course{frame_at, lasts_s, step_s, in.time.frame_s, 0.5 * lasts_s - 0.5 * params.cycle_s, even_s};
+    const double even_s = 0.5 * (lasts_s - params.cycle_s);  // half of the time in which it moves
+    const CourseTrial course{frame_at, lasts_s, step_s, in.time.frame_s, even_s, even_for_s(in, params, lasts_s, even_s)};
     body.pace = fitting_pace(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
   }
   body.gait_params = params_at(body.pace);

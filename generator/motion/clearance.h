@@ -23,13 +23,12 @@ class Clearance {
 
   enum class Kept { as_wanted, foot_lifted, elsewhere };
 
-  // `shown` holds where the joints of the part's limb are to go, and then where they go. A foot that stands is lifted.
-  // `world` holds the transforms of all joints; those of the limb and of what it carries are brought up to date. Joints
-  // get out of the way at a third of their greatest speed.
-  // The room that the limb would have had where it was wanted, of the last call.
+  // The room that the limb would have had where it was wanted, of the last call of keep().
   double wanted_room_m() const { return wanted_m_; }
 
-  // A limb whose foot was lifted in the frame before comes back slowly enough to stop: its knee, which ends straight, is
+  // `shown` holds where the joints of the part's limb are to go, and then where they go. A foot that stands is lifted.
+  // `world` holds the transforms of all joints; those of the limb and of what it carries are brought up to date. Joints
+  // get out of the way at a third of their greatest speed. A limb whose foot was lifted in the frame before comes back slowly enough to stop: its knee, which ends straight, is
   // fastest at the end.
   Kept keep(std::size_t part, const Past& past, bool was_lifted, Posture& shown, std::span<Rigid> world);
 

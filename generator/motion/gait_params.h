@@ -36,7 +36,7 @@ struct GaitParams {
 // The shares of a requested gait that are made, [0, 1].
 struct Pace {
   double speed = 1.0;  // 0: it stands
-  double roll = 1.0;   // of how far soles roll, and of how high runners lift them: gentler on joints at the same speed
+  double roll = 1.0;   // between flat feet with short steps, 0, and the full roll; runners lift their feet less, too
   bool operator==(const Pace&) const = default;
 };
 

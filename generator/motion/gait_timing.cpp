@@ -35,7 +35,7 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
   for (const Leg& leg : legs) lift_s = std::max(lift_s, first_lift_s(leg));
   const double half_stance_s = 0.5 * params.duty * params.cycle_s;
   const double wanted_s = std::sqrt(lift_s * lift_s * lift_s / half_stance_s);
-  // Nobody gets faster or slower than friction and balance allow.
+  // Friction and balance bound how quickly a figure gets faster or slower.
   const double ramp_s = std::max(0.6 * params.cycle_s, params.speed_m_s / kMostAcceleration_m_s2);
   up_s_ = std::min(std::max(wanted_s, ramp_s), 0.6 * moving_s_);
   down_s_ = std::min(ramp_s, moving_s_ - up_s_);

@@ -18,8 +18,9 @@ constexpr std::array kSpeeds = {1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1};
 constexpr std::array kRolls = {1.0, 0.6, 0.3};
 constexpr double kOfSpeed = 0.985;         // of a joint's greatest speed: room for what the frames in between do
 constexpr double kShortestRise_s = 0.0205;  // from rest to a joint's greatest speed
-constexpr double kEasySpeed = 0.75;    // of a joint's greatest speed, for courses that need no trial,
-constexpr double kEasyRange_rad = 0.08;  // and how far they keep from the ends of ranges: starts and stops are not even
+// An even gait with this much to spare needs no trial of its start and stop, which bend joints a little farther.
+constexpr double kEasySpeed = 0.75;      // of a joint's greatest speed
+constexpr double kEasyRange_rad = 0.08;  // from the ends of its range
 constexpr int kMostJoints = 64;            // of legs that are tried
 
 class Trial {
@@ -72,7 +73,7 @@ class Trial {
     return true;
   }
 
-  // `way_s` is the time since the row in scratch_; 0 where that is none of this course.
+  // `way_s` is the time since the sample before, whose row scratch_ holds; 0 for the first sample, which has no speed.
   bool keeps_joints_easily(double way_s) const {
     return std::ranges::all_of(legs(), [&](const Leg& leg) {
       return std::ranges::all_of(leg.joints, [&](int j) { return keeps_easily(character_.joint(j), way_s); });

@@ -12,8 +12,8 @@ struct CourseTrial {
   double lasts_s = 0.0;                                                // of content
   double step_s = 0.0;                                                 // of content, in a frame; > 0
   double frame_s = 0.0;                                                // of the motion
-  double even_s = 0.0;       // from here on it goes evenly on level ground,
-  double even_for_s = 0.0;   // at least for half a cycle of this length; 0: nowhere
+  double even_s = 0.0;      // when a half cycle begins in which the full course goes evenly on level ground
+  double even_for_s = 0.0;  // how long that half cycle is; 0 where the course has none
 };
 
 // Tries a few shares of the requested speed, and answers the greatest at which a course that begins as `begun` keeps to

@@ -69,6 +69,65 @@ bool has_room(LimbRoom& room, std::span<const Rigid> world) {
   });
 }
 
+// Legs that bend from stop to stop, and the joint that needs the most time for it.
+class BendTrial {
+ public:
+  BendTrial(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
+            const TrialSpace& scratch, std::span<double> row)
+      : character_(character), room_(room), bend_(bend), world_(world), scratch_(scratch), row_(row) {}
+
+  void begin() {
+    bend_to(0.0);
+    needs_room_ = has_room(room_, scratch_.world);
+    keep_row();
+  }
+
+  // From one share of the way to the next; false where legs do not fit, or a limb loses its room.
+  bool go_on(double from, double to) {
+    const bool fits = bend_to(to);
+    double way_s = slowest_to_here_s() / (to - from);
+    // Heels that begin to rise can do so at once, which a long step does not show.
+    if (from > 0.0 && way_s > kHurry * slowest_s_per_way_) way_s = slowest_of_short_steps_s(from, to);
+    keep_row();
+    slowest_s_per_way_ = std::max(slowest_s_per_way_, way_s);
+    return fits && (!needs_room_ || has_room(room_, scratch_.world));
+  }
+
+  // The time that the slowest joint would need for the whole way, at the rate of the steepest part so far.
+  double slowest_s_per_way() const { return slowest_s_per_way_; }
+
+ private:
+  static constexpr double kHurry = 2.0;  // times the rate before
+
+  bool bend_to(double share) {
+    return stand_bent(character_, room_.feet().legs(), bend_.frame_at(share), world_, scratch_.world, row_);
+  }
+  double slowest_to_here_s() const { return slowest_s(character_, room_.feet().legs(), scratch_.row, row_); }
+  void keep_row() { std::ranges::copy(row_, scratch_.row.begin()); }
+
+  // As slowest_s_per_way(), for short steps between two shares.
+  double slowest_of_short_steps_s(double from, double to) {
+    constexpr int kSteps = 8;
+    const double step = (to - from) / kSteps;
+    double slowest_s_per_way = 0.0;
+    for (int n = 1; n <= kSteps; ++n) {
+      bend_to(from + n * step);
+      slowest_s_per_way = std::max(slowest_s_per_way, slowest_to_here_s() / step);
+      keep_row();
+    }
+    return slowest_s_per_way;
+  }
+
+  const Character& character_;
+  LimbRoom& room_;
+  const Bend& bend_;
+  std::span<const Rigid> world_;
+  const TrialSpace& scratch_;
+  std::span<double> row_;
+  bool needs_room_ = true;
+  double slowest_s_per_way_ = 0.0;
+};
+
 }  // namespace
 
 Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
@@ -83,37 +142,15 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
 
 double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,
                     const TrialSpace& scratch, std::span<double> row) {
-  constexpr int kStops = 24, kFineStops = 8;  // on the whole way, and between two where joints begin to hurry
-  constexpr double kShareOfSpeed = 0.8, kHurry = 2.0;
-  const std::span<const Leg> legs = room.feet().legs();
-  const std::span<double> before = scratch.row;
-  const auto bent_at = [&](double share) {
-    return stand_bent(character, legs, bend.frame_at(share), world, scratch.world, row);
-  };
-  // The longest time that a joint needs for the way from `before` on, in steps to a share: for the whole way at that rate.
-  const auto slowest_to = [&](double from, double to, int steps) {
-    double longest_s = 0.0;
-    for (int n = 1; n <= steps; ++n) {
-      bent_at(from + (to - from) * n / steps);
-      longest_s = std::max(longest_s, slowest_s(character, legs, before, row) * steps / (to - from));
-      std::ranges::copy(row, before.begin());
-    }
-    return longest_s;
-  };
-  bent_at(0.0);
-  const bool needs_room = has_room(room, scratch.world);
-  double slowest_s_per_way = 0.0;
-  std::ranges::copy(row, before.begin());
+  constexpr int kStops = 24;
+  constexpr double kShareOfSpeed = 0.8;
+  BendTrial trial(character, room, bend, world, scratch, row);
+  trial.begin();
   for (int n = 1; n <= kStops; ++n) {
     const double last = static_cast<double>(n - 1) / kStops, share = static_cast<double>(n) / kStops;
-    const bool fits = bent_at(share);
-    double way_s = kStops * slowest_s(character, legs, before, row);
-    // Heels that begin to rise can do so at once, which a long step does not show.
-    if (n > 1 && way_s > kHurry * slowest_s_per_way) way_s = slowest_to(last, share, kFineStops);
-    std::ranges::copy(row, before.begin());
-    slowest_s_per_way = std::max(slowest_s_per_way, way_s);
-    const bool is_fast = share * bend.peak * slowest_s_per_way > kShareOfSpeed * bend.takes_s;
-    if (!fits || is_fast || (needs_room && !has_room(room, scratch.world))) return last;
+    const bool fits = trial.go_on(last, share);
+    const bool is_fast = share * bend.peak * trial.slowest_s_per_way() > kShareOfSpeed * bend.takes_s;
+    if (!fits || is_fast) return last;
   }
   return 1.0;
 }

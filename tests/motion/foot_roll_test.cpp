@@ -111,6 +111,8 @@ std::vector<std::string> found_in_walk(const std::string& character, double spee
   use.params = {{"speed_m_s", speed_m_s}, {"heading_deg", heading_deg}};
   Spec spec;
   spec.character.name = character;
+  if (character == "reverse")
+    spec.character = {"mech", {{"leg_left", "mech_leg_reverse"}, {"leg_right", "mech_leg_reverse"}}, {}};
   spec.sequences.resize(1);
   spec.sequences[0].clips.resize(1);
   spec.sequences[0].clips[0].actions = {use};
@@ -123,7 +125,8 @@ std::vector<std::string> found_in_walk(const std::string& character, double spee
 }
 
 TEST(Walk, BreaksNoLimitAtTheSpeedsItIsMadeFor) {
-  const std::vector<std::pair<std::string, double>> fastest = {{"human", 1.4}, {"mech", 1.3}, {"quadruped", 0.9}};
+  const std::vector<std::pair<std::string, double>> fastest = {
+      {"human", 1.4}, {"mech", 1.3}, {"reverse", 1.3}, {"quadruped", 0.9}};
   for (const auto& [character, most_m_s] : fastest)
     for (double speed_m_s = 0.1; speed_m_s < most_m_s + 0.01; speed_m_s += 0.1)
       EXPECT_EQ(found_in_walk(character, speed_m_s), std::vector<std::string>{}) << character << " at " << speed_m_s;

@@ -82,8 +82,8 @@ class Walks : public ::testing::Test {
   }
 
  private:
-  // A sole stands while its corners' mean keeps its height to a tenth of a millimetre near the ground: at the top of a
-  // low swing it does so, too.
+  // A sole stands while its corners' mean keeps its height to a tenth of a millimetre and is less than a centimetre above
+  // the ground: at the top of a low swing it keeps its height, too.
   Walked measure(const Stage& stage) {
     const Motion motion = generate(stage);
     Walked out;
@@ -155,6 +155,16 @@ TEST_F(Walks, FeetStandStillAndStayAboveTheGround) {
       EXPECT_FALSE(walked.is_unmet && ground == "level") << character;
     }
   EXPECT_GT(all_travels_m, 40.0);
+}
+
+// A course that no joint could make would be a figure that stands, which is clean.
+TEST_F(Walks, RunsGetSomewhereOnAllLegs) {
+  for (const auto& [character, least_m] : {std::pair{"human", 8.0}, {"mech", 8.0}, {"reverse", 4.0}, {"quadruped", 3.0}}) {
+    const Walked run = walk(character, "level", "run", 2.0);
+    EXPECT_GT(run.travel_m, least_m) << character;
+    EXPECT_LT(run.slide_m, 5e-3) << character;
+    EXPECT_EQ(run.range_findings, 0) << character;
+  }
 }
 
 }  // namespace

@@ -179,5 +179,19 @@ TEST(Gaits, CarryHipsWithoutAJolt) {
   }
 }
 
+// A speed that rises along 3u^2 - 2u^3 is 1.5 times as steep in the middle as on average.
+TEST(Gaits, StartAndStopAsQuicklyAsBalanceAllows) {
+  constexpr double kAverage_m_s2 = 2.2;
+  const Motion motion = generate(stage_of("run", 3.0, stock_library()));
+  double most_m_s2 = 0.0;
+  for (int f = 1; f + 1 < motion.frame_count; ++f) {
+    const auto way_m = [&](int frame) { return motion.root[at(frame)].p_m.z; };
+    const double bend_m = way_m(f + 1) - 2.0 * way_m(f) + way_m(f - 1);
+    most_m_s2 = std::max(most_m_s2, std::fabs(bend_m) * kFilmed_hz * kFilmed_hz);
+  }
+  EXPECT_LT(most_m_s2, 1.5 * kAverage_m_s2 * 1.01);
+  EXPECT_GT(most_m_s2, 1.0) << "it did not run";
+}
+
 }  // namespace
 }  // namespace contort

@@ -119,7 +119,7 @@ TEST(Sessions, TheNextTakeBeginsWhereTheFigureStands) {
   limits.take_s = 2.0;
   Server server(limits);
   Json spec = standing();
-  spec["sequences"] = Json::array({sequence("walk", "waist", 50, {{"speed_m_s", 1.0}})});
+  spec["sequences"] = Json::array({sequence("walk", "waist", 58, {{"speed_m_s", 1.0}})});
   const std::string session = open(server, spec);
   server.post(session + "/clock", {{"play", true}});
   const Answer stream = server.call("GET", session + "/stream");
@@ -127,7 +127,7 @@ TEST(Sessions, TheNextTakeBeginsWhereTheFigureStands) {
   const Json state = server.get(session);
   EXPECT_EQ(state["take"], 2);
   EXPECT_TRUE(state["playing"]);
-  EXPECT_GT(state["spec"]["start"]["position_m"][2], 0.05) << state["spec"];
+  EXPECT_GT(state["spec"]["start"]["position_m"][2], 0.1) << state["spec"];
   EXPECT_EQ(state["spec"]["character"]["name"], "mech");
   EXPECT_EQ(last(listen(stream, 2), "frames")["take"], 2);
 }
