@@ -90,7 +90,7 @@ const Posture& RuleRunner::run(const Playback& playback, const RuleCall& call, s
   action.def->rule({character, character.parts()[part], params(action, time, part), world_, {scratch_world_, scratch_row_}, time,
                     stage_->start, stage_->environment, stage_->legs, stands_at, action.aim.get(), action.keys.get(),
                     action.script.get(), action.easy_grip_m, from, playback.frame(), call.took_over, call.came_in, body(action),
-                    feedback_[part], room_},
+                    feedback_[part], room_, stage_->dynamics != nullptr},
                    target_);
   if (keeps_ranges(*action.def) && clamp_part(character, part, target_)) feedback_[part].at_range_end = true;
   return target_;

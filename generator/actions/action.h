@@ -142,6 +142,7 @@ struct RuleInput {
   WholeBody& body;
   Feedback& feedback;
   LimbRoom& room;  // how near bodies are
+  bool has_mass;   // dynamics will move it: the motion is a target, which strength and balance must allow
 };
 
 struct ActionDef {

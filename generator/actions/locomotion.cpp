@@ -137,6 +137,7 @@ double even_for_s(const RuleInput& in, const GaitParams& params, double lasts_s,
 GaitParams params_at(const RuleInput& in, ParamsFor params_for, const Pace& pace) {
   GaitParams params = params_for(in.legs, in.params[1], heading_rad(in), pace);
   params.lead = static_cast<int>(in.params[0]);
+  if (in.has_mass) spare_strength(params);
   return params;
 }
 

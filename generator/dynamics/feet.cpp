@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "model/core/index.h"
-#include "model/motion/kinematics.h"
 
 namespace contort {
 
@@ -12,21 +11,42 @@ namespace {
 
 constexpr double kFlat_m = 0.01;      // corners of a sole that can stand again are nearer than this,
 constexpr double kSettled_m_s = 0.5;  // and slower
-constexpr double kPlannedNear_m = 0.02;
-constexpr double kPlannedSlide_m_s = 0.1;  // feet of recorded motion do slide
-constexpr double kPlannedRise_m_s = 0.03;  // but one that rises has been lifted: to hold it would fight its own leg
-constexpr double kSoft_s = 0.15;           // a sole becomes firm within this
+constexpr double kSoft_s = 0.15;      // a sole becomes firm within this
 constexpr double kLeastFirm = 0.1;
-constexpr double kPlannedLevel = 0.97;  // cosine of 14 degrees
+constexpr double kAnkleShare = 0.9;  // of an ankle's strength that balance may take
 
-// Whether a sole of a target that moves so can stand, m/s.
-bool is_slow(const Vec3& speed, const Vec3& normal) {
-  const double rise = glm::dot(speed, normal);
-  const double slide2 = glm::dot(speed, speed) - rise * rise;
-  return std::fabs(rise) < kPlannedRise_m_s && slide2 < kPlannedSlide_m_s * kPlannedSlide_m_s;
+bool bears_on(std::uint8_t corners, std::size_t corner) { return (corners >> corner & 1) != 0; }
+
+// Points farther from the ankle than it is strong enough for come back to there, but not beyond all others.
+void draw_back(const Sole& sole, double force_N, std::span<Vec3> points) {
+  const Rigid sole_from_link = inverse(sole.link_from_sole);
+  for (Vec3& point : points) point = sole_from_link * point;
+  for (const auto& [axis, strength_N_m] : {std::pair(0, sole.tilt_N_m), std::pair(2, sole.flex_N_m)}) {
+    const double middle_m = sole.ankle_m[axis], most_m = kAnkleShare * strength_N_m / force_N;
+    double low_m = 1e9, high_m = -1e9;
+    for (const Vec3& point : points) low_m = std::min(low_m, point[axis]), high_m = std::max(high_m, point[axis]);
+    const double from_m = std::clamp(middle_m - most_m, low_m, high_m);
+    const double to_m = std::clamp(middle_m + most_m, low_m, high_m);
+    for (Vec3& point : points) point[axis] = std::clamp(point[axis], from_m, to_m);
+  }
+  for (Vec3& point : points) point = sole.link_from_sole * point;
 }
 
 }  // namespace
+
+void add_bearing_points(const Sole& sole, const Bearing& bearing, double alone_N, std::vector<Vec3>& points) {
+  const std::size_t first = points.size();
+  const std::uint8_t corners = bearing.corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!bears_on(corners, k)) continue;
+    points.push_back(sole.corners_m[k]);
+    for (const std::size_t other : {(k + 1) % 4, (k + 3) % 4}) {
+      if (bears_on(corners, other)) continue;
+      points.push_back(sole.corners_m[k] + bearing.depth * (sole.corners_m[other] - sole.corners_m[k]));
+    }
+  }
+  if (alone_N > 0.0) draw_back(sole, alone_N, std::span(points).subspan(first));
+}
 
 void Feet::begin(const DynamicFigure& figure) {
   figure_ = &figure;
@@ -34,33 +54,25 @@ void Feet::begin(const DynamicFigure& figure) {
   clear();
 }
 
-bool Feet::stands(int sole) const { return std::ranges::find(soles_, sole) != soles_.end(); }
-
-void Feet::land(int sole, const Rigid& world_from_sole) {
-  const Sole& own = figure_->soles[at(sole)];
-  soles_.push_back(sole);
-  places_.push_back({own.link, own.link_from_sole, world_from_sole});
-  mark();
-}
-
-void Feet::lift(int sole) {
-  const auto found = std::ranges::find(soles_, sole);
-  if (found == soles_.end()) return;
-  places_.erase(places_.begin() + (found - soles_.begin()));
-  soles_.erase(found);
-  mark();
+void Feet::put(int sole, const Bearing& bearing) {
+  const bool same = bearings_[at(sole)].corners == bearing.corners;
+  bearings_[at(sole)] = bearing;
+  if (!same) mark();
 }
 
 void Feet::clear() {
-  soles_.clear();
-  places_.clear();
+  bearings_.assign(figure_->soles.size(), {});
   mark();
 }
 
 void Feet::mark() {
   std::ranges::fill(by_dof_, 0);
-  for (const int sole : soles_)
-    for (const int dof : figure_->soles[at(sole)].leg_dofs) by_dof_[at(dof)] = 1;
+  soles_.clear();
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    if (bearings_[i].corners == 0) continue;
+    soles_.push_back(static_cast<int>(i));
+    for (const int dof : figure_->soles[i].leg_dofs) by_dof_[at(dof)] = 1;
+  }
 }
 
 Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics) {
@@ -92,26 +104,6 @@ bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environ
   return true;
 }
 
-std::vector<std::uint8_t> planned_stances(const Character& character, const DynamicFigure& figure,
-                                          const Environment& environment, const Motion& motion) {
-  std::vector<std::uint8_t> stances(at(motion.frame_count), 0);
-  std::vector<Rigid> world(character.joints().size());
-  std::vector<Vec3> before(figure.soles.size());
-  for (int f = 0; f < motion.frame_count; ++f) {
-    forward_kinematics(character, motion.root[at(f)], motion.row(f), world);
-    for (std::size_t i = 0; i < figure.soles.size(); ++i) {
-      const Rigid sole = world[at(figure.soles[i].link)] * figure.soles[i].link_from_sole;
-      const Surface ground = environment.nearest_ground(sole.p_m);
-      const Vec3 speed = f > 0 ? motion.rate_hz * (sole.p_m - before[i]) : Vec3(0.0);
-      const bool level = glm::dot(sole.q * Vec3(0, 1, 0), ground.normal) > kPlannedLevel;
-      if (is_slow(speed, ground.normal) && level && std::fabs(ground.distance_m) < kPlannedNear_m)
-        stances[at(f)] |= static_cast<std::uint8_t>(1U << i);
-      before[i] = sole.p_m;
-    }
-  }
-  return stances;
-}
-
 double firmness(std::span<const std::uint8_t> stances, int sole, int frame, double rate_hz) {
   const int soft = static_cast<int>(kSoft_s * rate_hz), last = static_cast<int>(stances.size()) - 1;
   int nearest = soft;  // frames to one in which it does not stand; before and after the motion it does
@@ -119,15 +111,6 @@ double firmness(std::span<const std::uint8_t> stances, int sole, int frame, doub
     for (const int f : {frame - away, frame + away})
       if (f >= 0 && f <= last && (stances[at(f)] >> sole & 1) == 0) nearest = away;
   return soft > 0 ? std::max(kLeastFirm, static_cast<double>(nearest) / soft) : 1.0;
-}
-
-void soften(const DynamicFigure& figure, std::span<const std::uint8_t> stances, int frame, double rate_hz,
-            std::span<double> firmness_squared, std::span<double> ease) {
-  for (std::size_t i = 0; i < figure.soles.size(); ++i) {
-    const double firm = firmness(stances, static_cast<int>(i), frame, rate_hz);
-    firmness_squared[i] = firm * firm;
-    for (const int dof : figure.soles[i].leg_dofs) ease[at(dof)] = 1.0 / (firm * firm);
-  }
 }
 
 }  // namespace contort

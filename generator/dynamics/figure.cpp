@@ -1,6 +1,7 @@
 #include "generator/dynamics/figure.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "generator/dynamics/control.h"
 #include "model/core/index.h"
@@ -28,6 +29,7 @@ class FigureBuilder {
   void build(DynamicFigure& figure) const {
     for (const Leg& leg : legs_) figure.soles.push_back(sole_of(leg));
     add_strengths(figure);
+    add_ankles(figure);
     add_chains(figure);
     add_groups(figure);
     add_watched(figure);
@@ -58,7 +60,8 @@ class FigureBuilder {
 
   Sole sole_of(const Leg& leg) const {
     const Socket& socket = character_.sockets()[at(leg.sole)];
-    Sole sole{socket.joint, socket.joint_from_socket, {}, {}, {}};
+    Sole sole;
+    sole.link = socket.joint, sole.link_from_sole = socket.joint_from_socket;
     const double x[] = {leg.low_m.x, leg.high_m.x}, z[] = {leg.low_m.z, leg.high_m.z};
     const Vec3 corners[] = {{x[0], 0, z[0]}, {x[0], 0, z[1]}, {x[1], 0, z[1]}, {x[1], 0, z[0]}};
     for (std::size_t i = 0; i < 4; ++i) sole.corners_m[i] = sole.link_from_sole * corners[i];
@@ -72,6 +75,23 @@ class FigureBuilder {
       figure.strength_low.insert(figure.strength_low.end(), at(link.dof_count), root ? 0.0 : own.strength_low);
       figure.fastest.insert(figure.fastest.end(), at(link.dof_count), root ? 0.0 : own.max_speed);
       figure.strength_high.insert(figure.strength_high.end(), at(link.dof_count), root ? 0.0 : own.strength_high);
+    }
+  }
+
+  void add_ankles(DynamicFigure& figure) const {
+    for (std::size_t i = 0; i < legs_.size(); ++i) {
+      Sole& sole = figure.soles[i];
+      sole.ankle_m = {legs_[i].sole_from_ankle.x, 0.0, legs_[i].sole_from_ankle.z};
+      const Quat sole_from_world = glm::conjugate(world_from_socket(character_, world_, legs_[i].sole).q);
+      for (int k = 0; k < legs_[i].ankle_count; ++k) {
+        const int j = legs_[i].ankles[at(k)];
+        const Joint& ankle = joint(j);
+        sole.ankle_dofs.push_back(figure.body.links()[at(j)].dof);
+        const double strength_N_m = std::max(ankle.strength_high, -ankle.strength_low);
+        const Vec3 axis = sole_from_world * (world_[at(j)].q * ankle.axis);
+        if (std::fabs(axis.x) > 0.7 || ankle.kind == JointKind::ball) sole.flex_N_m = strength_N_m;
+        if (std::fabs(axis.z) > 0.7 || ankle.kind == JointKind::ball) sole.tilt_N_m = strength_N_m;
+      }
     }
   }
 

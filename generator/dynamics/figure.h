@@ -26,7 +26,11 @@ Load box_load(int link, const Rigid& link_from_box, const Vec3& size_m, double m
 struct Sole {
   int link = 0;
   Rigid link_from_sole;
+  Vec3 ankle_m{0.0};                // above this point of the sole's plane, in the sole's frame
+  double flex_N_m = 1e9;            // strength of its hinges about the sole's X, which bear what is ahead or behind,
+  double tilt_N_m = 1e9;            // and about its Z, which bear what is beside
   std::array<Vec3, 4> corners_m{};  // of the footprint, in the link's frame, counter-clockwise seen from above
+  std::vector<int> ankle_dofs;      // between the leg's tip and the sole
   std::vector<int> leg_dofs;        // those of the leg and the foot, from the hip on
   std::vector<int> chain_dofs;      // all that move it but the root's, from the sole upwards
 };

@@ -1,58 +1,84 @@
-// The contacts of a figure's soles with the ground: which stand, how firmly, and what they ask of accelerations.
+// The contacts of a figure's soles with the ground: where soles are led, on which corners they bear, and what that asks
+// of accelerations.
 #pragma once
 
+#include "generator/dynamics/contact_plan.h"
 #include "generator/dynamics/equation_of_motion.h"
 #include "generator/dynamics/feet.h"
 
 namespace contort {
 
-// Follows a plan, in which bit i of a frame says whether sole i stands. Soles are numbered as the figure's.
+// Leads soles as a plan says, all of them or, after release, none.
 class FootContacts {
  public:
-  // No sole stands at first. The figure and the environment must outlive it.
-  void begin(const DynamicFigure& figure, const Environment& environment, std::vector<std::uint8_t> plan,
-             double rate_hz);
+  // No sole is led at first. The figure, the environment and the plan must outlive it.
+  void begin(const DynamicFigure& figure, const Environment& environment, const ContactPlan& plan, double rate_hz);
 
   // The plan's frame from now on.
   void begin_frame(int frame);
 
-  std::uint8_t planned(int frame) const { return plan_[static_cast<std::size_t>(frame)]; }
+  std::uint8_t planned(int frame) const { return stances_[static_cast<std::size_t>(frame)]; }
   bool has_soles() const { return !figure_->soles.empty(); }
+  int sole_count() const { return static_cast<int>(figure_->soles.size()); }
+  bool is_led() const { return is_led_; }
+  // Whether all soles stand flat in the plan, now and for a quarter of a second: then the root goes where the legs say,
+  // otherwise the legs go where the root and the soles say.
+  bool is_planted() const { return planted_[static_cast<std::size_t>(frame_)] != 0; }
 
-  // Lifts and lands soles as the plan says; one that still is 3 cm or more above the ground lands later, unless it must
-  // land at once. Answers whether any sole came or went. Needs a placed pose.
-  bool follow_plan(const DynamicsScratch& dynamics, bool at_once);
+  // Leads all soles from here on, along the plan's ways. Needs a placed pose.
+  void lead_all() { is_led_ = has_soles(); }
+  // Where soles shall be at a time in frames, and the corners on which they bear. Corners that are still above the
+  // ground bear later. Needs a placed pose.
+  void follow_plan(double frame, const DynamicsScratch& dynamics);
 
-  // Lands the planned soles that lie flat and still; answers whether any sole stands. Needs find_bias.
-  bool land_flat(const DynamicsScratch& dynamics);
+  // Leads the soles again, beginning with planned ones that lie flat and still, from where these are; answers whether
+  // there is any. Needs find_bias.
+  bool land_flat(double frame, const DynamicsScratch& dynamics);
 
-  void release() { feet_.clear(); }
+  void release();
 
-  // Finds what standing soles ask, with the equation's bias.
+  // By how much the place of a standing sole differs from the plan's: mean, m, horizontally.
+  Vec3 shift_m() const;
+
+  // Finds what led soles ask, with the equation's bias.
   void find_rows(EquationOfMotion& equation);
-  // With the rows: the nearest accelerations that keep the soles, and the nearest velocities that do not move them.
+  // The sole in the air whose leg has this freedom, -1 where it is another one's; and a smaller share of what that sole
+  // asks beyond a leg whose joints do not accelerate, against these accelerations of the others.
+  int swinging(int dof) const;
+  void ask_less(int sole, double share, std::span<const double> acceleration);
+  // With the rows: the nearest accelerations that lead the soles, and the nearest velocities with which none moves.
   void keep(std::span<double> acceleration) { project_on_support(ease_, support_, acceleration); }
   void stop(std::span<double> velocity) { stop_feet(ease_, support_, velocity); }
 
   const Feet& feet() const { return feet_; }
   SupportRows& support() { return support_; }
-  std::span<const double> firmness() const { return firmness_; }  // by sole, squared: soften in feet.h
+  std::span<const double> ease() const { return ease_; }
+  std::span<const char> led_by_dof() const { return led_by_dof_; }  // by freedom: whether it is of a led leg
+  std::span<const double> firmness() const { return firmness_; }    // by sole, squared: firmness in feet.h
 
  private:
   bool is_planned(int sole) const { return (planned(frame_) >> sole & 1) != 0; }
-  int sole_count() const { return static_cast<int>(figure_->soles.size()); }
   const Sole& sole(int index) const { return figure_->soles[static_cast<std::size_t>(index)]; }
-  void land(int index, const DynamicsScratch& dynamics);
+  void find_planted();
+  Bearing bearing(int index, const DynamicsScratch& dynamics) const;
+  LedSole led_at(int index, double frame) const;
 
   const DynamicFigure* figure_ = nullptr;
   const Environment* environment_ = nullptr;
-  std::vector<std::uint8_t> plan_;
+  const ContactPlan* plan_ = nullptr;
   double rate_hz_ = 60.0;
   int frame_ = 0;
+  bool is_led_ = false;
   Feet feet_;
+  std::vector<std::uint8_t> stances_;  // by frame
+  std::vector<char> planted_;          // by frame
+  std::vector<Rigid> offsets_;         // by sole: from the plan's places to those of this figure
+  std::vector<LedSole> led_;
+  std::vector<double> passive_, moved_;  // memory of ask_less
   SupportRows support_;
   std::vector<double> firmness_;
   std::vector<double> ease_;  // by freedom: how easily it gives way (support.h)
+  std::vector<char> led_by_dof_;
 };
 
 }  // namespace contort

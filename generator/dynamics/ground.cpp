@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "generator/dynamics/linear.h"
+#include "generator/dynamics/support_hull.h"
 #include "model/core/index.h"
 
 namespace contort {
@@ -13,28 +14,6 @@ namespace {
 
 constexpr double kMomentPrice = 100.0;  // of a squared N m against a squared N
 constexpr double kLeastShare = 0.2;     // of the weight that must press on the ground
-
-// Twice the area of a triangle seen from above, > 0 counter-clockwise (+Y is Z cross X).
-double area_above(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z);
-}
-
-// A. M. Andrew's monotone chain (1979): the hull's corners, counter-clockwise seen from above.
-void convex_hull(std::vector<Vec3>& points, std::vector<int>& hull) {
-  std::ranges::sort(points, [](const Vec3& a, const Vec3& b) { return a.z != b.z ? a.z < b.z : a.x < b.x; });
-  hull.clear();
-  const int count = static_cast<int>(points.size());
-  const auto add = [&](int next, std::size_t kept) {
-    while (hull.size() > kept &&
-           area_above(points[at(hull[hull.size() - 2])], points[at(hull.back())], points[at(next)]) <= 0.0)
-      hull.pop_back();
-    hull.push_back(next);
-  };
-  for (int i = 0; i < count; ++i) add(i, 1);
-  const std::size_t lower = hull.size();
-  for (int i = count - 1; i-- > 0;) add(i, lower);
-  if (hull.size() > 1) hull.pop_back();  // the first one again
-}
 
 // Row of the moment e . (n + (o - p) x f) in the root's entries of generalised forces: f in the world, n in its axes.
 SupportEdge edge_between(const Vec3& from_m, const Vec3& to_m, const Placement& root) {
@@ -54,13 +33,15 @@ SpatialForce ground_force(const DynamicsScratch& dynamics, std::span<const doubl
   return {dynamics.world[0].rotation * Vec3(forces[3], forces[4], forces[5]), Vec3(forces[0], forces[1], forces[2])};
 }
 
-void find_support_area(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+void find_support_area(const DynamicFigure& figure, const Feet& feet, double alone_N, const DynamicsScratch& dynamics,
                        SupportArea& area) {
   area.corners_m.clear();
-  for (const int s : standing) {
+  for (const int s : feet.soles()) {
     const Sole& sole = figure.soles[at(s)];
     const Placement& link = dynamics.world[at(sole.link)];
-    for (const Vec3& corner : sole.corners_m) area.corners_m.push_back(link.origin_m + link.rotation * corner);
+    const std::size_t first = area.corners_m.size();
+    add_bearing_points(sole, feet.bearing(s), feet.soles().size() == 1 ? alone_N : 0.0, area.corners_m);
+    for (Vec3& corner : std::span(area.corners_m).subspan(first)) corner = link.origin_m + link.rotation * corner;
   }
   convex_hull(area.corners_m, area.order);
   area.edges.clear();
@@ -99,21 +80,19 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
   return share;
 }
 
-namespace {
-
-// In the link's frame, m.
-Vec3 middle_of(const Sole& sole) {
+Vec3 GroundShare::middle_of(const Sole& sole, const Bearing& bearing) {
+  points_m_.clear();
+  add_bearing_points(sole, bearing, 0.0, points_m_);
   Vec3 middle(0.0);
-  for (const Vec3& corner : sole.corners_m) middle += 0.25 * corner;
+  for (const Vec3& point : points_m_) middle += point / static_cast<double>(points_m_.size());
   return middle;
 }
 
-}  // namespace
-
 // Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm mu / price meet sum f = F, sum n +
 // d x f = N.
-void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> standing, std::span<const double> firmness,
+void GroundShare::prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                           const DynamicsScratch& dynamics) {
+  const std::span<const int> standing = feet.soles();
   feet_.clear();
   dof_count_ = figure.body.dof_count();
   moves_.assign(standing.size() * at(dof_count_), 0);
@@ -122,7 +101,7 @@ void GroundShare::prepare(const DynamicFigure& figure, std::span<const int> stan
   for (const int s : standing) {
     const Sole& sole = figure.soles[at(s)];
     const Placement& link = dynamics.world[at(sole.link)];
-    const Vec3 d = link.origin_m + link.rotation * middle_of(sole) - dynamics.world[0].origin_m;
+    const Vec3 d = link.origin_m + link.rotation * middle_of(sole, feet.bearing(s)) - dynamics.world[0].origin_m;
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
     const double firm = firmness[at(s)];
     const Vec3 e = firm * d;

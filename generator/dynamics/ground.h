@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "generator/dynamics/dynamics.h"
+#include "generator/dynamics/feet.h"
 #include "generator/dynamics/figure.h"
 
 namespace contort {
@@ -35,8 +36,9 @@ struct SupportArea {
   std::vector<int> order;          // memory
 };
 
-// The support area of the soles that stand, by index, at the placed pose.
-void find_support_area(const DynamicFigure& figure, std::span<const int> standing, const DynamicsScratch& dynamics,
+// The support area of the soles that bear, at the placed pose. Where only one does, that on which its ankle is strong
+// enough for this force; 0 leaves strength aside.
+void find_support_area(const DynamicFigure& figure, const Feet& feet, double alone_N, const DynamicsScratch& dynamics,
                        SupportArea& area);
 
 struct Balance {
@@ -54,11 +56,11 @@ double balanced_share(const SupportArea& area, std::span<const double> hold, std
                       double margin_m);
 
 // The division of a ground force among soles: the least sum of squared forces and, a hundred times dearer, of squared
-// moments about the soles' centres. Efforts of joints above the legs do not depend on it.
+// moments about the middles of where soles bear. Efforts of joints above the legs do not depend on it.
 class GroundShare {
  public:
   // `firmness` by sole of the figure: the cost of a sole's forces is divided by it.
-  void prepare(const DynamicFigure& figure, std::span<const int> standing, std::span<const double> firmness,
+  void prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                const DynamicsScratch& dynamics);
 
   // Joint efforts that belong to generalised forces: those less what soles transmit; 0 for the root.
@@ -83,9 +85,11 @@ class GroundShare {
     Vec3 center_m{0.0};  // from the root's origin
     double firmness = 1.0;
   };
+  Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // of where it bears, in its link's frame
   SpatialForce multipliers(const SpatialForce& net) const;
   SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;
   std::vector<Foot> feet_;
+  std::vector<Vec3> points_m_;  // memory
   int dof_count_ = 0;
   std::vector<char> moves_;  // feet x freedoms: whether it moves the sole
   std::array<double, 36> factors_{};

@@ -14,12 +14,14 @@ namespace {
 class Simulation {
  public:
   Simulation(const Character& character, const DynamicsSetup& setup, const Environment& environment,
-             SimulationScratch& scratch, Motion& motion)
+             const ContactPlan& plan, const BalancePlan& balance, SimulationScratch& scratch, Motion& motion)
       : character_(character),
         setup_(setup),
         figure_(setup.figure),
         body_(setup.figure.body),
         environment_(environment),
+        plan_(plan),
+        balance_(balance),
         s_(scratch),
         state_(scratch.equation.state),
         motion_(motion),
@@ -36,7 +38,6 @@ class Simulation {
         if (blow.frame == frame_) strike(blow);
       s_.equation.place();
       s_.contacts.begin_frame(frame_);
-      if (!s_.loose.is_loose()) follow_plan(false);
       // The last frame is looked at, but not left.
       const bool last = frame_ + 1 == motion_.frame_count;
       for (int i = 0; i < (last ? 1 : setup_.ticks_per_frame); ++i) tick(i, !last);
@@ -49,14 +50,19 @@ class Simulation {
     const auto n = at(body_.dof_count());
     s_.tracked.assign(n, 0.0);
     s_.actuation.assign(n);
-    s_.contacts.begin(figure_, environment_, planned_stances(character_, figure_, environment_, motion_),
-                      motion_.rate_hz);
+    s_.contacts.begin(figure_, environment_, plan_, motion_.rate_hz);
     s_.record.begin(motion_, body_.dof_count());
     s_.equation.begin(figure_, standing_start(body_, target_));
-    s_.standing.begin(figure_, tick_s_);
+    add_start_speed();
+    s_.standing.begin(figure_, balance_, tick_s_);
     s_.loose.begin(figure_, tick_s_);
-    s_.equation.place();
-    follow_plan(true);
+    s_.contacts.lead_all();
+    is_disturbed_ = !figure_.loads.empty();
+  }
+
+  // The root of a target that was shifted begins on its way.
+  void add_start_speed() {
+    for (int k = 0; k < 3; ++k) state_.velocity[at(k)] = balance_.start_m_s[k];
   }
 
   bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
@@ -65,21 +71,6 @@ class Simulation {
     s_.contacts.release();
     s_.standing.let_go();
     s_.loose.let_go();
-  }
-
-  // Lifts and lands feet as the target does.
-  void follow_plan(bool at_once) {
-    if (!s_.contacts.follow_plan(s_.equation.dynamics, at_once)) return;
-    s_.standing.rest();
-    if (!s_.contacts.feet().none())
-      stop_feet();
-    else if (is_dynamic() && s_.contacts.has_soles())
-      let_go();
-  }
-
-  void stop_feet() {
-    s_.contacts.find_rows(s_.equation);
-    s_.contacts.stop(state_.velocity);
   }
 
   void strike(const Impact& blow) {
@@ -96,12 +87,16 @@ class Simulation {
     s_.impact.apply(s_.equation, s_.contacts, blow);
     s_.standing.rest();
     s_.loose.forget_momentum();
+    is_disturbed_ = true;
   }
 
   void tick(int index, bool moves) {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
-    track(body_, target_, frame, tick_s_, state_, s_.tracked);
+    track(body_, target_, frame, tick_s_, !s_.contacts.is_planted(), state_, s_.tracked);
+    frame_time_ = frame;
+    s_.contacts.follow_plan(frame, s_.equation.dynamics);
+    s_.standing.begin_tick(frame, is_disturbed_);
     slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, tick_s_, s_.tracked);
     if (is_dynamic())
       actuate();
@@ -142,9 +137,10 @@ class Simulation {
   // Planned soles that lie flat and still take the weight again, if it is above them.
   void try_to_stand() {
     s_.equation.find_bias();
-    if (!s_.contacts.land_flat(s_.equation.dynamics)) return;
+    if (!s_.contacts.land_flat(frame_time_, s_.equation.dynamics)) return;
     s_.velocity_before = state_.velocity;
-    stop_feet();
+    s_.contacts.find_rows(s_.equation);
+    s_.contacts.stop(state_.velocity);
     if (s_.standing.could_stand(s_.equation, s_.contacts, s_.tracked, s_.actuation)) return s_.loose.take_hold();
     state_.velocity = s_.velocity_before;
     s_.contacts.release();
@@ -171,11 +167,15 @@ class Simulation {
   const DynamicFigure& figure_;
   const Multibody& body_;
   const Environment& environment_;
+  const ContactPlan& plan_;
+  const BalancePlan& balance_;
   SimulationScratch& s_;
   FigureState& state_;
   Motion& motion_;
   TargetMotion target_;
   double tick_s_;
+  double frame_time_ = 0.0;
+  bool is_disturbed_ = false;  // something acts, or has acted, from outside
   int frame_ = 0;
 };
 
@@ -183,7 +183,9 @@ class Simulation {
 
 void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
               SimulationScratch& scratch, Motion& motion) {
-  Simulation(character, setup, environment, scratch, motion).run();
+  const ContactPlan plan(character, setup.figure, environment, motion);
+  const BalancePlan balance = make_possible(character, setup.figure, plan, motion);
+  Simulation(character, setup, environment, plan, balance, scratch, motion).run();
 }
 
 }  // namespace contort

@@ -2,23 +2,30 @@
 
 #include <algorithm>
 
+#include "generator/dynamics/linear.h"
 #include "generator/dynamics/strength.h"
+#include "generator/dynamics/support_hull.h"
 #include "model/core/index.h"
 
 namespace contort {
 
 namespace {
 
-constexpr double kEdge_m = 0.005;  // of the zero moment point from the edge, for which tracking gives way
-constexpr double kTips_m = 0.03;   // the zero moment point this far outside cannot be brought back
-constexpr double kTips_s = 0.2;    // nor one that is outside for so long
+constexpr double kEdge_m = 0.005;           // of the zero moment point from the edge, for which tracking gives way
+constexpr double kStandingPressure = 0.25;  // of the weight, on feet that stand
+constexpr int kAttempts = 6;                // to spare joints,
+constexpr int kAskedOfSwing = 2;            // the first of them by feet in the air
+constexpr double kTips_m = 0.03;            // the zero moment point this far outside cannot be brought back
+constexpr double kTips_s = 0.2;             // nor one that is outside for so long
 
 }  // namespace
 
-void Standing::begin(const DynamicFigure& figure, double tick_s) {
+void Standing::begin(const DynamicFigure& figure, const BalancePlan& plan, double tick_s) {
+  steering_.begin(plan);
   tick_s_ = tick_s;
   outside_s_ = 0.0;
   control_.begin(figure, tick_s);
+  zeros_.assign(at(figure.body.dof_count()), 0.0);
   hold_.assign(at(figure.body.dof_count()));
 }
 
@@ -28,8 +35,9 @@ void Standing::let_go() {
 }
 
 void Standing::find_ground(const EquationOfMotion& equation, const FootContacts& contacts, Actuation& actuation) {
-  find_support_area(*equation.figure, contacts.feet().soles(), equation.dynamics, area_);
-  ground_.prepare(*equation.figure, contacts.feet().soles(), contacts.firmness(), equation.dynamics);
+  find_support_area(*equation.figure, contacts.feet(), std::max(actuation.forces[1], 0.5 * equation.weight_N()),
+                    equation.dynamics, area_);
+  ground_.prepare(*equation.figure, contacts.feet(), contacts.firmness(), equation.dynamics);
   ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
 }
 
@@ -47,34 +55,117 @@ void Standing::keep(EquationOfMotion& equation, FootContacts& contacts, std::spa
 
 bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
                      Recorder& record, Actuation& actuation) {
-  keep(equation, contacts, wanted, actuation);
-  find_ground(equation, contacts, actuation);
-  control_.correct({*equation.figure, equation.dynamics, equation.mass, contacts.feet().stands_by_dof(),
-                    contacts.support(), area_, ground_, equation.weight_N(), actuation.acceleration, actuation.forces});
-  ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
-  if (needs_too_much(equation, actuation, contacts.has_soles())) hold_back(equation, contacts, record, actuation);
-  if (!contacts.has_soles()) return true;
+  contacts.find_rows(equation);
+  bool is_strong = false, can_try = true;
+  zmp_m_ = Vec3(0.0), has_zmp_ = false, spared_.clear(), asked_ = 0;
+  for (int attempt = 0; attempt < kAttempts && !is_strong && can_try; ++attempt) {
+    follow(equation, contacts, wanted, attempt == 0, actuation);
+    is_strong = !exceeds_strength(*equation.figure, actuation.efforts);
+    can_try = is_strong || relieve(equation, contacts, actuation);
+  }
+  if (!is_strong) hold_back(equation, contacts, record, actuation);
+  if (contacts.feet().none()) return true;
   const Balance reached = balance(equation, actuation.forces);
   record.balance(reached);
   outside_s_ = reached.margin_m < 0.0 ? outside_s_ + tick_s_ : 0.0;
   return reached.margin_m > -kTips_m && outside_s_ < kTips_s;
 }
 
-bool Standing::needs_too_much(const EquationOfMotion& equation, const Actuation& actuation, bool has_soles) const {
-  return (has_soles && balance(equation, actuation.forces).margin_m < kEdge_m) ||
-         exceeds_strength(*equation.figure, actuation.efforts);
+// The accelerations nearest to the wanted ones that lead the soles, ask of the ground what it can give, and spare the
+// joints that have been found to be overloaded.
+void Standing::follow(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, bool first,
+                      Actuation& actuation) {
+  std::ranges::copy(wanted, actuation.acceleration.begin());
+  contacts.keep(actuation.acceleration);
+  equation.find_forces(actuation.acceleration, actuation.forces);
+  if (first) find_ground(equation, contacts, actuation);
+  if (is_disturbed_ && first)
+    control_.correct({*equation.figure, equation.dynamics, equation.mass, contacts.led_by_dof(), contacts.support(),
+                      area_, ground_, equation.weight_N(), actuation.acceleration, actuation.forces});
+  if (is_disturbed_ && !first) {
+    add_scaled(1.0, control_.added(), actuation.acceleration);
+    equation.find_forces(actuation.acceleration, actuation.forces);
+  }
+  find_rows(equation, contacts, actuation);
+  meet(equation, contacts, actuation);
+  ground_.efforts(*equation.figure, equation.dynamics, actuation.forces, actuation.efforts);
 }
 
-// Back towards holding still, as far as joints and ground cannot give more.
+// The base's accelerations with these conditions; one more where the ground would press too little for the feet to
+// stay.
+void Standing::meet(const EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation) {
+  base_.acceleration = actuation.acceleration, base_.forces = actuation.forces;
+  if (!rows_.empty()) ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), actuation);
+  const double least_N = kStandingPressure * equation.weight_N();
+  if (contacts.feet().none() || actuation.forces[1] >= least_N) return;
+  actuation.acceleration = base_.acceleration, actuation.forces = base_.forces;
+  add_pressure_row(least_N, rows_);
+  ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), actuation);
+}
+
+// Conditions on forces: no force in flight, a zero moment point that the support area has, and joints that are spared.
+void Standing::find_rows(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation) {
+  rows_.clear();
+  if (!contacts.has_soles()) return;
+  if (contacts.feet().none()) return add_flight_rows(rows_);
+  if (!has_zmp_ && balance(equation, actuation.forces).margin_m < kEdge_m) {
+    corners_m_ = area_.corners_m;
+    zmp_m_ = nearest_inside(corners_m_, kEdge_m, steering_.zmp_m(frame_, contacts.shift_m(), equation), hull_);
+    has_zmp_ = true;
+  }
+  if (has_zmp_) add_zmp_rows(equation.dynamics.world[0], zmp_m_, rows_);
+  for (const auto& [dof, effort] : spared_) add_effort_row(ground_, equation.dynamics, dof, effort, zeros_, rows_);
+}
+
+// Whether any foot is in the air, which then comes later.
+bool Standing::ask_less_of_swing(FootContacts& contacts, double share, const Actuation& actuation) {
+  bool any = false;
+  for (int i = 0; i < contacts.sole_count(); ++i) {
+    if (contacts.feet().stands(i)) continue;
+    contacts.ask_less(i, share, actuation.acceleration);
+    any = true;
+  }
+  return any;
+}
+
+// Takes something from the joint that is overloaded most: a foot in the air comes later, and the zero moment point of a
+// foot that stands alone comes nearer to its ankle; others are spared by all that moves. Answers whether there was
+// anything to do.
+bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation) {
+  const DynamicFigure& figure = *equation.figure;
+  const Overload worst = greatest_share(figure, actuation.efforts);
+  if (const int swinging = contacts.swinging(worst.dof); swinging >= 0) {
+    contacts.ask_less(swinging, 0.8 / worst.share, actuation.acceleration);
+    return true;
+  }
+  if (++asked_ <= kAskedOfSwing && ask_less_of_swing(contacts, 0.8 / worst.share, actuation)) return true;
+  if (contacts.feet().soles().size() == 1) {
+    const Sole& sole = figure.soles[at(contacts.feet().soles()[0])];
+    if (std::ranges::find(sole.ankle_dofs, worst.dof) != sole.ankle_dofs.end()) {
+      const Vec3 ankle_m = sole_place(sole, equation.dynamics) * sole.ankle_m;
+      const Vec3 now = has_zmp_ ? zmp_m_ : balance(equation, actuation.forces).zmp_m;
+      corners_m_ = area_.corners_m;
+      zmp_m_ = nearest_inside(corners_m_, kEdge_m, ankle_m + (0.97 / worst.share) * (now - ankle_m), hull_);
+      has_zmp_ = true;
+      return true;
+    }
+  }
+  if (std::ranges::any_of(spared_, [&](const Spared& spared) { return spared.dof == worst.dof; })) return false;
+  const std::vector<double>& limits =
+      actuation.efforts[at(worst.dof)] > 0.0 ? figure.strength_high : figure.strength_low;
+  spared_.push_back({worst.dof, 0.95 * limits[at(worst.dof)]});
+  return true;
+}
+
+// Back towards holding still, as far as joints cannot give more.
 void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Recorder& record, Actuation& actuation) {
   const DynamicFigure& figure = *equation.figure;
   std::ranges::fill(hold_.acceleration, 0.0);
   contacts.keep(hold_.acceleration);
   equation.find_forces(hold_.acceleration, hold_.forces);
+  if (!rows_.empty()) ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), hold_);
   ground_.efforts(figure, equation.dynamics, hold_.forces, hold_.efforts);
-  take_back(hold_, std::min(affordable_share(figure, hold_.efforts, actuation.efforts),
-                            balanced_share(area_, hold_.forces, actuation.forces, kEdge_m)),
-            actuation);
+  take_back(hold_, affordable_share(figure, hold_.efforts, actuation.efforts), actuation);
   equation.find_forces(actuation.acceleration, actuation.forces);
   ground_.efforts(figure, equation.dynamics, actuation.forces, actuation.efforts);
   if (!exceeds_strength(figure, actuation.efforts)) return;
@@ -87,8 +178,7 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
 void Standing::give_way(EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation) {
   clamp_to_strength(*equation.figure, actuation.efforts);
   equation.find_factors();
-  for (std::size_t k = 0; k < equation.size(); ++k)
-    actuation.acceleration[k] = actuation.efforts[k] - equation.bias[k];
+  for (std::size_t k = 0; k < equation.size(); ++k) actuation.acceleration[k] = actuation.efforts[k] - equation.bias[k];
   respond(equation.body(), equation.factors, contacts.support(), contacts.support().wanted, response_,
           actuation.acceleration);
   equation.find_forces(actuation.acceleration, actuation.forces);
@@ -97,7 +187,7 @@ void Standing::give_way(EquationOfMotion& equation, FootContacts& contacts, Actu
 bool Standing::could_stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
                            Actuation& actuation) {
   keep(equation, contacts, wanted, actuation);
-  find_support_area(*equation.figure, contacts.feet().soles(), equation.dynamics, area_);
+  find_support_area(*equation.figure, contacts.feet(), 0.0, equation.dynamics, area_);
   return !(balance(equation, actuation.forces).margin_m < 0.0);
 }
 

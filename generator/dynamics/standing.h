@@ -4,14 +4,21 @@
 
 #include "generator/dynamics/control.h"
 #include "generator/dynamics/foot_contacts.h"
+#include "generator/dynamics/ground_rows.h"
 #include "generator/dynamics/impact.h"
 #include "generator/dynamics/recorder.h"
+#include "generator/dynamics/steering.h"
+#include "generator/dynamics/support_hull.h"
 
 namespace contort {
 
 class Standing {
  public:
-  void begin(const DynamicFigure& figure, double tick_s);
+  // The plan must outlive it.
+  void begin(const DynamicFigure& figure, const BalancePlan& plan, double tick_s);
+
+  // The time of a tick in frames, and whether anything acts on the figure from outside: dynamic control waits for that.
+  void begin_tick(double frame, bool is_disturbed) { frame_ = frame, is_disturbed_ = is_disturbed; }
 
   // Feet have come or gone: control forgets what it was doing.
   void rest() { control_.rest(); }
@@ -37,11 +44,34 @@ class Standing {
 
  private:
   void keep(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, Actuation& actuation);
-  bool needs_too_much(const EquationOfMotion& equation, const Actuation& actuation, bool has_soles) const;
   void hold_back(EquationOfMotion& equation, FootContacts& contacts, Recorder& record, Actuation& actuation);
   void give_way(EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation);
 
+  struct Spared {
+    int dof = 0;
+    double effort = 0.0;
+  };
+  void follow(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, bool first,
+              Actuation& actuation);
+  void meet(const EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation);
+  void find_rows(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation);
+  bool ask_less_of_swing(FootContacts& contacts, double share, const Actuation& actuation);
+  bool relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation);
+
   double tick_s_ = 0.0;
+  double frame_ = 0.0;
+  bool is_disturbed_ = false;
+  Steering steering_;
+  GroundControl ground_control_;
+  std::vector<GroundRow> rows_;  // of this tick
+  Vec3 zmp_m_{0.0};              // that they ask for
+  bool has_zmp_ = false;
+  int asked_ = 0;  // attempts of this tick that asked less of feet in the air
+  std::vector<Spared> spared_;
+  Actuation base_;               // memory
+  std::vector<Vec3> corners_m_;  // memory
+  HullScratch hull_;
+  std::vector<double> zeros_;
   double outside_s_ = 0.0;  // how long the zero moment point has been outside
   SupportArea area_;
   GroundShare ground_;

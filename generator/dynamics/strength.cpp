@@ -31,6 +31,16 @@ bool exceeds_strength(const DynamicFigure& figure, std::span<const double> effor
   return false;
 }
 
+Overload greatest_share(const DynamicFigure& figure, std::span<const double> efforts) {
+  Overload worst;
+  for (std::size_t i = kRootDofs; i < efforts.size(); ++i) {
+    const double limit = efforts[i] > 0.0 ? figure.strength_high[i] : figure.strength_low[i];
+    const double share = efforts[i] == 0.0 ? 0.0 : limit != 0.0 ? efforts[i] / limit : 1e9;
+    if (share > worst.share) worst = {static_cast<int>(i), share};
+  }
+  return worst;
+}
+
 void clamp_to_strength(const DynamicFigure& figure, std::span<double> efforts) {
   std::fill_n(efforts.begin(), kRootDofs, 0.0);
   for (std::size_t i = kRootDofs; i < efforts.size(); ++i)

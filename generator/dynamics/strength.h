@@ -16,6 +16,13 @@ double affordable_share(const DynamicFigure& figure, std::span<const double> hol
 // Whether any joint needs more than it has, by more than rounding.
 bool exceeds_strength(const DynamicFigure& figure, std::span<const double> efforts);
 
+// The freedom whose effort is the greatest share of its limit, and that share; -1 and 0 where there is no effort.
+struct Overload {
+  int dof = -1;
+  double share = 0.0;
+};
+Overload greatest_share(const DynamicFigure& figure, std::span<const double> efforts);
+
 // Every effort into its limits; 0 for the root.
 void clamp_to_strength(const DynamicFigure& figure, std::span<double> efforts);
 

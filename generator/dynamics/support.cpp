@@ -10,7 +10,7 @@ namespace contort {
 namespace {
 
 // Columns of one foot: rows [6 f, 6 f + 6).
-void add_foot(const Multibody& body, const StandingFoot& foot, const Vec3& sole_m, int first_row,
+void add_foot(const Multibody& body, const LedSole& foot, const Vec3& sole_m, int first_row,
               const DynamicsScratch& dynamics, SupportRows& support) {
   const Vec3 from_root_m = sole_m - dynamics.world[0].origin_m;
   const Link& last = body.links()[at(foot.link)];
@@ -23,20 +23,23 @@ void add_foot(const Multibody& body, const StandingFoot& foot, const Vec3& sole_
 }
 
 // Wanted accelerations: those that the present velocities cause taken back, and the springs.
-void want_to_stay(const StandingFoot& foot, const Vec3& sole_m, double frequency, const Vec3& up_m_s2,
-                  const DynamicsScratch& dynamics, double* wanted) {
+void want_to_follow(const LedSole& foot, const Vec3& sole_m, double frequency, const Vec3& up_m_s2,
+                    const DynamicsScratch& dynamics, double* wanted) {
   const Placement& link = dynamics.world[at(foot.link)];
   const SpatialMotion& v = dynamics.velocity[at(foot.link)];
   const Quat now = glm::quat_cast(Mat3(link.rotation)) * foot.link_from_sole.q;
-  const Vec3 off[2] = {sole_m - foot.world_from_sole.p_m,
-                       to_rotation_vector(now * glm::conjugate(foot.world_from_sole.q))};
-  const Vec3 speed[2] = {point_velocity(v, sole_m - dynamics.world[0].origin_m), v.angular};
+  const Rigid& wanted_pose = foot.wanted.world_from_sole;
+  const Vec3 off[2] = {sole_m - wanted_pose.p_m, to_rotation_vector(now * glm::conjugate(wanted_pose.q))};
+  const Vec3 speed[2] = {point_velocity(v, sole_m - dynamics.world[0].origin_m) - foot.wanted.linear,
+                         v.angular - foot.wanted.angular};
+  const Vec3 ahead[2] = {foot.linear_m_s2, foot.angular_rad_s2};
   // Gravity is in the accelerations as one of the world.
   const Vec3 bias[2] = {point_acceleration(dynamics, foot.link, sole_m) - up_m_s2,
                         dynamics.acceleration[at(foot.link)].angular};
   for (int r = 0; r < 6; ++r) {
     const int part = r / 3, k = r % 3;
-    wanted[r] = -bias[part][k] - 2.0 * frequency * speed[part][k] - frequency * frequency * off[part][k];
+    wanted[r] =
+        ahead[part][k] - bias[part][k] - 2.0 * frequency * speed[part][k] - frequency * frequency * off[part][k];
   }
 }
 
@@ -48,19 +51,17 @@ bool moves_a_foot(const SupportRows& support, int dof) {
 void project(std::span<const double> ease, std::span<const double> wanted, SupportRows& support, std::span<double> x) {
   const auto m = at(support.count);
   if (m == 0) return;
-  support.scratch.resize(m * m + m);
-  const std::span<double> matrix = std::span(support.scratch).first(m * m), force = std::span(support.scratch).last(m);
-  std::ranges::fill(matrix, 0.0);
+  support.scratch.resize(std::max(support.scratch.size(), m));
+  const std::span<double> force = std::span(support.scratch).first(m);
   soles_moved_by(support, x, force);
   for (std::size_t i = 0; i < m; ++i) force[i] = (wanted.empty() ? 0.0 : wanted[i]) - force[i];
-  for (const int dof : support.dofs) add_square(support.column(dof), ease[at(dof)], matrix);
-  solve_symmetric(matrix, support.count, force);
+  solve_factorised(support.project_factors, support.count, force);
   for (const int dof : support.dofs) x[at(dof)] += ease[at(dof)] * dot(support.column(dof), force);
 }
 
 }  // namespace
 
-void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std::span<const double> velocity,
+void support_rows(const Multibody& body, std::span<const LedSole> feet, std::span<const double> velocity,
                   double frequency_rad_s, double gravity_m_s2, const DynamicsScratch& dynamics, SupportRows& support) {
   support.count = 6 * static_cast<int>(feet.size());
   support.columns.assign(velocity.size() * at(support.count), 0.0);
@@ -69,7 +70,7 @@ void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std
     const Placement& link = dynamics.world[at(feet[f].link)];
     const Vec3 sole_m = link.origin_m + link.rotation * feet[f].link_from_sole.p_m;
     add_foot(body, feet[f], sole_m, static_cast<int>(6 * f), dynamics, support);
-    want_to_stay(feet[f], sole_m, frequency_rad_s, Vec3(0.0, gravity_m_s2, 0.0), dynamics, &support.wanted[6 * f]);
+    want_to_follow(feet[f], sole_m, frequency_rad_s, Vec3(0.0, gravity_m_s2, 0.0), dynamics, &support.wanted[6 * f]);
   }
   support.dofs.clear();
   for (int dof = 0; dof < body.dof_count(); ++dof)
@@ -79,6 +80,16 @@ void support_rows(const Multibody& body, std::span<const StandingFoot> feet, std
 void soles_moved_by(const SupportRows& support, std::span<const double> x, std::span<double> out) {
   std::ranges::fill(out, 0.0);
   for (const int dof : support.dofs) add_scaled(x[at(dof)], support.column(dof), out);
+}
+
+void prepare_projection(std::span<const double> ease, SupportRows& support) {
+  support.project_factors.assign(at(support.count) * at(support.count), 0.0);
+  for (const int dof : support.dofs) add_square(support.column(dof), ease[at(dof)], support.project_factors);
+  if (support.count > 0) factorise_symmetric(support.project_factors, support.count);
+}
+
+void keep_still(std::span<const double> ease, SupportRows& support, std::span<double> change) {
+  project(ease, {}, support, change);
 }
 
 void project_on_support(std::span<const double> ease, SupportRows& support, std::span<double> acceleration) {

@@ -100,6 +100,25 @@ void TargetMotion::root_at(double frame, Rigid& world_from_root, double* velocit
   world_from_root.q = quat_at(q);
 }
 
+// Second differences of the root's place and turn in a frame.
+void TargetMotion::root_bend(int frame, double* bend) const {
+  std::fill_n(bend, kRootDofs, 0.0);
+  if (frame <= 0 || frame >= frame_count_ - 1) return;
+  const int coord = coord_count_ - 7;
+  const double *before = row(frame - 1) + coord, *now = row(frame) + coord, *after = row(frame + 1) + coord;
+  for (int k = 0; k < 3; ++k) bend[k] = after[k] - 2.0 * now[k] + before[k];
+  const Quat from = glm::conjugate(quat_at(now + 3));
+  const Vec3 turn = to_rotation_vector(from * quat_at(after + 3)) + to_rotation_vector(from * quat_at(before + 3));
+  for (int k = 0; k < 3; ++k) bend[3 + k] = turn[k];
+}
+
+void TargetMotion::root_acceleration_at(double frame, double* acceleration) const {
+  const Between at = between(frame);
+  double from[kRootDofs], to[kRootDofs];
+  root_bend(at.frame, from), root_bend(at.next, to);
+  for (int k = 0; k < kRootDofs; ++k) acceleration[k] = at.per_s * at.per_s * (from[k] + at.share * (to[k] - from[k]));
+}
+
 void TargetMotion::share_knots(const std::vector<int>& links) {
   std::vector<int> all;
   for (const int link : links) all = merged_knots(all, knots(link));

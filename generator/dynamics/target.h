@@ -25,6 +25,9 @@ class TargetMotion {
   // The root, with its generalised velocity: world, then its own axes.
   void root_at(double frame, Rigid& world_from_root, double* velocity) const;
 
+  // The root's generalised acceleration at a time in frames: between those of the frames, from their neighbours.
+  void root_acceleration_at(double frame, double* acceleration) const;
+
   // Frames that control of a link heads for (tracking.h). Of a ball: of the components of its rotation against rest.
   const std::vector<int>& knots(int link) const { return knots_[static_cast<std::size_t>(link)]; }
 
@@ -41,6 +44,7 @@ class TargetMotion {
   Between between(double frame) const;
   const double* row(int frame) const { return &coords_[static_cast<std::size_t>(frame * coord_count_)]; }
   double slope(int frame, int coord) const;
+  void root_bend(int frame, double* bend) const;
   Vec3 turn_slope(int frame, int coord) const;
   std::vector<int> knots_of(const Link& link) const;
   void ball_at(int coord, const Between& at, double* coords, double* rates) const;

@@ -6,8 +6,26 @@ namespace contort {
 
 namespace {
 
+constexpr double kRootStiffness = 12.0;  // rad/s
+
 Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
 void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+// A root that legs carry along: it follows as feet do, ahead by what the target accelerates, brought back as by a
+// critically damped spring.
+void lead_root(const TargetMotion& target, double frame, const FigureState& state, std::span<double> acceleration) {
+  Rigid goal;
+  double rates[kRootDofs], ahead[kRootDofs];
+  target.root_at(frame, goal, rates);
+  target.root_acceleration_at(frame, ahead);
+  const Vec3 turn = to_rotation_vector(glm::conjugate(state.root.q) * goal.q);
+  for (int k = 0; k < kRootDofs; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double off = k < 3 ? goal.p_m[k] - state.root.p_m[k] : turn[k - 3];
+    acceleration[i] =
+        ahead[k] + 2.0 * kRootStiffness * (rates[k] - state.velocity[i]) + kRootStiffness * kRootStiffness * off;
+  }
+}
 
 void track_root(const TargetMotion& target, double then, double ahead_s, const FigureState& state,
                 std::span<double> acceleration) {
@@ -46,13 +64,15 @@ FigureState standing_start(const Multibody& body, const TargetMotion& target) {
   return state;
 }
 
-void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const FigureState& state,
-           std::span<double> acceleration) {
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, bool leads,
+           const FigureState& state, std::span<double> acceleration) {
   for (std::size_t i = 0; i < body.links().size(); ++i) {
     const Link& link = body.links()[i];
     const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
     const double then = frame + target.rate_hz() * ahead_s;
-    if (link.kind == JointKind::root)
+    if (link.kind == JointKind::root && leads)
+      lead_root(target, frame, state, acceleration);
+    else if (link.kind == JointKind::root)
       track_root(target, then, ahead_s, state, acceleration);
     else
       track_joint(link, target, then, ahead_s, state, &acceleration[static_cast<std::size_t>(link.dof)]);

@@ -18,8 +18,10 @@ struct FigureState {
 FigureState standing_start(const Multibody& body, const TargetMotion& target);
 
 // The accelerations of all freedoms at a time in frames, each joint by itself; tick_s is the time until the next call.
-void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const FigureState& state,
-           std::span<double> acceleration);
+// A root that leads follows its own way closely, and the legs will have to come along; otherwise it is tracked as
+// joints are.
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, bool leads,
+           const FigureState& state, std::span<double> acceleration);
 
 // Semi-implicit Euler: velocities first, then poses with them.
 void advance(const Multibody& body, std::span<const double> acceleration, double tick_s, FigureState& state);

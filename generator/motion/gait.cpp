@@ -117,10 +117,13 @@ Rigid Gait::course(const GaitParams& params, const GaitTiming& timing, double ti
           world_from_start_.p_m + curve + straight_m * direction(params, turned_rad)};
 }
 
-// A foothold without care for the other feet: the home place under the course in the middle of the stance.
+// A foothold without care for the other feet: the home place under the course in the middle of the stance, behind it
+// while the figure gets faster and ahead while it gets slower, or it would tip.
 Rigid Gait::nominal(const GaitParams& params, const GaitTiming& timing, const Leg& leg, int step) const {
   if (timing.lifted_s(leg, step - 1) < 0.0) return first_soles_[static_cast<std::size_t>(&leg - legs_.data())];
-  const Rigid at = course(params, timing, timing.middle_s(leg, step));
+  const double middle_s = timing.middle_s(leg, step);
+  Rigid at = course(params, timing, middle_s);
+  at.p_m -= timing.leads_m(middle_s) * direction(params, timing.turn_rad() * timing.turned(middle_s));
   return {at.q, home_of(leg, at)};
 }
 

@@ -18,6 +18,8 @@ struct GaitParams {
   double under = 0.5;        // (0, 1): of the stance, when the hips have come over the foot
   int lead = 0;              // the side that stands when it begins: 0 left, 1 right
   bool trot = false;         // run: legs cross-wise together; else rows one after another
+  double acceleration_m_s2 = 2.2;  // of the root on average, from rest to its speed and back
+  double leads = 0.0;        // [0, 1]: by how much of what a pendulum would ask the hips are ahead of the feet meanwhile
   double lift_m = 0.08;      // of a swinging foot, at least
   double lower_m = 0.0;      // the root below its height at rest
   double bounce_m = 0.0;     // of the root, twice in a cycle: up between the feet (run), or down there where < 0 (walk)
@@ -45,6 +47,10 @@ struct Pace {
 // to be made sideways or backward.
 GaitParams walk_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
 GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double heading_rad, const Pace& pace = {});
+
+// Makes a gait one that strength and balance allow: it starts and stops slowly, with feet behind and ahead of the hips
+// meanwhile, and feet in the air get faster and slower over all of their way.
+void spare_strength(GaitParams& params);
 
 // Steps on the spot while the body turns, to the left where `turn_rad` > 0. `pace`, in (0, 1]: a share of the usual cadence.
 GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace);

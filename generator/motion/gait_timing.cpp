@@ -7,7 +7,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kMostAcceleration_m_s2 = 2.2;  // on average, from rest to full speed
+constexpr double kBodyHeight = 1.08;  // of the centre of mass, in legs
 
 // The integral of a speed that rises along 3u^2 - 2u^3 to 1 within ramp_s.
 double ramped_s(double time_s, double ramp_s) {
@@ -36,11 +36,12 @@ GaitTiming::GaitTiming(const GaitParams& params, std::span<const Leg> legs, doub
   const double half_stance_s = 0.5 * params.duty * params.cycle_s;
   const double wanted_s = std::sqrt(lift_s * lift_s * lift_s / half_stance_s);
   // Friction and balance bound how quickly a figure gets faster or slower.
-  const double ramp_s = std::max(0.6 * params.cycle_s, params.speed_m_s / kMostAcceleration_m_s2);
+  const double ramp_s = std::max(0.6 * params.cycle_s, params.speed_m_s / params.acceleration_m_s2);
   up_s_ = std::min(std::max(wanted_s, ramp_s), 0.6 * moving_s_);
   down_s_ = std::min(ramp_s, moving_s_ - up_s_);
   const double hurry = wanted_s / std::max(up_s_, 1e-9);  // above 1 on a way too short for the speed
   if (hurry > 1.0) speed_m_s_ /= hurry * hurry;
+  pendulum_s2_ = params.leads * kBodyHeight * least_length_m(legs) / 9.81;
   // Feet turn with the body, step by step.
   const double most_rad_s = params.turn_of_cycle_rad / params.cycle_s;
   turn_s_ = params.turn_rad == 0.0 ? 0.0 : std::min(moving_s_, std::fabs(params.turn_rad) / most_rad_s + turn_ramp_s());
@@ -92,6 +93,11 @@ double GaitTiming::speed_m_s(double time_s) const {
   const double rise = up_s_ > 0.0 ? ramp(std::min(1.0, time_s / up_s_)) : 1.0;
   const double fall = down_s_ > 0.0 ? ramp(std::min(1.0, (moving_s_ - time_s) / down_s_)) : 1.0;
   return speed_m_s_ * std::min(rise, fall);
+}
+
+double GaitTiming::leads_m(double time_s) const {
+  const double quarter_s = 0.25 * params_.cycle_s;
+  return pendulum_s2_ * (speed_m_s(time_s + quarter_s) - speed_m_s(time_s - quarter_s)) / (2.0 * quarter_s);
 }
 
 double GaitTiming::turned(double time_s) const {

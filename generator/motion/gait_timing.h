@@ -31,6 +31,10 @@ class GaitTiming {
   // The root's way. It ends a cycle early, so that every foot has the time to come home.
   double travelled_m(double time_s) const;
 
+  // By how much the hips are ahead of where they would balance over a foot, while they get faster (< 0: slower): that of
+  // a linear inverted pendulum, acceleration * height / g, on average over half a cycle.
+  double leads_m(double time_s) const;
+
   // The root's speed, and the share of the body's turn that is made, [0, 1].
   double speed_m_s(double time_s) const;
   double turned(double time_s) const;
@@ -49,6 +53,7 @@ class GaitTiming {
   int rows_ = 1;
   double speed_m_s_ = 0.0;
   double moving_s_ = 0.0;  // then the root stands again
+  double pendulum_s2_ = 0.0;  // height / g, as far as hips lead
   double up_s_ = 0.0;      // for which its speed rises
   double down_s_ = 0.0;    // and falls
   double turn_rad_ = 0.0;

@@ -27,7 +27,8 @@ class Tick {
   explicit Tick(std::uint64_t seed, double load_kg = 8.0) {
     const Character& character = fixtures::human();
     Spec spec;
-    spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 60, {{"share", 0.25}, {"lean_deg", 35.0}, {"back_m", 0.15}})})};
+    spec.sequences = {
+        fixtures::sequence({use("squat", "waist", 0, 60, {{"share", 0.25}, {"lean_deg", 35.0}, {"back_m", 0.15}})})};
     const Stage stage = *build_stage(spec, fixtures::shared_human());
     std::vector<Load> loads;
     if (load_kg > 0.0)
@@ -56,6 +57,7 @@ class Tick {
   SupportArea area;
   GroundShare ground;
   Feet feet;
+  std::vector<LedSole> led;
   std::vector<double> mass, bias, acceleration, forces, ease;
 
  private:
@@ -66,7 +68,11 @@ class Tick {
     std::fill_n(ease.begin(), kRootDofs, 1e3);
     place(figure.body, state.root, state.coords, dynamics);
     feet.begin(figure);
-    for (int i = 0; i < 2; ++i) feet.land(i, sole_place(figure.soles[static_cast<std::size_t>(i)], dynamics));
+    for (int i = 0; i < 2; ++i) {
+      const Sole& sole = figure.soles[static_cast<std::size_t>(i)];
+      feet.put(i, {0xF, 1.0});
+      led.push_back({sole.link, sole.link_from_sole, {sole_place(sole, dynamics)}});
+    }
     find_rows();
     stop_feet(ease, support, state.velocity);
     find_rows();
@@ -75,15 +81,16 @@ class Tick {
     mass_matrix(figure.body, dynamics, mass);
     multiply(mass, acceleration, forces);
     for (std::size_t k = 0; k < n; ++k) forces[k] += bias[k];
-    find_support_area(figure, feet.soles(), dynamics, area);
+    find_support_area(figure, feet, 0.0, dynamics, area);
     const std::vector<double> firm(figure.soles.size(), 1.0);
-    ground.prepare(figure, feet.soles(), firm, dynamics);
+    ground.prepare(figure, feet, firm, dynamics);
   }
 
   void find_rows() {
     const std::vector<double> none(size(), 0.0);
     inverse_dynamics(figure.body, state.velocity, none, kGravity_m_s2, dynamics, bias);
-    support_rows(figure.body, feet.places(), state.velocity, 15.0, kGravity_m_s2, dynamics, support);
+    support_rows(figure.body, led, state.velocity, 15.0, kGravity_m_s2, dynamics, support);
+    prepare_projection(ease, support);
   }
 };
 

@@ -12,14 +12,30 @@ namespace {
 
 const Environment kLevelGround;
 
-// Both soles are planned in frames 0 and 1, only sole 0 in frame 2, none in frame 3.
+constexpr double kContactTick_s = 1.0 / 120.0;
+
+// Both soles stand in frames 0 and 1, only sole 0 in frame 2, none in frame 3.
+Motion lifting_feet(const Stage& stage) {
+  Motion motion = generate(stage);
+  const Rigid root = motion.root[0];
+  const std::vector<double> rest(motion.row(0).begin(), motion.row(0).end());
+  motion.frame_count = 4;
+  motion.root.assign(4, root);
+  motion.coords.clear();
+  for (int f = 0; f < 4; ++f) motion.coords.insert(motion.coords.end(), rest.begin(), rest.end());
+  motion.row(2)[static_cast<std::size_t>(fixtures::joint(fixtures::human(), "leg_right/knee").coord)] += 1.0;
+  motion.root[3].p_m.y += 0.2;
+  return motion;
+}
+
 struct StandingHuman {
   StandingHuman() {
     stage = fixtures::stage_of({});
     figure = build_figure(fixtures::human(), stage.legs, {});
     const TargetMotion target(figure.body, generate(stage));
     equation.begin(figure, standing_start(figure.body, target));
-    contacts.begin(figure, kLevelGround, {3, 3, 1, 0}, 60.0);
+    plan = ContactPlan(fixtures::human(), figure, kLevelGround, lifting_feet(stage));
+    contacts.begin(figure, kLevelGround, plan, 60.0);
     place();
   }
   void place() {
@@ -27,11 +43,16 @@ struct StandingHuman {
     equation.find_mass();
     equation.find_factors();
   }
+  void follow(int frame) {
+    contacts.begin_frame(frame);
+    contacts.follow_plan(frame, equation.dynamics);
+  }
   void land() {
-    contacts.follow_plan(equation.dynamics, true);
+    contacts.lead_all();
+    follow(0);
     contacts.find_rows(equation);
   }
-  // The greatest speed of a standing sole, of what its rows ask for.
+  // The greatest speed of a led sole, of what its rows ask for.
   double sole_speed() {
     std::vector<double> speeds(static_cast<std::size_t>(contacts.support().count));
     soles_moved_by(contacts.support(), equation.state.velocity, speeds);
@@ -46,6 +67,7 @@ struct StandingHuman {
   Stage stage;
   DynamicFigure figure;
   EquationOfMotion equation;
+  ContactPlan plan;
   FootContacts contacts;
 };
 
@@ -56,27 +78,51 @@ Impact blow_on(const char* joint_name, const Vec3& impulse_N_s) {
 
 TEST(FootContacts, SolesComeAndGoAsPlanned) {
   StandingHuman human;
-  EXPECT_TRUE(human.contacts.feet().none());
-  EXPECT_TRUE(human.contacts.follow_plan(human.equation.dynamics, false));
-  EXPECT_EQ(human.contacts.feet().soles().size(), 2u);
-  human.contacts.begin_frame(1);
-  EXPECT_FALSE(human.contacts.follow_plan(human.equation.dynamics, false));
-  human.contacts.begin_frame(2);
-  EXPECT_TRUE(human.contacts.follow_plan(human.equation.dynamics, false));
+  human.follow(0);
+  EXPECT_TRUE(human.contacts.feet().none()) << "nothing is led yet";
+  human.contacts.lead_all();
+  for (const int frame : {0, 1}) {
+    human.follow(frame);
+    EXPECT_EQ(human.contacts.feet().soles().size(), 2u) << frame;
+  }
+  human.follow(2);
   ASSERT_EQ(human.contacts.feet().soles().size(), 1u);
   EXPECT_EQ(human.contacts.feet().soles()[0], 0);
-  human.contacts.begin_frame(3);
-  EXPECT_TRUE(human.contacts.follow_plan(human.equation.dynamics, false));
+  human.follow(3);
+  EXPECT_TRUE(human.contacts.feet().none());
+  human.follow(0);
+  human.contacts.release();
   EXPECT_TRUE(human.contacts.feet().none());
 }
 
-TEST(FootContacts, ASoleThatIsHighLandsOnlyWhereItMustAtOnce) {
+TEST(FootContacts, ASoleThatIsHighBearsNothingYet) {
   StandingHuman human;
+  human.contacts.lead_all();
   human.equation.state.root.p_m.y += 0.05;
   human.place();
-  EXPECT_FALSE(human.contacts.follow_plan(human.equation.dynamics, false));
-  EXPECT_TRUE(human.contacts.follow_plan(human.equation.dynamics, true));
-  EXPECT_NEAR(human.contacts.feet().places()[0].world_from_sole.p_m.y, 0.0, 1e-12);  // on the ground
+  human.follow(0);
+  EXPECT_TRUE(human.contacts.feet().none());
+}
+
+TEST(FootContacts, ASoleInTheAirIsLedAsInThePlan) {
+  StandingHuman human;
+  human.contacts.lead_all();
+  human.follow(2);
+  human.contacts.find_rows(human.equation);
+  EXPECT_EQ(human.contacts.support().count, 12);
+  EXPECT_EQ(human.contacts.swinging(human.figure.soles[1].leg_dofs[0]), 1);
+  EXPECT_EQ(human.contacts.swinging(human.figure.soles[0].leg_dofs[0]), -1);
+}
+
+TEST(ContactPlan, BetweenFramesASolePassesThroughBothWithoutAJump) {
+  StandingHuman human;
+  const SoleMotion before = human.plan.sole_at(2.0 - 1e-9, 1), after = human.plan.sole_at(2.0 + 1e-9, 1);
+  EXPECT_LT(length(before.world_from_sole.p_m - human.plan.sole(2, 1).p_m), 1e-7);
+  EXPECT_LT(length(before.linear - after.linear), 1e-5);
+  EXPECT_LT(length(before.angular - after.angular), 1e-5);
+  const double h = 1e-6;
+  const SoleMotion a = human.plan.sole_at(1.5, 1), b = human.plan.sole_at(1.5 + h, 1);
+  EXPECT_LT(length((b.world_from_sole.p_m - a.world_from_sole.p_m) / (h / 60.0) - a.linear), 1e-3);
 }
 
 TEST(FootContacts, ASoleIsLessFirmBeforeItIsLifted) {
@@ -89,10 +135,10 @@ TEST(FootContacts, OnlySolesThatLieStillLandByThemselves) {
   StandingHuman human;
   human.equation.state.velocity[1] = 1.0;  // upwards, m/s
   human.equation.find_bias();
-  EXPECT_FALSE(human.contacts.land_flat(human.equation.dynamics));
+  EXPECT_FALSE(human.contacts.land_flat(0.0, human.equation.dynamics));
   human.equation.state.velocity[1] = 0.0;
   human.equation.find_bias();
-  EXPECT_TRUE(human.contacts.land_flat(human.equation.dynamics));
+  EXPECT_TRUE(human.contacts.land_flat(0.0, human.equation.dynamics));
 }
 
 TEST(FootContacts, StoppedSolesDoNotMove) {
@@ -140,12 +186,11 @@ TEST(ImpactResponse, AFreeFigureTakesAllOfTheImpulse) {
 }
 
 TEST(LooseMotion, AFigureInTheAirFallsWithGravityAndTouchesNothing) {
-  constexpr double kTick_s = 1.0 / 120.0;
   StandingHuman human;
   human.equation.state.root.p_m.y += 1.0;
   human.place();
   LooseMotion loose;
-  loose.begin(human.figure, kTick_s);
+  loose.begin(human.figure, kContactTick_s);
   EXPECT_FALSE(loose.is_loose());
   loose.let_go();
   EXPECT_TRUE(loose.is_loose());
@@ -155,7 +200,7 @@ TEST(LooseMotion, AFigureInTheAirFallsWithGravityAndTouchesNothing) {
   EXPECT_NEAR(actuation.acceleration[1], -kGravity_m_s2, 1e-9);
   const std::vector<TouchPoint> touches = touch_points(fixtures::human(), human.figure);
   loose.move(human.equation, touches, kLevelGround, human.momentum());
-  EXPECT_NEAR(human.momentum().force.y, -human.equation.weight_N() * kTick_s, 1e-9);
+  EXPECT_NEAR(human.momentum().force.y, -human.equation.weight_N() * kContactTick_s, 1e-9);
   const Quat upright = human.equation.state.root.q;
   EXPECT_EQ(loose.footing(upright, upright), Footing::airborne);
   EXPECT_EQ(loose.footing(axis_angle({1, 0, 0}, 1.2) * upright, upright), Footing::fallen);

@@ -8,8 +8,8 @@
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/tracker.h"
 #include "generator/generate.h"
-#include "model/motion/legs.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/legs.h"
 #include "tests/dynamics/states.h"
 #include "tests/generator/scenes_of_one.h"
 
@@ -44,11 +44,11 @@ TEST(Support, DependentRowsGiveNoInfinity) {
   EXPECT_NEAR(4 * x[0] + 4 * x[1] + 2 * x[2], 4.0, 1e-6);
 }
 
-std::vector<StandingFoot> feet_of(const Character& character, std::span<const Rigid> world) {
-  std::vector<StandingFoot> feet;
+std::vector<LedSole> feet_of(const Character& character, std::span<const Rigid> world) {
+  std::vector<LedSole> feet;
   for (const Leg& leg : find_legs(character)) {
     const Socket& sole = character.sockets()[static_cast<std::size_t>(leg.sole)];
-    feet.push_back({sole.joint, sole.joint_from_socket, world_from_socket(character, world, leg.sole)});
+    feet.push_back({sole.joint, sole.joint_from_socket, {world_from_socket(character, world, leg.sole)}});
   }
   return feet;
 }
@@ -72,6 +72,7 @@ TEST(Support, ProjectedAccelerationsKeepTheFeet) {
       std::vector<double> acceleration = state.acceleration;
       std::vector<double> ease(acceleration.size(), 1.0);
       std::fill_n(ease.begin(), kRootDofs, 1e3);
+      prepare_projection(ease, support);
       project_on_support(ease, support, acceleration);
       std::vector<double> met(support.wanted.size());
       soles_moved_by(support, acceleration, met);
@@ -91,7 +92,8 @@ Stage squat() {
   Spec spec;
   spec.rate_hz = 30.0;
   spec.hold_frames = 30;
-  spec.sequences = {fixtures::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}, {"lean_deg", 25.0}, {"back_m", 0.12}})})};
+  spec.sequences = {
+      fixtures::sequence({use("squat", "waist", 0, 45, {{"share", 0.3}, {"lean_deg", 25.0}, {"back_m", 0.12}})})};
   const Result<Stage> stage = build_stage(spec, stock_library());
   EXPECT_TRUE(stage.ok());
   return *stage;
@@ -127,13 +129,14 @@ class Squat {
     Tracked out;
     std::vector<double> acceleration(state_.velocity.size());
     for (int i = 0; i < target_.last_frame() * ticks_; ++i) {
-      track(body_, target_, static_cast<double>(i) / ticks_, tick_s_, state_, acceleration);
+      track(body_, target_, static_cast<double>(i) / ticks_, tick_s_, false, state_, acceleration);
       place(body_, state_.root, state_.coords, scratch_);
       std::vector<double> none(state_.velocity.size(), 0.0), forces(state_.velocity.size());
       inverse_dynamics(body_, state_.velocity, none, 0.0, scratch_, forces);
       support_rows(body_, feet_, state_.velocity, 15.0, 0.0, scratch_, support_);
       std::vector<double> ease(acceleration.size(), 1.0);
       std::fill_n(ease.begin(), kRootDofs, 1e3);
+      prepare_projection(ease, support_);
       project_on_support(ease, support_, acceleration);
       advance(body_, acceleration, tick_s_, state_);
       measure(static_cast<double>(i + 1) / ticks_, out);
@@ -146,9 +149,9 @@ class Squat {
 
   void measure(double frame, Tracked& out) {
     place_all();
-    for (const StandingFoot& foot : feet_) {
+    for (const LedSole& foot : feet_) {
       const Rigid now = world_[static_cast<std::size_t>(foot.link)] * foot.link_from_sole;
-      out.drift_m = std::max(out.drift_m, length(now.p_m - foot.world_from_sole.p_m));
+      out.drift_m = std::max(out.drift_m, length(now.p_m - foot.wanted.world_from_sole.p_m));
     }
     for (const Link& link : body_.links().subspan(1)) {
       double goal[4], rates[3];
@@ -166,7 +169,7 @@ class Squat {
   double tick_s_;
   FigureState state_;
   std::vector<Rigid> world_;
-  std::vector<StandingFoot> feet_;
+  std::vector<LedSole> feet_;
   DynamicsScratch scratch_;
   SupportRows support_;
 };

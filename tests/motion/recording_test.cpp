@@ -113,7 +113,8 @@ TEST(Recording, DynamicsFollowsItAsItFollowsActions) {
   for (std::size_t f = 0; f < motion.root.size(); ++f) {
     EXPECT_EQ(motion.response.stances[f].footing, Footing::standing);
     EXPECT_LT(glm::length(motion.root[f].p_m - motion.response.target_root[f].p_m), 0.02) << f;
-    EXPECT_LT(glm::length(motion.response.target_root[f].p_m - t.original.root[f].p_m), 1e-5) << f;
+    // The target is the recording, moved as far as balance asks.
+    EXPECT_LT(glm::length(motion.response.target_root[f].p_m - t.original.root[f].p_m), 0.02) << f;
     lowest_m = std::min(lowest_m, motion.root[f].p_m.y);
   }
   EXPECT_LT(lowest_m, motion.root[0].p_m.y - 0.05);  // it did go down

@@ -1,0 +1,46 @@
+// The feet of a target motion: where its soles are in each frame, and which of their corners bear. A foot that rolls
+// over its heel or its toes bears on two corners.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/feet.h"
+#include "generator/dynamics/support.h"
+#include "model/motion/motion.h"
+#include "model/world/environment.h"
+
+namespace contort {
+
+class ContactPlan {
+ public:
+  ContactPlan() = default;
+  ContactPlan(const Character& character, const DynamicFigure& figure, const Environment& environment,
+              const Motion& motion);
+
+  int frame_count() const { return frame_count_; }
+  // A sole bears on the corners that are near the ground and keep their place, and from there as far as it is less than
+  // 2 cm above the ground.
+  const Bearing& bearing(int frame, int sole) const { return bearings_[index(frame, sole)]; }
+  // Bit i: sole i bears on any corner.
+  std::uint8_t standing(int frame) const;
+  const Rigid& sole(int frame, int sole) const { return soles_[index(frame, sole)]; }
+  // At a time in frames, between frames by cubics; before the first frame and after the last one it rests.
+  SoleMotion sole_at(double frame, int sole) const;
+  // m/s^2, rad/s^2, world axes: between those of the frames, from their neighbours.
+  void acceleration_at(double frame, int sole, Vec3& linear, Vec3& angular) const;
+
+ private:
+  std::size_t index(int frame, int sole) const { return static_cast<std::size_t>(frame * sole_count_ + sole); }
+  SoleMotion slope(int frame, int sole) const;
+  SoleMotion bend(int frame, int sole) const;
+
+  double rate_hz_ = 60.0;
+  int frame_count_ = 0;
+  int sole_count_ = 0;
+  std::vector<Bearing> bearings_;  // frames x soles
+  std::vector<Rigid> soles_;       // frames x soles
+};
+
+}  // namespace contort

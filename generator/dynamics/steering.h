@@ -1,0 +1,28 @@
+// Where the ground's force should act so that a figure's centre of mass goes where its target's goes. The capture point
+// c + c' / w, w = sqrt(g / h), runs away from the zero moment point at the rate w; put behind it by more than the
+// target's is, the point is led back (J. Pratt et al., "Capture point", Humanoids 2006; J. Englsberger et al.,
+// "Three-dimensional bipedal walking control based on divergent component of motion", 2015).
+#pragma once
+
+#include "generator/dynamics/equation_of_motion.h"
+#include "generator/dynamics/possible.h"
+
+namespace contort {
+
+class Steering {
+ public:
+  // The plan must outlive it.
+  void begin(const BalancePlan& plan) { plan_ = &plan; }
+
+  // The wanted zero moment point, at a time in frames, on a target that is shifted on the ground; not bounded by any
+  // support. Needs find_mass.
+  Vec3 zmp_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const;
+
+  // By how much the capture point is ahead of the target's, m, horizontally.
+  Vec3 ahead_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const;
+
+ private:
+  const BalancePlan* plan_ = nullptr;
+};
+
+}  // namespace contort
