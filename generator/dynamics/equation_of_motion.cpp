@@ -7,8 +7,7 @@ namespace contort {
 
 void take_back(const Actuation& hold, double share, Actuation& actuation) {
   for (std::size_t k = 0; k < hold.acceleration.size(); ++k)
-    actuation.acceleration[k] =
-        hold.acceleration[k] + share * (actuation.acceleration[k] - hold.acceleration[k]);
+    actuation.acceleration[k] = hold.acceleration[k] + share * (actuation.acceleration[k] - hold.acceleration[k]);
 }
 
 void EquationOfMotion::begin(const DynamicFigure& of, const FigureState& start) {
@@ -23,9 +22,7 @@ void EquationOfMotion::begin(const DynamicFigure& of, const FigureState& start) 
 
 void EquationOfMotion::place() { contort::place(body(), state.root, state.coords, dynamics); }
 
-void EquationOfMotion::find_bias() {
-  inverse_dynamics(body(), state.velocity, still, kGravity_m_s2, dynamics, bias);
-}
+void EquationOfMotion::find_bias() { inverse_dynamics(body(), state.velocity, still, kGravity_m_s2, dynamics, bias); }
 
 void EquationOfMotion::find_mass() { mass_matrix(body(), dynamics, mass); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/dynamics/linear.h"
 #include "model/core/index.h"
 
 namespace contort {
@@ -121,6 +122,15 @@ Vec3 FootContacts::shift_m() const {
   }
   sum.y = 0.0;
   return feet_.none() ? sum : sum / static_cast<double>(feet_.soles().size());
+}
+
+void FootContacts::stop(EquationOfMotion& equation) {
+  std::vector<double>& wanted = support_.wanted;
+  soles_moved_by(support_, equation.state.velocity, wanted);
+  for (double& speed : wanted) speed = -speed;
+  change_.assign(equation.size(), 0.0);
+  respond(equation.body(), equation.factors, support_, wanted, response_, change_);
+  add_scaled(1.0, change_, equation.state.velocity);
 }
 
 int FootContacts::swinging(int dof) const {

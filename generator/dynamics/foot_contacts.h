@@ -5,6 +5,7 @@
 #include "generator/dynamics/contact_plan.h"
 #include "generator/dynamics/equation_of_motion.h"
 #include "generator/dynamics/feet.h"
+#include "generator/dynamics/impact.h"
 
 namespace contort {
 
@@ -46,9 +47,10 @@ class FootContacts {
   // asks beyond a leg whose joints do not accelerate, against these accelerations of the others.
   int swinging(int dof) const;
   void ask_less(int sole, double share, std::span<const double> acceleration);
-  // With the rows: the nearest accelerations that lead the soles, and the nearest velocities with which none moves.
+  // With the rows: the nearest accelerations that lead the soles.
   void keep(std::span<double> acceleration) { project_on_support(ease_, support_, acceleration); }
-  void stop(std::span<double> velocity) { stop_feet(ease_, support_, velocity); }
+  // With the rows: stops all soles by impulses of the ground. Needs find_mass and find_factors.
+  void stop(EquationOfMotion& equation);
 
   const Feet& feet() const { return feet_; }
   SupportRows& support() { return support_; }
@@ -76,6 +78,8 @@ class FootContacts {
   std::vector<LedSole> led_;
   std::vector<double> passive_, moved_;  // memory of ask_less
   SupportRows support_;
+  ResponseScratch response_;
+  std::vector<double> change_;  // memory of stop
   std::vector<double> firmness_;
   std::vector<double> ease_;  // by freedom: how easily it gives way (support.h)
   std::vector<char> led_by_dof_;

@@ -34,8 +34,8 @@ void add_impulse(const Multibody& body, const DynamicsScratch& dynamics, const I
                  std::span<double> impulse);
 
 // Takes a change of velocity back towards that of a stiff figure, as far as a joint would be faster than it can be
-// (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the impact, and so does what
-// lies between them.
+// (`fastest` by freedom; the root's is not looked at): people brace. Both keep the momentum of the impact, and so does
+// what lies between them.
 void brace(std::span<const double> velocity, std::span<const double> stiff, std::span<const double> fastest,
            std::span<double> change);
 

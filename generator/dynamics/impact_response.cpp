@@ -1,46 +1,86 @@
 #include "generator/dynamics/impact_response.h"
 
+#include <algorithm>
+
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/loose.h"
+#include "model/core/index.h"
 
 namespace contort {
 
 namespace {
 
-constexpr double kImpact_s = 0.02;  // how long an impact lasts: a foot holds what the weight presses on it in that time
+constexpr double kImpact_s = 0.05;  // for which a blow lasts: the weight presses on soles meanwhile
 
 }  // namespace
 
-void ImpactResponse::find(EquationOfMotion& equation, FootContacts& contacts, const Impact& impact) {
-  contacts.find_rows(equation);
-  change_.assign(equation.size(), 0.0);
-  add_impulse(equation.body(), equation.dynamics, impact, change_);
-  SupportRows& support = contacts.support();
-  soles_moved_by(support, equation.state.velocity, support.wanted);
-  for (double& speed : support.wanted) speed = -speed;
-  respond(equation.body(), equation.factors, support, support.wanted, response_, change_);
+// Soles keep the velocities that they have: a sole that rolls goes on rolling.
+void ImpactResponse::add_soles(const EquationOfMotion& equation, const FootContacts& contacts,
+                               const Environment& environment) {
+  const DynamicFigure& figure = *equation.figure;
+  std::size_t count = 0;
+  for (const int s : contacts.feet().soles()) {
+    points_m_.clear();
+    add_bearing_points(figure.soles[at(s)], contacts.feet().bearing(s), 0.0, points_m_);
+    count += points_m_.size();
+  }
+  for (const int s : contacts.feet().soles()) {
+    const Sole& sole = figure.soles[at(s)];
+    const Placement& link = equation.dynamics.world[at(sole.link)];
+    points_m_.clear();
+    add_bearing_points(sole, contacts.feet().bearing(s), 0.0, points_m_);
+    for (const Vec3& point : points_m_) {
+      const Vec3 place = link.origin_m + link.rotation * point;
+      solver_.add_touch({sole.link, place - equation.dynamics.world[0].origin_m,
+                         environment.nearest_ground(place).normal, 0.0,
+                         equation.weight_N() * kImpact_s / static_cast<double>(count), true});
+    }
+  }
 }
 
-bool ImpactResponse::pulls_a_foot(const EquationOfMotion& equation, const FootContacts& contacts) const {
-  const std::size_t feet = contacts.feet().soles().size();
-  for (std::size_t i = 0; i < feet; ++i)
-    if (response_.push[6 * i + 1] < -equation.weight_N() * kImpact_s / static_cast<double>(feet)) return true;
-  return false;
+// The change of the velocities that the impulse makes, and the ground with it.
+void ImpactResponse::answer(const EquationOfMotion& equation, const FootContacts& contacts,
+                            const Environment& environment, bool is_stiff, std::vector<double>& change) {
+  change.assign(equation.size(), 0.0);
+  if (is_stiff) {
+    std::vector<double>& taken = velocity_;
+    taken.assign(impulse_.begin(), impulse_.end());
+    for (double& impulse : taken) impulse = -impulse;
+    fall_freely(equation.body(), equation.mass, change, taken);
+  } else {
+    change = impulse_;
+    solve(equation.body(), equation.factors, change);
+  }
+  solver_.begin(equation, is_stiff);
+  add_soles(equation, contacts, environment);
+  solver_.solve(change);
 }
 
-void ImpactResponse::apply(EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact) {
-  find_stiff(equation, contacts, impact);
-  brace(equation.state.velocity, stiff_, equation.figure->fastest, change_);
-  add_scaled(1.0, change_, equation.state.velocity);
+void ImpactResponse::find_sole_speed(const EquationOfMotion& equation, const FootContacts& contacts) {
+  sole_speed_m_s_ = 0.0;
+  for (const int s : contacts.feet().soles()) {
+    const Sole& sole = equation.figure->soles[at(s)];
+    const Placement& link = equation.dynamics.world[at(sole.link)];
+    SpatialMotion moved;
+    const Link& last = equation.body().links()[at(sole.link)];
+    for (int k = last.dof + last.dof_count - 1; k >= 0; k = equation.body().parent_dof()[at(k)])
+      moved += change_[at(k)] * equation.dynamics.freedoms[at(k)];
+    for (const Vec3& corner : sole.corners_m) {
+      const Vec3 from_root = link.origin_m + link.rotation * corner - equation.dynamics.world[0].origin_m;
+      sole_speed_m_s_ = std::max(sole_speed_m_s_, length(point_velocity(moved, from_root)));
+    }
+  }
 }
 
-void ImpactResponse::find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact) {
-  stiff_.assign(equation.size(), 0.0);
-  if (!contacts.feet().none()) return;
+void ImpactResponse::strike(EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment,
+                            const Impact& impact) {
   impulse_.assign(equation.size(), 0.0);
   add_impulse(equation.body(), equation.dynamics, impact, impulse_);
-  for (double& impulse : impulse_) impulse = -impulse;
-  fall_freely(equation.body(), equation.mass, stiff_, impulse_);
+  answer(equation, contacts, environment, true, stiff_);
+  answer(equation, contacts, environment, false, change_);
+  brace(equation.state.velocity, stiff_, equation.figure->fastest, change_);
+  find_sole_speed(equation, contacts);
+  add_scaled(1.0, change_, equation.state.velocity);
 }
 
 }  // namespace contort

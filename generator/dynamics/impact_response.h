@@ -1,30 +1,36 @@
 // An impact on a figure: the change of all velocities in no time.
 #pragma once
 
+#include "generator/dynamics/contact_solver.h"
 #include "generator/dynamics/foot_contacts.h"
 #include "generator/dynamics/impact.h"
 
 namespace contort {
 
-// In the order find, pulls_a_foot, apply. The equation must have been placed, with find_mass and find_factors.
 class ImpactResponse {
  public:
-  // The change with joints that do not resist and soles that stay.
-  void find(EquationOfMotion& equation, FootContacts& contacts, const Impact& impact);
+  // Changes the velocities as a blow does: joints do not resist, but brace as far as one of them would be faster than
+  // it can be, and soles on the ground push and rub as much as contacts can (contact_solver.h), relieved of what the
+  // weight presses on them meanwhile. The equation must have been placed, with find_mass and find_factors.
+  void strike(EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment,
+              const Impact& impact);
 
-  // Whether a sole would have to be pulled down by more than its share of the weight presses on it meanwhile.
-  bool pulls_a_foot(const EquationOfMotion& equation, const FootContacts& contacts) const;
-
-  // Adds the change to the velocities, taken back as far as a joint would be faster than it can be (brace).
-  void apply(EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact);
+  // After strike: the greatest speed of a point on which a sole bears, m/s.
+  double sole_speed_m_s() const { return sole_speed_m_s_; }
 
  private:
-  void find_stiff(const EquationOfMotion& equation, const FootContacts& contacts, const Impact& impact);
+  void add_soles(const EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment);
+  void answer(const EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment,
+              bool is_stiff, std::vector<double>& change);
+  void find_sole_speed(const EquationOfMotion& equation, const FootContacts& contacts);
 
   std::vector<double> change_;
-  std::vector<double> stiff_;  // with joints that do not move: none at all on soles
+  std::vector<double> stiff_;  // with joints that do not move
   std::vector<double> impulse_;
-  ResponseScratch response_;
+  std::vector<double> velocity_;
+  std::vector<Vec3> points_m_;
+  ContactSolver solver_;
+  double sole_speed_m_s_ = 0.0;
 };
 
 }  // namespace contort

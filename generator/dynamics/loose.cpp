@@ -10,11 +10,10 @@ namespace contort {
 
 namespace {
 
-constexpr double kFriction = 0.8;        // of a rubber sole on dry ground
-constexpr double kNear_m = 0.02;         // beyond what a tick covers, points nearer than this are looked at
-constexpr double kRecovery_per_s = 5.0;  // of depth
+constexpr double kNear_m = 0.02;          // beyond what a tick covers, points nearer than this are looked at
+constexpr double kFarthestTouch_m = 1.0;  // farther than anything gets in a tick
+constexpr double kRecovery_per_s = 5.0;   // of depth
 constexpr double kFastestRecovery_m_s = 0.5;
-constexpr int kSweeps = 30;
 
 void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
   const auto add = [&](const Vec3& point, double radius) { out.push_back({collider.joint, point, radius, false}); };
@@ -32,23 +31,14 @@ void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
   }
 }
 
-// Two unit vectors at right angles to a unit one and to each other.
-void tangents(const Vec3& normal, Vec3& first, Vec3& second) {
-  const Vec3 other = std::fabs(normal.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
-  first = glm::normalize(glm::cross(normal, other));
-  second = glm::cross(normal, first);
-}
-
-// Velocities of all links about the root's origin.
-void find_velocities(const Multibody& body, const DynamicsScratch& d, std::span<const double> velocity,
-                     std::vector<SpatialMotion>& out) {
-  const auto links = body.links();
-  out.resize(links.size());
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    SpatialMotion v = i > 0 ? out[at(links[i].parent)] : SpatialMotion{};
-    for (int k = links[i].dof; k < links[i].dof + links[i].dof_count; ++k) v += velocity[at(k)] * d.freedoms[at(k)];
-    out[i] = v;
-  }
+// The velocity of a point of a link, from the root's origin.
+Vec3 speed_of(const Multibody& body, const DynamicsScratch& d, std::span<const double> velocity, int link,
+              const Vec3& from_root) {
+  SpatialMotion v;
+  const Link& last = body.links()[at(link)];
+  for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[at(k)])
+    v += velocity[at(k)] * d.freedoms[at(k)];
+  return point_velocity(v, from_root);
 }
 
 // Factorises a symmetric matrix of six rows, as factorise_symmetric does.
@@ -80,50 +70,9 @@ void move_root(const DynamicsScratch& dynamics, const SpatialMotion& change, std
   for (int k = 0; k < 3; ++k) velocity[at(k)] += change.linear[k], velocity[at(3 + k)] += turn[k];
 }
 
-// A contact with three directions in which it can push, at a point from the root's origin.
-LooseScratch::Contact contact_at(const TouchPoint& touch, const Vec3& from_root_m, const Vec3& normal) {
-  LooseScratch::Contact contact;
-  Vec3 axes[3] = {normal};
-  tangents(normal, axes[1], axes[2]);
-  for (int k = 0; k < 3; ++k) contact.push[k] = {glm::cross(from_root_m, axes[k]), axes[k]};
-  contact.link = touch.link, contact.is_sole = touch.is_sole;
-  return contact;
-}
-
 // The speed along the normal, m/s, with which a point does not sink in within a tick, or comes out if it is inside.
 double least_speed(double gap_m, double tick_s) {
   return gap_m > 0.0 ? -gap_m / tick_s : std::min(-kRecovery_per_s * gap_m, kFastestRecovery_m_s);
-}
-
-// The points that could touch the ground within a tick.
-void find_contacts(std::span<const TouchPoint> points, const Environment& environment, double tick_s,
-                   const DynamicsScratch& dynamics, LooseScratch& scratch) {
-  scratch.contacts.clear();
-  for (const TouchPoint& touch : points) {
-    const Placement& link = dynamics.world[at(touch.link)];
-    const Vec3 center = link.origin_m + link.rotation * touch.point_m;
-    const Surface ground = environment.nearest_ground(center);
-    const double gap_m = ground.distance_m - touch.radius_m;
-    const Vec3 from_root = center - touch.radius_m * ground.normal - dynamics.world[0].origin_m;
-    const SpatialMotion& v = scratch.velocity[at(touch.link)];
-    const double sinking = glm::dot(ground.normal, point_velocity(v, from_root));
-    if (!(gap_m < kNear_m - tick_s * sinking)) continue;
-    scratch.contacts.push_back(contact_at(touch, from_root, ground.normal));
-    scratch.contacts.back().least_speed = least_speed(gap_m, tick_s);
-  }
-}
-
-// Solves one direction of a contact: the normal at 0, then two of friction.
-void push(const SpatialMotion& link_velocity, int k, LooseScratch::Contact& contact, SpatialMotion& change) {
-  SpatialMotion v = link_velocity;
-  v += change;
-  const double softness = dot(contact.answer[k], contact.push[k]);
-  const double wanted = k == 0 ? contact.least_speed : 0.0;
-  const double before = contact.impulse[k];
-  const double next = before + (wanted - dot(v, contact.push[k])) / softness;
-  const double most = kFriction * contact.impulse[0];
-  contact.impulse[k] = k == 0 ? std::max(0.0, next) : std::clamp(next, -most, most);
-  change += (contact.impulse[k] - before) * contact.answer[k];
 }
 
 }  // namespace
@@ -176,19 +125,21 @@ SpatialForce weight_of(const DynamicsScratch& dynamics) {
   return {glm::cross(dynamics.composite[0].first_moment, down), dynamics.composite[0].mass_kg * down};
 }
 
-void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
-              double tick_s, const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity) {
-  find_velocities(figure.body, dynamics, velocity, scratch.velocity);
-  find_contacts(points, environment, tick_s, dynamics, scratch);
-  if (scratch.contacts.empty()) return;
-  const RootFactors factors = factorised(dynamics.composite[0]);
-  for (LooseScratch::Contact& contact : scratch.contacts)
-    for (int k = 0; k < 3; ++k) contact.answer[k] = moved_by(factors, contact.push[k]);
-  SpatialMotion change;  // of the root's velocity, and with it of every link's
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (LooseScratch::Contact& contact : scratch.contacts)
-      for (int k = 0; k < 3; ++k) push(scratch.velocity[at(contact.link)], k, contact, change);
-  move_root(dynamics, change, velocity);
+void add_touches(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
+                 double tick_s, std::span<const double> velocity, const DynamicsScratch& dynamics,
+                 ContactSolver& solver) {
+  for (const TouchPoint& touch : points) {
+    const Placement& link = dynamics.world[at(touch.link)];
+    const Vec3 center = link.origin_m + link.rotation * touch.point_m;
+    for (const Surface& surface : {environment.nearest_ground(center), environment.nearest_obstacle(center)}) {
+      const double gap_m = surface.distance_m - touch.radius_m;
+      if (!(gap_m < kFarthestTouch_m)) continue;
+      const Vec3 from_root = center - touch.radius_m * surface.normal - dynamics.world[0].origin_m;
+      const double sinking = glm::dot(surface.normal, speed_of(figure.body, dynamics, velocity, touch.link, from_root));
+      if (!(gap_m < kNear_m - tick_s * sinking)) continue;
+      solver.add_touch({touch.link, from_root, surface.normal, least_speed(gap_m, tick_s), 0.0, touch.is_sole});
+    }
+  }
 }
 
 }  // namespace contort

@@ -1,13 +1,11 @@
-// A figure that does not stand: it flies, tips over an edge of its feet, or lies. Its root moves by the laws of motion
-// alone; joints go on as commanded, stiff against the ground. The ground is felt at corners and ends of colliders,
-// which may neither sink in nor be pulled, with Coulomb friction: impulses by projected Gauss-Seidel (J. J. Moreau's
-// time-stepping; D. E. Stewart, "Rigid-body dynamics with friction and impact", SIAM Review 42, 2000).
+// A figure that does not stand: it flies, tips over an edge of its feet, or lies. It moves by the laws of motion alone,
+// under what its joints can give. Corners and ends of its colliders touch the ground and obstacles (contact_solver.h).
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "generator/dynamics/contact_solver.h"
 #include "generator/dynamics/dynamics.h"
 #include "generator/dynamics/figure.h"
 #include "model/world/environment.h"
@@ -24,19 +22,6 @@ struct TouchPoint {
 
 // Corners of soles, and corners and ends of all other colliders.
 std::vector<TouchPoint> touch_points(const Character& character, const DynamicFigure& figure);
-
-struct LooseScratch {
-  struct Contact {
-    SpatialForce push[3];     // unit ones along the normal and two tangents, about the root's origin
-    SpatialMotion answer[3];  // of the figure to them
-    int link = 0;
-    double least_speed = 0.0;  // along the normal, m/s
-    double impulse[3] = {0.0, 0.0, 0.0};
-    bool is_sole = false;
-  };
-  std::vector<Contact> contacts;
-  std::vector<SpatialMotion> velocity;  // by link
-};
 
 // Root accelerations under no force but gravity, given those of the joints: overwrites the first six. `forces` are
 // those of inverse dynamics with the accelerations as they are, and are brought to 0 there; `mass` as in mass_matrix.
@@ -56,9 +41,9 @@ void set_momentum(const Multibody& body, const DynamicsScratch& dynamics, std::s
 // The momentum that gravity adds in a second.
 SpatialForce weight_of(const DynamicsScratch& dynamics);
 
-// Changes the root's velocity so that no point gets deeper into the ground within a tick. Needs a placed pose and the
-// composites of mass_matrix.
-void push_off(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
-              double tick_s, const DynamicsScratch& dynamics, LooseScratch& scratch, std::span<double> velocity);
+// Adds the touch points that could touch the ground or an obstacle within a tick. Needs a placed pose.
+void add_touches(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
+                 double tick_s, std::span<const double> velocity, const DynamicsScratch& dynamics,
+                 ContactSolver& solver);
 
 }  // namespace contort

@@ -10,14 +10,14 @@ namespace contort {
 namespace {
 
 constexpr double kLying_cos = 0.5;    // a trunk 60 degrees from its target's up has fallen
+constexpr double kNearEnd = 0.05;     // rad or m: joints nearer to an end than this may stop there
 constexpr double kLimp_per_s = 10.0;  // damping of joints after a fall
 
 }  // namespace
 
-void LooseMotion::begin(const DynamicFigure& figure, double tick_s) {
+void LooseMotion::begin(double tick_s) {
   tick_s_ = tick_s;
   is_loose_ = has_fallen_ = has_momentum_ = false;
-  hold_.assign(at(figure.body.dof_count()));
 }
 
 void LooseMotion::let_go() {
@@ -39,13 +39,10 @@ void LooseMotion::fall(EquationOfMotion& equation, std::span<const double> wante
     for (std::size_t k = kRootDofs; k < equation.size(); ++k)
       actuation.acceleration[k] = -std::min(kLimp_per_s, 0.5 / tick_s_) * equation.state.velocity[k];
   fly(equation, actuation);
-  if (!exceeds_strength(*equation.figure, actuation.efforts)) return;
-  std::ranges::fill(hold_.acceleration, 0.0);
-  fly(equation, hold_);
-  const double share = affordable_share(*equation.figure, hold_.efforts, actuation.efforts);
-  take_back(hold_, share, actuation);
-  for (std::size_t k = kRootDofs; k < equation.size(); ++k)
-    actuation.efforts[k] = hold_.efforts[k] + share * (actuation.efforts[k] - hold_.efforts[k]);
+  clamp_to_strength(*equation.figure, actuation.efforts);
+  equation.find_factors();
+  for (std::size_t k = 0; k < equation.size(); ++k) actuation.acceleration[k] = actuation.efforts[k] - equation.bias[k];
+  solve(equation.body(), equation.factors, actuation.acceleration);
 }
 
 // Root accelerations of free fall, and the efforts of the joints.
@@ -55,23 +52,39 @@ void LooseMotion::fly(const EquationOfMotion& equation, Actuation& actuation) co
   std::fill_n(actuation.efforts.begin(), kRootDofs, 0.0);
 }
 
-void LooseMotion::move(EquationOfMotion& equation, std::span<const TouchPoint> touches,
+void LooseMotion::move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
                        const Environment& environment, const SpatialForce& before) {
   const SpatialForce weight = weight_of(equation.dynamics);
   SpatialForce momentum = before;
   momentum += {tick_s_ * weight.moment, tick_s_ * weight.force};
   std::vector<double>& velocity = equation.state.velocity;
   set_momentum(equation.body(), equation.dynamics, equation.mass, momentum, velocity);
-  push_off(*equation.figure, touches, environment, tick_s_, equation.dynamics, scratch_, velocity);
+  contacts_.begin(equation, false);
+  add_touches(*equation.figure, touches, environment, tick_s_, velocity, equation.dynamics, contacts_);
+  add_stops(character, equation);
+  contacts_.solve(velocity);
   momentum_ = momentum_of(equation.body(), equation.dynamics, equation.mass, velocity);
   momentum_.moment += glm::cross(equation.state.root.p_m, momentum_.force);
   has_momentum_ = true;
 }
 
+// Hinges and travels that could come to their ends in this tick.
+void LooseMotion::add_stops(const Character& character, const EquationOfMotion& equation) {
+  for (std::size_t i = 1; i < equation.body().links().size(); ++i) {
+    const Link& link = equation.body().links()[i];
+    if (link.kind == JointKind::ball) continue;
+    const Joint& joint = character.joints()[i];
+    const double now = equation.state.coords[at(link.coord)], rate = equation.state.velocity[at(link.dof)];
+    const double below = joint.high - now, above = now - joint.low;
+    if (below < kNearEnd + tick_s_ * std::max(rate, 0.0))
+      contacts_.add_stop(link.dof, -1.0, -std::max(below, 0.0) / tick_s_);
+    if (above < kNearEnd - tick_s_ * std::min(rate, 0.0))
+      contacts_.add_stop(link.dof, 1.0, -std::max(above, 0.0) / tick_s_);
+  }
+}
+
 Footing LooseMotion::footing(const Quat& root, const Quat& wanted_root) {
-  bool on_sole = false, on_other = false;
-  for (const LooseScratch::Contact& contact : scratch_.contacts)
-    if (contact.impulse[0] > 0.0) (contact.is_sole ? on_sole : on_other) = true;
+  const bool on_sole = contacts_.pushes(true), on_other = contacts_.pushes(false);
   const Vec3 up = root * Vec3(0, 1, 0), wanted = wanted_root * Vec3(0, 1, 0);
   has_fallen_ = has_fallen_ || on_other || glm::dot(up, wanted) < kLying_cos;
   return has_fallen_ ? Footing::fallen : on_sole ? Footing::tipping : Footing::airborne;

@@ -11,7 +11,7 @@ namespace contort {
 // stands again: its joints go limp.
 class LooseMotion {
  public:
-  void begin(const DynamicFigure& figure, double tick_s);
+  void begin(double tick_s);
 
   bool is_loose() const { return is_loose_; }
   bool has_fallen() const { return has_fallen_; }
@@ -25,18 +25,19 @@ class LooseMotion {
   // Gives the state the momentum of the tick before, if there is one; needs find_mass.
   void carry_momentum(EquationOfMotion& equation);
 
-  // Joints go on as they are told, as far as they are strong enough; the root falls. Needs find_mass.
+  // Joints go on as they are told, each as far as it is strong enough; the rest follows. Needs find_mass.
   void fall(EquationOfMotion& equation, std::span<const double> wanted, Actuation& actuation);
 
-  // Weight and ground change the momentum, and the root follows from it, whatever the joints do. `before` is the
-  // momentum before joints changed their velocities.
-  void move(EquationOfMotion& equation, std::span<const TouchPoint> touches, const Environment& environment,
-            const SpatialForce& before);
+  // Weight, contacts and the ends of joints change the velocities, and with them the momentum, and nothing else does.
+  // `before` is the momentum before joints changed their velocities.
+  void move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
+            const Environment& environment, const SpatialForce& before);
 
   // After move: what the figure touches, and how it stands against the target's root rotation.
   Footing footing(const Quat& root, const Quat& wanted_root);
 
  private:
+  void add_stops(const Character& character, const EquationOfMotion& equation);
   void fly(const EquationOfMotion& equation, Actuation& actuation) const;
 
   double tick_s_ = 0.0;
@@ -44,8 +45,7 @@ class LooseMotion {
   bool has_fallen_ = false;
   bool has_momentum_ = false;
   SpatialForce momentum_;  // about the world's origin, which keeps it while the root moves
-  Actuation hold_;         // of joints that do not accelerate
-  LooseScratch scratch_;
+  ContactSolver contacts_;
 };
 
 }  // namespace contort

@@ -35,7 +35,7 @@ int first_joint(const Character& character, const Part& part) {
 }
 
 Result<Impact> build_blow(const ImpactDesc& desc, const Character& character, const Quat& start,
-                        const std::string& pointer) {
+                          const std::string& pointer) {
   const int part = character.find_part(desc.slot);
   if (part < 0) return unknown(pointer + "/slot", desc.slot, "slot of " + character.name());
   int joint = first_joint(character, character.parts()[static_cast<std::size_t>(part)]);

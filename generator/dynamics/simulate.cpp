@@ -11,6 +11,8 @@ namespace contort {
 
 namespace {
 
+constexpr double kSlips_m_s = 0.5;  // a sole that a blow makes faster than this does not stand any more
+
 class Simulation {
  public:
   Simulation(const Character& character, const DynamicsSetup& setup, const Environment& environment,
@@ -55,7 +57,7 @@ class Simulation {
     s_.equation.begin(figure_, standing_start(body_, target_));
     add_start_speed();
     s_.standing.begin(figure_, balance_, tick_s_);
-    s_.loose.begin(figure_, tick_s_);
+    s_.loose.begin(tick_s_);
     s_.contacts.lead_all();
     is_disturbed_ = !figure_.loads.empty();
   }
@@ -79,12 +81,8 @@ class Simulation {
     s_.equation.find_factors();
     const Placement& link = s_.equation.dynamics.world[at(blow.link)];
     s_.record.impact({frame_, blow.link, link.origin_m + link.rotation * blow.point_m, blow.impulse_N_s});
-    s_.impact.find(s_.equation, s_.contacts, blow);
-    if (is_dynamic() && s_.impact.pulls_a_foot(s_.equation, s_.contacts)) {
-      let_go();
-      s_.impact.find(s_.equation, s_.contacts, blow);
-    }
-    s_.impact.apply(s_.equation, s_.contacts, blow);
+    s_.impact.strike(s_.equation, s_.contacts, environment_, blow);
+    if (is_dynamic() && s_.impact.sole_speed_m_s() > kSlips_m_s) let_go();
     s_.standing.rest();
     s_.loose.forget_momentum();
     is_disturbed_ = true;
@@ -103,7 +101,10 @@ class Simulation {
     else
       follow();
     s_.record.efforts(s_.actuation.efforts);
-    if (moves) move();
+    if (moves)
+      move();
+    else if (s_.loose.is_loose())
+      record_footing();
     if (s_.after_tick) s_.after_tick();
   }
 
@@ -140,8 +141,9 @@ class Simulation {
     if (!s_.contacts.land_flat(frame_time_, s_.equation.dynamics)) return;
     s_.velocity_before = state_.velocity;
     s_.contacts.find_rows(s_.equation);
-    s_.contacts.stop(state_.velocity);
-    if (s_.standing.could_stand(s_.equation, s_.contacts, s_.tracked, s_.actuation)) return s_.loose.take_hold();
+    s_.equation.find_factors();
+    s_.contacts.stop(s_.equation);
+    if (s_.standing.could_stand(s_.equation, s_.contacts)) return s_.loose.take_hold();
     state_.velocity = s_.velocity_before;
     s_.contacts.release();
   }
@@ -151,14 +153,20 @@ class Simulation {
     const SpatialForce momentum =
         is_loose ? momentum_of(body_, s_.equation.dynamics, s_.equation.mass, state_.velocity) : SpatialForce{};
     add_scaled(tick_s_, s_.actuation.acceleration, state_.velocity);
-    stop_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), tick_s_, state_);
+    if (is_loose)
+      move_loosely(momentum);
+    else
+      stop_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), tick_s_, state_);
     stop_racing(body_, figure_.fastest, state_.velocity);
-    if (is_loose) move_loosely(momentum);
     integrate(body_, state_.velocity, tick_s_, state_.root, state_.coords);
   }
 
   void move_loosely(const SpatialForce& momentum) {
-    s_.loose.move(s_.equation, setup_.touches, environment_, momentum);
+    s_.loose.move(character_, s_.equation, setup_.touches, environment_, momentum);
+    record_footing();
+  }
+
+  void record_footing() {
     s_.record.footing(s_.loose.footing(state_.root.q, motion_.response.target_root[at(frame_)].q));
   }
 

@@ -15,6 +15,8 @@ constexpr double kEdge_m = 0.005;           // of the zero moment point from the
 constexpr double kStandingPressure = 0.25;  // of the weight, on feet that stand
 constexpr int kAttempts = 6;                // to spare joints,
 constexpr int kAskedOfSwing = 2;            // the first of them by feet in the air
+constexpr double kLost_m = 0.3;             // a capture point this far outside is not brought back by standing feet
+constexpr double kCatches_m = 0.02;         // but one this near is by feet that have just landed
 constexpr double kTips_m = 0.03;            // the zero moment point this far outside cannot be brought back
 constexpr double kTips_s = 0.2;             // nor one that is outside for so long
 
@@ -45,14 +47,6 @@ Balance Standing::balance(const EquationOfMotion& equation, std::span<const doub
   return balance_of(area_, equation.dynamics, forces, equation.weight_N());
 }
 
-void Standing::keep(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
-                    Actuation& actuation) {
-  contacts.find_rows(equation);
-  std::ranges::copy(wanted, actuation.acceleration.begin());
-  contacts.keep(actuation.acceleration);
-  equation.find_forces(actuation.acceleration, actuation.forces);
-}
-
 bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
                      Recorder& record, Actuation& actuation) {
   contacts.find_rows(equation);
@@ -68,7 +62,16 @@ bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::sp
   const Balance reached = balance(equation, actuation.forces);
   record.balance(reached);
   outside_s_ = reached.margin_m < 0.0 ? outside_s_ + tick_s_ : 0.0;
-  return reached.margin_m > -kTips_m && outside_s_ < kTips_s;
+  return reached.margin_m > -kTips_m && outside_s_ < kTips_s && lost_m(equation, contacts) < kLost_m;
+}
+
+// How far the capture point is outside the support area, m, as far as it is not meant to be there: in a walk it runs
+// ahead.
+double Standing::lost_m(const EquationOfMotion& equation, const FootContacts& contacts) {
+  corners_m_ = area_.corners_m;
+  const Vec3 capture_m = steering_.capture_m(frame_, equation);
+  return std::min(length(capture_m - nearest_inside(corners_m_, 0.0, capture_m, hull_)),
+                  length(steering_.ahead_m(frame_, contacts.shift_m(), equation)));
 }
 
 // The accelerations nearest to the wanted ones that lead the soles, ask of the ground what it can give, and spare the
@@ -184,11 +187,11 @@ void Standing::give_way(EquationOfMotion& equation, FootContacts& contacts, Actu
   equation.find_forces(actuation.acceleration, actuation.forces);
 }
 
-bool Standing::could_stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
-                           Actuation& actuation) {
-  keep(equation, contacts, wanted, actuation);
+bool Standing::could_stand(const EquationOfMotion& equation, const FootContacts& contacts) {
   find_support_area(*equation.figure, contacts.feet(), 0.0, equation.dynamics, area_);
-  return !(balance(equation, actuation.forces).margin_m < 0.0);
+  corners_m_ = area_.corners_m;
+  const Vec3 capture_m = steering_.capture_m(frame_, equation);
+  return length(capture_m - nearest_inside(corners_m_, 0.0, capture_m, hull_)) < kCatches_m;
 }
 
 }  // namespace contort

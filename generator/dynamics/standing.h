@@ -35,15 +35,13 @@ class Standing {
   bool stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, Recorder& record,
              Actuation& actuation);
 
-  // Whether the weight would be above the standing soles with the wanted accelerations; needs find_mass.
-  bool could_stand(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted,
-                   Actuation& actuation);
+  // Whether the figure would stay above the standing soles: its capture point is there. Needs find_mass.
+  bool could_stand(const EquationOfMotion& equation, const FootContacts& contacts);
 
   // The accelerations that control added in the last tick, by freedom.
   std::span<const double> added() const { return control_.added(); }
 
  private:
-  void keep(EquationOfMotion& equation, FootContacts& contacts, std::span<const double> wanted, Actuation& actuation);
   void hold_back(EquationOfMotion& equation, FootContacts& contacts, Recorder& record, Actuation& actuation);
   void give_way(EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation);
 
@@ -55,6 +53,7 @@ class Standing {
               Actuation& actuation);
   void meet(const EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation);
   void find_rows(const EquationOfMotion& equation, const FootContacts& contacts, const Actuation& actuation);
+  double lost_m(const EquationOfMotion& equation, const FootContacts& contacts);
   bool ask_less_of_swing(FootContacts& contacts, double share, const Actuation& actuation);
   bool relieve(const EquationOfMotion& equation, FootContacts& contacts, const Actuation& actuation);
 

@@ -25,17 +25,21 @@ double pendulum_per_s(double height_m) { return std::sqrt(kGravity_m_s2 / std::m
 
 }  // namespace
 
-Vec3 Steering::ahead_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const {
+Vec3 Steering::capture_m(double frame, const EquationOfMotion& equation) const {
   const SpatialInertia& whole = equation.dynamics.composite[0];
   const Vec3 com_m = equation.state.root.p_m + whole.first_moment.narrow() / whole.mass_kg;
   Vec3 speed(0.0);
-  for (std::size_t k = 0; k < 3; ++k)
-    speed[static_cast<int>(k)] =
-        dot(std::span(equation.mass).subspan(k * equation.size(), equation.size()), equation.state.velocity) /
-        whole.mass_kg;
-  const Vec3 ground = between(plan_->zmp_m, frame);
-  const double w = pendulum_per_s(com_m.y - ground.y);
-  Vec3 ahead = com_m - shift_m - between(plan_->com_m, frame) + (speed - between(plan_->com_m_s, frame)) / w;
+  for (const int k : {0, 2})
+    speed[k] = dot(std::span(equation.mass).subspan(at(k) * equation.size(), equation.size()),
+                   equation.state.velocity) /
+               whole.mass_kg;
+  return com_m + speed / pendulum_per_s(com_m.y - between(plan_->zmp_m, frame).y);
+}
+
+Vec3 Steering::ahead_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const {
+  const Vec3 com_m = between(plan_->com_m, frame);
+  const double w = pendulum_per_s(com_m.y - between(plan_->zmp_m, frame).y);
+  Vec3 ahead = capture_m(frame, equation) - shift_m - com_m - between(plan_->com_m_s, frame) / w;
   ahead.y = 0.0;
   return ahead;
 }

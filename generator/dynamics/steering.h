@@ -18,6 +18,9 @@ class Steering {
   // support. Needs find_mass.
   Vec3 zmp_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const;
 
+  // The figure's capture point, at the height of its centre of mass. Needs find_mass.
+  Vec3 capture_m(double frame, const EquationOfMotion& equation) const;
+
   // By how much the capture point is ahead of the target's, m, horizontally.
   Vec3 ahead_m(double frame, const Vec3& shift_m, const EquationOfMotion& equation) const;
 

@@ -1,0 +1,65 @@
+// Impulses at contacts and at the ends of joints, which change the velocities of a figure. Contacts push and never
+// pull, and rub by no more than Coulomb's share of what they push; joints stop at their ends. Projected Gauss-Seidel in
+// a fixed order (J. J. Moreau's time-stepping; D. E. Stewart, "Rigid-body dynamics with friction and impact", SIAM
+// Review 42, 2000).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/equation_of_motion.h"
+
+namespace contort {
+
+inline constexpr double kFriction = 0.8;  // of a rubber sole on dry ground
+
+// A point of a link that touches something.
+struct TouchedPoint {
+  int link = 0;
+  Vec3 from_root_m{0.0};     // world axes
+  Vec3 normal{0.0};          // out of what is touched
+  double least_m_s = 0.0;    // speed along the normal; < 0 where there is still way to go
+  double preload_N_s = 0.0;  // that presses on it anyway: it may be relieved of that, and rub with it
+  bool is_sole = false;
+};
+
+class ContactSolver {
+ public:
+  // At the placed pose; needs find_mass and find_factors. The joints of a stiff figure do not move.
+  void begin(const EquationOfMotion& equation, bool is_stiff);
+
+  void add_touch(const TouchedPoint& touch);
+  // A joint's freedom that shall have at least this speed in a sense of 1 or -1.
+  void add_stop(int dof, double sense, double least_speed);
+
+  // Changes the velocities, one a freedom.
+  void solve(std::span<double> velocity);
+
+  // After solve: whether any contact of soles, or of anything else, pushes.
+  bool pushes(bool soles) const;
+
+ private:
+  struct Row {
+    double impulse = 0.0;
+    double least_speed = 0.0;
+    double preload = 0.0;
+    double softness = 0.0;  // speed for a unit impulse
+    int normal = -1;        // of friction: the row of its contact
+    bool is_stop = false;
+    bool is_sole = false;
+  };
+  void add_row(const Row& row);
+  std::span<double> jacobian(std::size_t row) { return std::span(jacobians_).subspan(row * size_, size_); }
+  std::span<double> answer(std::size_t row) { return std::span(answers_).subspan(row * size_, size_); }
+  void push(std::size_t row, std::span<double> velocity);
+
+  const EquationOfMotion* equation_ = nullptr;
+  bool is_stiff_ = false;
+  std::size_t size_ = 0;
+  std::vector<double> root_factors_;
+  std::vector<Row> rows_;
+  std::vector<double> jacobians_;  // rows x freedoms
+  std::vector<double> answers_;    // rows x freedoms: velocities for a unit impulse
+};
+
+}  // namespace contort
