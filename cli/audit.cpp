@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <thread>
 
 #include "cli/audit_page.h"
@@ -48,6 +49,7 @@ Json row_json(const AuditRow& row) {
           {"part", row.part},
           {"object", object_of(row)},
           {"action", row.action},
+          {"dynamics", mode_names()[static_cast<std::size_t>(row.dynamics)]},
           {"point", row.point},
           {"draws", row.draws},
           {"clean", row.clean},
@@ -73,6 +75,8 @@ std::string command_of(const AuditCommand& options, const Context& context) {
   };
   add("--library", context.library_folders), add("--character", options.audit.characters);
   add("--action", options.audit.actions), add("--slot", options.audit.slots);
+  if (options.audit.dynamics != Mode::kinematic)
+    command += " --dynamics " + std::string(mode_names()[static_cast<std::size_t>(options.audit.dynamics)]);
   return command + " --page " + shell_quoted(options.page);
 }
 
@@ -126,6 +130,12 @@ void add_audit(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--seed", audit.seed, "Other seeds draw other motions")->capture_default_str();
   command->add_option("--jobs", audit.jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
+  std::map<std::string, Mode> modes;
+  for (const std::string_view name : mode_names()) modes.emplace(name, static_cast<Mode>(modes.size()));
+  command->add_option("--dynamics", audit.dynamics, "kinematic, or as figures with mass: tracking or dynamic")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->type_name("MODE")
+      ->default_str("kinematic");
   command->add_option("--worst", options->folder, "Folder for the spec of each row's worst motion");
   command->add_option("--page", options->page, "Folder for a page with a picture of each row's worst motion")
       ->type_name("DIR");

@@ -206,6 +206,7 @@ Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index)
   Spec spec;
   spec.character = row.character;
   spec.hold_frames = kHoldFrames;
+  spec.dynamics.mode = row.dynamics;
   if (on.touches) spec.environment.obstacles = {wall_beside(on.character, part, dice)};
   ClipDesc clip;
   clip.actions = {use};
@@ -306,6 +307,7 @@ Result<std::vector<AuditRow>> audit_rows(const AuditOptions& options, Generator&
       add_rows(options, variant, *character, generator.offers(*character), rows);
     }
   }
+  for (AuditRow& row : rows) row.dynamics = options.dynamics;
   if (rows.empty())
     return Issue{"audit.nothing_matches", "",
                  "none of these characters has such an action in such a slot; contort list actions names all"};

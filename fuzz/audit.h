@@ -21,6 +21,7 @@ struct AuditOptions {
   int draws = 1000;                     // of each row, at least 1
   std::int64_t seed = 1;
   int jobs = 1;
+  Mode dynamics = Mode::kinematic;  // how the motions are controlled
 };
 
 // One action of one part, as it is on its character, with an object where the action needs one.
@@ -38,6 +39,7 @@ struct AuditRow {
   double depth = 0.0;                  // of the deepest finding, in the scale of its check; 0 where all are clean
   int still = 0;                       // in which nothing moved, and no request was unmet
   std::map<std::string, int> reasons{};  // of unmet requests, as shortfall_name() has them, or "pose": motions with one
+  Mode dynamics = Mode::kinematic;
   bool operator==(const AuditRow&) const = default;
 };
 
