@@ -12,8 +12,9 @@ namespace contort {
 
 namespace {
 
-constexpr double kMomentPrice = 100.0;  // of a squared N m against a squared N
-constexpr double kLeastShare = 0.2;     // of the weight that must press on the ground
+constexpr double kMomentPrice = 100.0;       // of a squared N m against a squared N
+constexpr double kMostMomentPrice = 2000.0;  // where the ankle is weak
+constexpr double kLeastShare = 0.2;          // of the weight that must press on the ground
 
 // Row of the moment e . (n + (o - p) x f) in the root's entries of generalised forces: f in the world, n in its axes.
 SupportEdge edge_between(const Vec3& from_m, const Vec3& to_m, const Placement& root) {
@@ -88,8 +89,17 @@ Vec3 GroundShare::middle_of(const Sole& sole, const Bearing& bearing) {
   return middle;
 }
 
-// Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm mu / price meet sum f = F, sum n +
-// d x f = N.
+// How easily a sole gives moments, world axes: less about the axis about which its ankle is weaker.
+Mat3 GroundShare::moment_ease(const Sole& sole, const DynamicsScratch& dynamics) {
+  const double weaker = std::max(1.0, sole.flex_N_m / std::max(sole.tilt_N_m, 1e-6));
+  const double tilt_price = std::min(kMomentPrice * weaker * weaker, kMostMomentPrice);
+  const Mat3 axes = glm::mat3_cast(sole_place(sole, dynamics).q);
+  return axes * Mat3(1.0 / kMomentPrice, 0.0, 0.0, 0.0, 1.0 / kMomentPrice, 0.0, 0.0, 0.0, 1.0 / tilt_price) *
+         glm::transpose(axes);
+}
+
+// Multipliers (moment mu, force phi) with f_i = firm (phi + mu x d_i) and n_i = firm E mu (E: moment_ease) meet sum f =
+// F, sum n + d x f = N.
 void GroundShare::prepare(const DynamicFigure& figure, const Feet& feet, std::span<const double> firmness,
                           const DynamicsScratch& dynamics) {
   const std::span<const int> standing = feet.soles();
@@ -105,10 +115,11 @@ void GroundShare::prepare(const DynamicFigure& figure, const Feet& feet, std::sp
     for (const int dof : sole.chain_dofs) moves_[feet_.size() * at(dof_count_) + at(dof)] = 1;
     const double firm = firmness[at(s)];
     const Vec3 e = firm * d;
-    feet_.push_back({s, d, firm});
+    feet_.push_back({s, d, firm, moment_ease(sole, dynamics)});
+    const Mat3& ease = feet_.back().moment_ease;
     for (int i = 0; i < 3; ++i) {
       entry(3 + i, 3 + i) += firm;
-      for (int j = 0; j < 3; ++j) entry(i, j) += (i == j ? firm / kMomentPrice + glm::dot(d, e) : 0.0) - d[i] * e[j];
+      for (int j = 0; j < 3; ++j) entry(i, j) += firm * ease[j][i] + (i == j ? glm::dot(d, e) : 0.0) - d[i] * e[j];
     }
     // d x phi
     entry(3, 1) += e.z, entry(3, 2) -= e.y, entry(4, 0) -= e.z, entry(4, 2) += e.x, entry(5, 0) += e.y,
@@ -132,7 +143,7 @@ SpatialForce GroundShare::share_of(std::size_t standing, const SpatialForce& m) 
   const Vec3& d = feet_[standing].center_m;
   const double firm = feet_[standing].firmness;
   const Vec3 force = firm * (m.force + glm::cross(m.moment, d));
-  return {firm / kMomentPrice * m.moment + glm::cross(d, force), force};
+  return {firm * (feet_[standing].moment_ease * m.moment.narrow()) + glm::cross(d, force), force};
 }
 
 void GroundShare::efforts(const DynamicFigure& figure, const DynamicsScratch& dynamics, std::span<const double> forces,

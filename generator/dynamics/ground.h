@@ -55,7 +55,8 @@ Balance balance_of(const SupportArea& area, const DynamicsScratch& dynamics, std
 double balanced_share(const SupportArea& area, std::span<const double> hold, std::span<const double> forces,
                       double margin_m);
 
-// The division of a ground force among soles: the least sum of squared forces and, a hundred times dearer, of squared
+// The division of a ground force among soles: the least sum of squared forces and, a hundred times dearer, and
+// more about the axis about which the ankle is weak, of squared
 // moments about the middles of where soles bear. Efforts of joints above the legs do not depend on it.
 class GroundShare {
  public:
@@ -84,7 +85,9 @@ class GroundShare {
     int sole = 0;
     Vec3 center_m{0.0};  // from the root's origin
     double firmness = 1.0;
+    Mat3 moment_ease{0.0};
   };
+  static Mat3 moment_ease(const Sole& sole, const DynamicsScratch& dynamics);
   Vec3 middle_of(const Sole& sole, const Bearing& bearing);  // of where it bears, in its link's frame
   SpatialForce multipliers(const SpatialForce& net) const;
   SpatialForce share_of(std::size_t standing, const SpatialForce& multipliers) const;

@@ -11,7 +11,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kSlips_m_s = 0.5;  // a sole that a blow makes faster than this does not stand any more
+constexpr double kRecovers_s = 1.5;  // after a blow
+constexpr double kSlips_m_s = 0.5;   // a sole that a blow makes faster than this does not stand any more
 
 class Simulation {
  public:
@@ -59,12 +60,17 @@ class Simulation {
     s_.standing.begin(figure_, balance_, tick_s_);
     s_.loose.begin(tick_s_);
     s_.contacts.lead_all();
-    is_disturbed_ = !figure_.loads.empty();
   }
 
   // The root of a target that was shifted begins on its way.
   void add_start_speed() {
     for (int k = 0; k < 3; ++k) state_.velocity[at(k)] = balance_.start_m_s[k];
+  }
+
+  // Whether something acts from outside, or did a short while ago.
+  bool is_disturbed() const {
+    const bool was_struck = struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz;
+    return !figure_.loads.empty() || was_struck;
   }
 
   bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
@@ -85,16 +91,16 @@ class Simulation {
     if (is_dynamic() && s_.impact.sole_speed_m_s() > kSlips_m_s) let_go();
     s_.standing.rest();
     s_.loose.forget_momentum();
-    is_disturbed_ = true;
+    struck_frame_ = frame_;
   }
 
   void tick(int index, bool moves) {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
-    track(body_, target_, frame, tick_s_, !s_.contacts.is_planted(), state_, s_.tracked);
+    track(body_, target_, frame, tick_s_, {!s_.contacts.is_planted(), !is_disturbed()}, state_, s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
-    s_.standing.begin_tick(frame, is_disturbed_);
+    s_.standing.begin_tick(frame, is_disturbed());
     slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, tick_s_, s_.tracked);
     if (is_dynamic())
       actuate();
@@ -183,7 +189,7 @@ class Simulation {
   TargetMotion target_;
   double tick_s_;
   double frame_time_ = 0.0;
-  bool is_disturbed_ = false;  // something acts, or has acted, from outside
+  int struck_frame_ = -1;  // the last blow's; -1: none yet
   int frame_ = 0;
 };
 

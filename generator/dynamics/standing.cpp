@@ -12,6 +12,7 @@ namespace contort {
 namespace {
 
 constexpr double kEdge_m = 0.005;           // of the zero moment point from the edge, for which tracking gives way
+constexpr double kYields = 1e3;             // against others' 1: an arm's joint that is overloaded lags by itself
 constexpr double kStandingPressure = 0.25;  // of the weight, on feet that stand
 constexpr int kAttempts = 6;                // to spare joints,
 constexpr int kAskedOfSwing = 2;            // the first of them by feet in the air
@@ -52,6 +53,7 @@ bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::sp
   contacts.find_rows(equation);
   bool is_strong = false, can_try = true;
   zmp_m_ = Vec3(0.0), has_zmp_ = false, spared_.clear(), asked_ = 0;
+  ease_.assign(contacts.ease().begin(), contacts.ease().end());
   for (int attempt = 0; attempt < kAttempts && !is_strong && can_try; ++attempt) {
     follow(equation, contacts, wanted, attempt == 0, actuation);
     is_strong = !exceeds_strength(*equation.figure, actuation.efforts);
@@ -98,12 +100,12 @@ void Standing::follow(EquationOfMotion& equation, FootContacts& contacts, std::s
 // stay.
 void Standing::meet(const EquationOfMotion& equation, FootContacts& contacts, Actuation& actuation) {
   base_.acceleration = actuation.acceleration, base_.forces = actuation.forces;
-  if (!rows_.empty()) ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), actuation);
+  if (!rows_.empty()) ground_control_.meet(equation, ease_, rows_, contacts.support(), actuation);
   const double least_N = kStandingPressure * equation.weight_N();
   if (contacts.feet().none() || actuation.forces[1] >= least_N) return;
   actuation.acceleration = base_.acceleration, actuation.forces = base_.forces;
   add_pressure_row(least_N, rows_);
-  ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), actuation);
+  ground_control_.meet(equation, ease_, rows_, contacts.support(), actuation);
 }
 
 // Conditions on forces: no force in flight, a zero moment point that the support area has, and joints that are spared.
@@ -141,7 +143,9 @@ bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts,
     contacts.ask_less(swinging, 0.8 / worst.share, actuation.acceleration);
     return true;
   }
-  if (++asked_ <= kAskedOfSwing && ask_less_of_swing(contacts, 0.8 / worst.share, actuation)) return true;
+  const bool carries =
+      contacts.led_by_dof()[at(worst.dof)] != 0 || std::ranges::find(figure.watched, worst.dof) != figure.watched.end();
+  if (carries && ++asked_ <= kAskedOfSwing && ask_less_of_swing(contacts, 0.8 / worst.share, actuation)) return true;
   if (contacts.feet().soles().size() == 1) {
     const Sole& sole = figure.soles[at(contacts.feet().soles()[0])];
     if (std::ranges::find(sole.ankle_dofs, worst.dof) != sole.ankle_dofs.end()) {
@@ -157,6 +161,7 @@ bool Standing::relieve(const EquationOfMotion& equation, FootContacts& contacts,
   const std::vector<double>& limits =
       actuation.efforts[at(worst.dof)] > 0.0 ? figure.strength_high : figure.strength_low;
   spared_.push_back({worst.dof, 0.95 * limits[at(worst.dof)]});
+  if (!carries) ease_[at(worst.dof)] = kYields;
   return true;
 }
 
@@ -166,7 +171,7 @@ void Standing::hold_back(EquationOfMotion& equation, FootContacts& contacts, Rec
   std::ranges::fill(hold_.acceleration, 0.0);
   contacts.keep(hold_.acceleration);
   equation.find_forces(hold_.acceleration, hold_.forces);
-  if (!rows_.empty()) ground_control_.meet(equation, contacts.ease(), rows_, contacts.support(), hold_);
+  if (!rows_.empty()) ground_control_.meet(equation, ease_, rows_, contacts.support(), hold_);
   ground_.efforts(figure, equation.dynamics, hold_.forces, hold_.efforts);
   take_back(hold_, affordable_share(figure, hold_.efforts, actuation.efforts), actuation);
   equation.find_forces(actuation.acceleration, actuation.forces);

@@ -71,7 +71,8 @@ class Standing {
   std::vector<Vec3> corners_m_;  // memory
   HullScratch hull_;
   std::vector<double> zeros_;
-  double outside_s_ = 0.0;  // how long the zero moment point has been outside
+  std::vector<double> ease_;  // of this tick
+  double outside_s_ = 0.0;    // how long the zero moment point has been outside
   SupportArea area_;
   GroundShare ground_;
   DynamicControl control_;

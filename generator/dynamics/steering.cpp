@@ -30,9 +30,9 @@ Vec3 Steering::capture_m(double frame, const EquationOfMotion& equation) const {
   const Vec3 com_m = equation.state.root.p_m + whole.first_moment.narrow() / whole.mass_kg;
   Vec3 speed(0.0);
   for (const int k : {0, 2})
-    speed[k] = dot(std::span(equation.mass).subspan(at(k) * equation.size(), equation.size()),
-                   equation.state.velocity) /
-               whole.mass_kg;
+    speed[k] =
+        dot(std::span(equation.mass).subspan(at(k) * equation.size(), equation.size()), equation.state.velocity) /
+        whole.mass_kg;
   return com_m + speed / pendulum_per_s(com_m.y - between(plan_->zmp_m, frame).y);
 }
 

@@ -100,16 +100,35 @@ void TargetMotion::root_at(double frame, Rigid& world_from_root, double* velocit
   world_from_root.q = quat_at(q);
 }
 
-// Second differences of the root's place and turn in a frame.
-void TargetMotion::root_bend(int frame, double* bend) const {
-  std::fill_n(bend, kRootDofs, 0.0);
-  if (frame <= 0 || frame >= frame_count_ - 1) return;
+// Second differences: 0 at the ends.
+double TargetMotion::bend(int frame, int coord) const {
+  if (frame <= 0 || frame >= frame_count_ - 1) return 0.0;
+  return row(frame + 1)[coord] - 2.0 * row(frame)[coord] + row(frame - 1)[coord];
+}
+
+Vec3 TargetMotion::turn_bend(int frame, int coord) const {
+  if (frame <= 0 || frame >= frame_count_ - 1) return Vec3(0.0);
+  const Quat from = glm::conjugate(quat_at(row(frame) + coord));
+  return to_rotation_vector(from * quat_at(row(frame + 1) + coord)) +
+         to_rotation_vector(from * quat_at(row(frame - 1) + coord));
+}
+
+void TargetMotion::joint_acceleration_at(const Link& link, double frame, double* acceleration) const {
+  const Between at = between(frame);
+  const double per_s2 = at.per_s * at.per_s;
+  if (link.kind == JointKind::ball) {
+    const Vec3 from = turn_bend(at.frame, link.coord), to = turn_bend(at.next, link.coord);
+    for (int k = 0; k < 3; ++k) acceleration[k] = per_s2 * (from[k] + at.share * (to[k] - from[k]));
+    return;
+  }
+  const double from = bend(at.frame, link.coord), to = bend(at.next, link.coord);
+  acceleration[0] = per_s2 * (from + at.share * (to - from));
+}
+
+void TargetMotion::root_bend(int frame, double* bends) const {
   const int coord = coord_count_ - 7;
-  const double *before = row(frame - 1) + coord, *now = row(frame) + coord, *after = row(frame + 1) + coord;
-  for (int k = 0; k < 3; ++k) bend[k] = after[k] - 2.0 * now[k] + before[k];
-  const Quat from = glm::conjugate(quat_at(now + 3));
-  const Vec3 turn = to_rotation_vector(from * quat_at(after + 3)) + to_rotation_vector(from * quat_at(before + 3));
-  for (int k = 0; k < 3; ++k) bend[3 + k] = turn[k];
+  const Vec3 turn = turn_bend(frame, coord + 3);
+  for (int k = 0; k < 3; ++k) bends[k] = bend(frame, coord + k), bends[3 + k] = turn[k];
 }
 
 void TargetMotion::root_acceleration_at(double frame, double* acceleration) const {

@@ -25,6 +25,9 @@ class TargetMotion {
   // The root, with its generalised velocity: world, then its own axes.
   void root_at(double frame, Rigid& world_from_root, double* velocity) const;
 
+  // The accelerations of a joint's rates, in the same way: between those of the frames, from their neighbours.
+  void joint_acceleration_at(const Link& link, double frame, double* acceleration) const;
+
   // The root's generalised acceleration at a time in frames: between those of the frames, from their neighbours.
   void root_acceleration_at(double frame, double* acceleration) const;
 
@@ -44,7 +47,9 @@ class TargetMotion {
   Between between(double frame) const;
   const double* row(int frame) const { return &coords_[static_cast<std::size_t>(frame * coord_count_)]; }
   double slope(int frame, int coord) const;
-  void root_bend(int frame, double* bend) const;
+  void root_bend(int frame, double* bends) const;
+  double bend(int frame, int coord) const;
+  Vec3 turn_bend(int frame, int coord) const;
   Vec3 turn_slope(int frame, int coord) const;
   std::vector<int> knots_of(const Link& link) const;
   void ball_at(int coord, const Between& at, double* coords, double* rates) const;

@@ -51,6 +51,21 @@ void track_joint(const Link& link, const TargetMotion& target, double then, doub
     acceleration[0] = cubic_acceleration(now[0], velocity[0], goal[0], rates[0], ahead_s);
 }
 
+// What the cubic from the target itself to the goal misses of the target's own acceleration.
+void add_missed(const Link& link, const TargetMotion& target, double frame, double then, double ahead_s,
+                double* acceleration) {
+  double now[4], rates[3], goal[4], goal_rates[3], own[3];
+  target.joint_at(link, frame, now, rates);
+  target.joint_at(link, then, goal, goal_rates);
+  target.joint_acceleration_at(link, frame, own);
+  if (link.kind != JointKind::ball) {
+    acceleration[0] += own[0] - cubic_acceleration(now[0], rates[0], goal[0], goal_rates[0], ahead_s);
+    return;
+  }
+  const Vec3 cubic = cubic_acceleration(quat_at(now), vec_at(rates), quat_at(goal), vec_at(goal_rates), ahead_s);
+  put(vec_at(acceleration) + vec_at(own) - cubic, acceleration);
+}
+
 }  // namespace
 
 FigureState standing_start(const Multibody& body, const TargetMotion& target) {
@@ -64,18 +79,20 @@ FigureState standing_start(const Multibody& body, const TargetMotion& target) {
   return state;
 }
 
-void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, bool leads,
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const Tracking& how,
            const FigureState& state, std::span<double> acceleration) {
   for (std::size_t i = 0; i < body.links().size(); ++i) {
     const Link& link = body.links()[i];
     const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
     const double then = frame + target.rate_hz() * ahead_s;
-    if (link.kind == JointKind::root && leads)
+    if (link.kind == JointKind::root && how.root_leads)
       lead_root(target, frame, state, acceleration);
     else if (link.kind == JointKind::root)
       track_root(target, then, ahead_s, state, acceleration);
     else
       track_joint(link, target, then, ahead_s, state, &acceleration[static_cast<std::size_t>(link.dof)]);
+    if (link.kind != JointKind::root && how.exactly)
+      add_missed(link, target, frame, then, ahead_s, &acceleration[static_cast<std::size_t>(link.dof)]);
   }
 }
 

@@ -17,10 +17,14 @@ struct FigureState {
 // The target's pose at frame 0, at rest.
 FigureState standing_start(const Multibody& body, const TargetMotion& target);
 
+struct Tracking {
+  bool root_leads =
+      false;             // the root follows its own way closely and legs come along; else it is tracked as joints are
+  bool exactly = false;  // joints: with what the cubics miss of the target, so that a figure on it stays on it
+};
+
 // The accelerations of all freedoms at a time in frames, each joint by itself; tick_s is the time until the next call.
-// A root that leads follows its own way closely, and the legs will have to come along; otherwise it is tracked as
-// joints are.
-void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, bool leads,
+void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const Tracking& how,
            const FigureState& state, std::span<double> acceleration);
 
 // Semi-implicit Euler: velocities first, then poses with them.
