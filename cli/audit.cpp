@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <thread>
 
 #include "cli/audit_page.h"
@@ -21,6 +20,7 @@ using json_fields::Json;
 struct AuditCommand {
   AuditOptions audit;
   bool json = false;
+  std::string dynamics = "kinematic";  // a name of mode_names()
   std::string folder;  // for the worst spec of each row; "": none
   std::string page;    // the folder of the page; "": none
 };
@@ -75,8 +75,7 @@ std::string command_of(const AuditCommand& options, const Context& context) {
   };
   add("--library", context.library_folders), add("--character", options.audit.characters);
   add("--action", options.audit.actions), add("--slot", options.audit.slots);
-  if (options.audit.dynamics != Mode::kinematic)
-    command += " --dynamics " + std::string(mode_names()[static_cast<std::size_t>(options.audit.dynamics)]);
+  if (options.audit.dynamics != Mode::kinematic) command += " --dynamics " + options.dynamics;
   return command + " --page " + shell_quoted(options.page);
 }
 
@@ -130,18 +129,20 @@ void add_audit(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--seed", audit.seed, "Other seeds draw other motions")->capture_default_str();
   command->add_option("--jobs", audit.jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
-  std::map<std::string, Mode> modes;
-  for (const std::string_view name : mode_names()) modes.emplace(name, static_cast<Mode>(modes.size()));
-  command->add_option("--dynamics", audit.dynamics, "kinematic, or as figures with mass: tracking or dynamic")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
+  command->add_option("--dynamics", options->dynamics, "Figures without mass (kinematic), or with: tracking, dynamic")
+      ->check(CLI::IsMember(std::vector<std::string>(mode_names().begin(), mode_names().end())))
       ->type_name("MODE")
-      ->default_str("kinematic");
+      ->capture_default_str();
   command->add_option("--worst", options->folder, "Folder for the spec of each row's worst motion");
   command->add_option("--page", options->page, "Folder for a page with a picture of each row's worst motion")
       ->type_name("DIR");
   command->add_flag("--json", options->json, "JSON on standard output");
   command->footer("Example: contort audit --character human --action reach");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] {
+    const auto mode = std::ranges::find(mode_names(), options->dynamics);
+    options->audit.dynamics = static_cast<Mode>(mode - mode_names().begin());
+    run(*options, context);
+  });
 }
 
 }  // namespace contort::cli

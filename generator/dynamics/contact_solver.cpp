@@ -11,6 +11,7 @@ namespace contort {
 namespace {
 
 constexpr int kSweepsOfContacts = 40;
+constexpr double kAtRest_m_s = 1e-5;  // a sweep that changes no row's speed by more than this is the last one
 
 // Two unit vectors at right angles to a unit one and to each other.
 void across(const Vec3& normal, Vec3& first, Vec3& second) {
@@ -26,6 +27,7 @@ void ContactSolver::begin(const EquationOfMotion& equation, bool is_stiff) {
   is_stiff_ = is_stiff;
   size_ = equation.size();
   rows_.clear(), jacobians_.clear(), answers_.clear();
+  link_ = -1;
   if (!is_stiff) return;
   root_factors_.assign(at(kRootDofs * kRootDofs), 0.0);
   for (std::size_t i = 0; i < kRootDofs; ++i)
@@ -33,64 +35,98 @@ void ContactSolver::begin(const EquationOfMotion& equation, bool is_stiff) {
   factorise_symmetric(root_factors_, kRootDofs);
 }
 
-// The row's jacobian has been appended.
+// The row's jacobian and answer have been appended.
 void ContactSolver::add_row(const Row& row) {
   rows_.push_back(row);
-  const std::size_t k = rows_.size() - 1;
-  answers_.insert(answers_.end(), jacobians_.end() - static_cast<std::ptrdiff_t>(size_), jacobians_.end());
+  rows_.back().softness = dot(jacobian(rows_.size() - 1), answer(rows_.size() - 1));
+}
+
+void ContactSolver::solve_answer(std::span<double> right) const {
   if (is_stiff_)
-    solve_factorised(root_factors_, kRootDofs, answer(k).first(kRootDofs));
+    solve_factorised(root_factors_, kRootDofs, right.first(kRootDofs));
   else
-    contort::solve(equation_->body(), equation_->factors, answer(k));
-  rows_.back().softness = dot(jacobian(k), answer(k));
+    contort::solve(equation_->body(), equation_->factors, right);
+}
+
+// A link's six: unit moments, then unit forces, about the root's origin. Points of one link share them.
+void ContactSolver::find_link(int link) {
+  if (link == link_) return;
+  link_ = link;
+  link_rows_.assign(6 * size_, 0.0);
+  const Multibody& body = equation_->body();
+  const Link& last = body.links()[at(link)];
+  for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[at(k)]) {
+    if (is_stiff_ && k >= kRootDofs) continue;
+    const SpatialMotion& freedom = equation_->dynamics.freedoms[at(k)];
+    for (int axis = 0; axis < 3; ++axis) {
+      link_rows_[at(axis) * size_ + at(k)] = freedom.angular[axis];
+      link_rows_[at(3 + axis) * size_ + at(k)] = freedom.linear[axis];
+    }
+  }
+  link_answers_ = link_rows_;
+  for (std::size_t i = 0; i < 6; ++i) solve_answer(std::span(link_answers_).subspan(i * size_, size_));
 }
 
 void ContactSolver::add_touch(const TouchedPoint& touch) {
-  const Multibody& body = equation_->body();
+  find_link(touch.link);
   Vec3 axes[3] = {touch.normal};
   across(touch.normal, axes[1], axes[2]);
   const int normal = static_cast<int>(rows_.size());
   for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 moment = glm::cross(touch.from_root_m, axes[axis]);
+    const double wrench[6] = {moment.x, moment.y, moment.z, axes[axis].x, axes[axis].y, axes[axis].z};
     jacobians_.resize(jacobians_.size() + size_, 0.0);
-    const std::span<double> row = std::span(jacobians_).last(size_);
-    const Link& last = body.links()[at(touch.link)];
-    for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[at(k)]) {
-      if (is_stiff_ && k >= kRootDofs) continue;
-      const SpatialMotion& freedom = equation_->dynamics.freedoms[at(k)];
-      row[at(k)] = glm::dot(axes[axis], freedom.linear + glm::cross(freedom.angular, touch.from_root_m));
+    answers_.resize(answers_.size() + size_, 0.0);
+    for (std::size_t i = 0; i < 6; ++i) {
+      add_scaled(wrench[i], std::span(link_rows_).subspan(i * size_, size_), std::span(jacobians_).last(size_));
+      add_scaled(wrench[i], std::span(link_answers_).subspan(i * size_, size_), std::span(answers_).last(size_));
     }
-    add_row({0.0, axis == 0 ? touch.least_m_s : 0.0, touch.preload_N_s, 0.0, axis == 0 ? -1 : normal, false,
-             touch.is_sole});
+    add_row({.least_speed = axis == 0 ? touch.least_m_s : 0.0,
+             .preload = touch.preload_N_s,
+             .normal = axis == 0 ? -1 : normal,
+             .is_sole = touch.is_sole});
   }
 }
 
 void ContactSolver::add_stop(int dof, double sense, double least_speed) {
   jacobians_.resize(jacobians_.size() + size_, 0.0);
   std::span(jacobians_).last(size_)[at(dof)] = sense;
-  add_row({0.0, least_speed, 0.0, 0.0, -1, true, false});
+  answers_.insert(answers_.end(), jacobians_.end() - static_cast<std::ptrdiff_t>(size_), jacobians_.end());
+  solve_answer(std::span(answers_).last(size_));
+  add_row({.least_speed = least_speed, .stop_dof = dof, .stop_sense = sense});
 }
 
-void ContactSolver::push(std::size_t k, std::span<double> velocity) {
+// Answers by how much the row's own speed changes.
+double ContactSolver::push(std::size_t k, std::span<double> velocity) {
   Row& row = rows_[k];
-  if (!(row.softness > 0.0)) return;
-  const double next = row.impulse + (row.least_speed - dot(jacobian(k), velocity)) / row.softness;
+  if (!(row.softness > 0.0)) return 0.0;
+  const double pressed = row.normal >= 0 ? rows_[at(row.normal)].impulse + row.preload : 0.0;
+  if (row.normal >= 0 && pressed == 0.0 && row.impulse == 0.0) return 0.0;  // nothing to rub with
+  const double speed = row.stop_dof >= 0 ? row.stop_sense * velocity[at(row.stop_dof)] : dot(jacobian(k), velocity);
+  const double next = row.impulse + (row.least_speed - speed) / row.softness;
   double impulse = std::max(-row.preload, next);
   if (row.normal >= 0) {
-    const double most = kFriction * (rows_[at(row.normal)].impulse + row.preload);
+    const double most = kFriction * pressed;
     impulse = std::clamp(next, -most, most);
   }
-  add_scaled(impulse - row.impulse, answer(k), velocity);
+  const double change = impulse - row.impulse;
+  if (change == 0.0) return 0.0;
+  add_scaled(change, answer(k), velocity);
   row.impulse = impulse;
+  return std::fabs(change) * row.softness;
 }
 
 void ContactSolver::solve(std::span<double> velocity) {
-  for (int sweep = 0; sweep < kSweepsOfContacts; ++sweep)
-    for (std::size_t k = 0; k < rows_.size(); ++k) push(k, velocity);
+  for (int sweep = 0; sweep < kSweepsOfContacts; ++sweep) {
+    double most_m_s = 0.0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) most_m_s = std::max(most_m_s, push(k, velocity));
+    if (most_m_s < kAtRest_m_s) return;
+  }
 }
 
 bool ContactSolver::pushes(bool soles) const {
   return std::ranges::any_of(rows_, [&](const Row& row) {
-    return !row.is_stop && row.normal < 0 && row.is_sole == soles && row.impulse > 0.0;
+    return row.stop_dof < 0 && row.normal < 0 && row.is_sole == soles && row.impulse > 0.0;
   });
 }
 

@@ -45,18 +45,24 @@ class ContactSolver {
     double preload = 0.0;
     double softness = 0.0;  // speed for a unit impulse
     int normal = -1;        // of friction: the row of its contact
-    bool is_stop = false;
+    int stop_dof = -1;      // of a joint's end: its freedom, and in which sense it stops
+    double stop_sense = 0.0;
     bool is_sole = false;
   };
   void add_row(const Row& row);
+  void solve_answer(std::span<double> right) const;
+  void find_link(int link);
   std::span<double> jacobian(std::size_t row) { return std::span(jacobians_).subspan(row * size_, size_); }
   std::span<double> answer(std::size_t row) { return std::span(answers_).subspan(row * size_, size_); }
-  void push(std::size_t row, std::span<double> velocity);
+  double push(std::size_t row, std::span<double> velocity);
 
   const EquationOfMotion* equation_ = nullptr;
   bool is_stiff_ = false;
   std::size_t size_ = 0;
   std::vector<double> root_factors_;
+  int link_ = -1;                     // of the last touch
+  std::vector<double> link_rows_;     // 6 x freedoms
+  std::vector<double> link_answers_;  // 6 x freedoms
   std::vector<Row> rows_;
   std::vector<double> jacobians_;  // rows x freedoms
   std::vector<double> answers_;    // rows x freedoms: velocities for a unit impulse

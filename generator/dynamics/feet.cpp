@@ -88,10 +88,6 @@ Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environ
   return place;
 }
 
-double gap_m(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment) {
-  return environment.nearest_ground(sole_place(sole, dynamics).p_m).distance_m;
-}
-
 bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment) {
   const Placement& link = dynamics.world[at(sole.link)];
   const SpatialMotion& v = dynamics.velocity[at(sole.link)];

@@ -51,9 +51,6 @@ void add_bearing_points(const Sole& sole, const Bearing& bearing, double alone_N
 Rigid sole_place(const Sole& sole, const DynamicsScratch& dynamics);
 Rigid footprint(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 
-// The height of a sole's middle above the ground.
-double gap_m(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
-
 // Whether all corners of a sole are near the ground and slow. Needs the velocities of inverse_dynamics.
 bool lies_still(const Sole& sole, const DynamicsScratch& dynamics, const Environment& environment);
 

@@ -28,8 +28,8 @@ class FootContacts {
 
   // Leads all soles from here on, along the plan's ways. Needs a placed pose.
   void lead_all() { is_led_ = has_soles(); }
-  // Where soles shall be at a time in frames, and the corners on which they bear. Corners that are still above the
-  // ground bear later. Needs a placed pose.
+  // Sets the ways of the soles at a time in frames, and the corners on which they bear. Corners that are still above
+  // the ground bear later. Needs a placed pose.
   void follow_plan(double frame, const DynamicsScratch& dynamics);
 
   // Leads the soles again, beginning with planned ones that lie flat and still, from where these are; answers whether

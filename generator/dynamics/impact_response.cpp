@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kImpact_s = 0.05;  // for which a blow lasts: the weight presses on soles meanwhile
+constexpr double kImpact_s = 0.05;  // duration of an impact: the weight presses on soles meanwhile
 
 }  // namespace
 

@@ -9,9 +9,10 @@ namespace contort {
 
 class ImpactResponse {
  public:
-  // Changes the velocities as a blow does: joints do not resist, but brace as far as one of them would be faster than
-  // it can be, and soles on the ground push and rub as much as contacts can (contact_solver.h), relieved of what the
-  // weight presses on them meanwhile. The equation must have been placed, with find_mass and find_factors.
+  // Adds the change of velocities that an impact makes. Joints do not resist, but brace as far as one of them would be
+  // faster than it can be; soles on the ground push and rub as much as contacts can (contact_solver.h), and may be
+  // relieved of what the weight presses on them meanwhile. The equation must have been placed, with find_mass and
+  // find_factors.
   void strike(EquationOfMotion& equation, const FootContacts& contacts, const Environment& environment,
               const Impact& impact);
 

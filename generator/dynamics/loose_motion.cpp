@@ -10,7 +10,7 @@ namespace contort {
 namespace {
 
 constexpr double kLying_cos = 0.5;    // a trunk 60 degrees from its target's up has fallen
-constexpr double kNearEnd = 0.05;     // rad or m: joints nearer to an end than this may stop there
+constexpr double kNearEnd = 0.01;     // rad or m: joints nearer to an end than this may stop there
 constexpr double kLimp_per_s = 10.0;  // damping of joints after a fall
 
 }  // namespace

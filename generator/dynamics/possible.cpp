@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "generator/dynamics/feet.h"
+#include "generator/dynamics/soft_height.h"
 #include "generator/dynamics/support_hull.h"
 #include "generator/dynamics/target.h"
 #include "generator/dynamics/tracker.h"
@@ -18,17 +19,16 @@ namespace {
 
 constexpr int kPasses = 8;
 constexpr int kLowerings = 3;
-constexpr double kJolt_m_s2 = 5.0;  // by which the root's acceleration up or down changes
-constexpr double kJolt_s = 0.05;    // within twice this
-constexpr double kSoftly_s = 0.2;   // within which the root goes down where a leg is too short
+constexpr double kSoftly_s = 0.2;  // within which the root goes down where a leg is too short
 constexpr double kReached_m = 2e-4;
+constexpr double kLowestBody_m = 0.2;
 constexpr double kMostLowering_m = 0.03;  // at once
 constexpr double kInset_m = 0.01;         // that the zero moment point of a target keeps from the edge
 constexpr double kStretch = 0.99;         // of a leg, at most
 constexpr double kUnmoved_m = 1e-4;       // moves below this are not made
 constexpr double kLeastPressure = 0.2;    // of the weight, below which the figure counts as flying
 
-// What the ground would have to give in a frame.
+// The force and moment that the ground would have to give in a frame.
 struct Need {
   Vec3 com_m{0.0};
   Vec3 force_N{0.0};
@@ -39,6 +39,13 @@ struct Momentum {
   Vec3 com_m{0.0};
   Vec3 linear{0.0};
   Vec3 angular{0.0};  // about the world's origin
+};
+
+// m h u'' - f u = ask for a frame's shift u, both horizontal axes.
+struct Row {
+  double spread = 0.0;  // m h, for differences between frames
+  double pressure_N = 0.0;
+  Vec3 ask{0.0};
 };
 
 class PossibleTarget {
@@ -63,53 +70,18 @@ class PossibleTarget {
   }
 
  private:
-  // Takes the jolts out of the way of the root up and down, which would press on legs that bear: there the height
-  // becomes a moving mean, lowered until it is nowhere above what it was.
+  // Takes the jolts out of the way of the root up and down. Flights keep their heights.
   void soften() {
-    const int count = motion_.frame_count, last = count - 1;
-    const double rate2 = motion_.rate_hz * motion_.rate_hz;
-    const int reach = std::max(1, static_cast<int>(kSoftly_s * motion_.rate_hz));
-    std::vector<double> was_m, share(at(count), 0.0);
-    for (int f = 0; f < count; ++f) was_m.push_back(motion_.root[at(f)].p_m.y);
-    bool any = false;
-    const int beside = std::max(1, static_cast<int>(std::lround(kJolt_s * motion_.rate_hz)));
-    const auto lift = [&](int f) { return rate2 * (was_m[at(f + 1)] - 2.0 * was_m[at(f)] + was_m[at(f - 1)]); };
-    for (int f = 1 + beside; f < last - beside; ++f) {
-      if (std::fabs(lift(f + beside) - lift(f - beside)) < kJolt_m_s2) continue;
-      any = true;
-      for (int k = std::max(0, f - 2 * reach); k <= std::min(last, f + 2 * reach); ++k) share[at(k)] = 1.0;
+    std::vector<double> heights_m;
+    std::vector<char> flies;
+    for (int f = 0; f < motion_.frame_count; ++f) {
+      heights_m.push_back(motion_.root[at(f)].p_m.y);
+      flies.push_back(plan_.standing(f) == 0 ? 1 : 0);
     }
-    for (int f = 0; f < count; ++f)
-      if (plan_.standing(f) == 0)
-        for (int k = std::max(0, f - reach); k <= std::min(last, f + reach); ++k) share[at(k)] = 0.0;
-    if (!any) return;
-    smooth(reach, share);
-    std::vector<double> lower_m(at(count), 0.0), height_m;
-    for (int again = 0; again < 4; ++again) {
-      height_m = was_m;
-      for (int f = 0; f < count; ++f) height_m[at(f)] -= lower_m[at(f)];
-      smooth(reach / 2, height_m);
-      std::vector<double> over_m(at(count), 0.0);
-      for (int f = 0; f < count; ++f)
-        for (int k = std::max(0, f - reach / 2); k <= std::min(last, f + reach / 2); ++k)
-          over_m[at(f)] = std::max(over_m[at(f)], height_m[at(k)] - was_m[at(k)]);
-      for (int f = 0; f < count; ++f) lower_m[at(f)] += over_m[at(f)];
-    }
-    for (int f = 0; f < count; ++f) motion_.root[at(f)].p_m.y += share[at(f)] * (height_m[at(f)] - was_m[at(f)]);
+    const std::vector<double> soft_m = without_jolts(heights_m, flies, motion_.rate_hz);
+    if (soft_m == heights_m) return;
+    for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m.y = soft_m[at(f)];
     keep_all_soles();
-  }
-
-  // A moving mean, twice.
-  static void smooth(int window, std::vector<double>& values) {
-    const int last = static_cast<int>(values.size()) - 1;
-    for (int twice = 0; twice < 2; ++twice) {
-      const std::vector<double> before = values;
-      for (int f = 0; f <= last; ++f) {
-        double sum = 0.0;
-        for (int k = -window; k <= window; ++k) sum += before[at(std::clamp(f + k, 0, last))];
-        values[at(f)] = sum / (2 * window + 1);
-      }
-    }
   }
 
   double mass() const { return body_.mass_kg(); }
@@ -172,7 +144,8 @@ class PossibleTarget {
     }
   }
 
-  // Where the zero moment point of a frame is, on the plane through the bearing corners' mean; and where it should be.
+  // Finds where the zero moment point of a frame is, on the plane through the bearing corners' mean, and where it
+  // should be. Answers whether the frame has one: not in flight.
   bool find_points(int frame, Vec3& is, Vec3& wanted) {
     find_corners(frame);
     const Need& need = needs_[at(frame)];
@@ -189,54 +162,61 @@ class PossibleTarget {
     return {n.z / need.force_N.y, height_m, -n.x / need.force_N.y};
   }
 
-  // Fills one row of the tridiagonal system (low, middle, high) u = right for both horizontal axes.
-  bool find_shift() {
-    const int count = motion_.frame_count;
-    const double rate2 = motion_.rate_hz * motion_.rate_hz;
-    std::vector<double> middle, low, high;
-    std::vector<Vec3> right;
-    bool any = false;
-    for (int f = 0; f < count; ++f) {
-      const Need& need = needs_[at(f)];
-      Vec3 is, wanted, ask;
-      const bool stands = find_points(f, is, wanted);
-      double height_m = 1.0, pressure_N = 0.0;
-      if (stands) {
-        height_m = std::max(need.com_m.y - wanted.y, 0.2);
-        pressure_N = need.force_N.y;
-        // The moment about the wanted point is f (is - wanted) across.
-        ask = -pressure_N * (wanted - is);
-      } else {
-        ask = Vec3(-height_m * need.force_N.x, 0.0, -height_m * need.force_N.z);
-        height_m = 1.0;
-      }
-      ask.y = 0.0;
-      any = any || length(ask) > kUnmoved_m * mass() * kGravity_m_s2;
-      const double spread = mass() * height_m * rate2;
-      const double omega = std::sqrt(kGravity_m_s2 / std::max(need.com_m.y, 0.2));
-      const double outside = 1.0 / (1.0 + omega / motion_.rate_hz);  // of the shift a frame before the first
-      middle.push_back(-2.0 * spread - pressure_N);
-      if (f == 0) middle.back() += outside * spread;
-      if (f == count - 1) middle.back() += outside * spread;
-      low.push_back(spread), high.push_back(spread);
-      right.push_back(ask);
+  // One row of the system: what a shift of this frame must do, and how it depends on the frames beside it.
+  Row row_of(int frame) {
+    const Need& need = needs_[at(frame)];
+    Vec3 is, wanted;
+    Row row;
+    row.spread = mass() * motion_.rate_hz * motion_.rate_hz;
+    if (find_points(frame, is, wanted)) {
+      row.spread *= std::max(need.com_m.y - wanted.y, kLowestBody_m);
+      row.pressure_N = need.force_N.y;
+      row.ask = -row.pressure_N * (wanted - is);  // the moment about the wanted point, across
+    } else {
+      row.ask = -need.force_N;  // nothing pushes in flight
     }
-    if (!any) return false;
-    for (int f = 1; f < count; ++f) {
-      const double share = low[at(f)] / middle[at(f - 1)];
-      middle[at(f)] -= share * high[at(f - 1)];
-      right[at(f)] -= share * right[at(f - 1)];
+    row.ask.y = 0.0;
+    return row;
+  }
+
+  // The shift of every frame. Answers whether there is anything to move.
+  bool find_shift() {
+    std::vector<Row> rows;
+    bool any = false;
+    for (int f = 0; f < motion_.frame_count; ++f) {
+      rows.push_back(row_of(f));
+      any = any || length(rows.back().ask) > kUnmoved_m * mass() * kGravity_m_s2;
+    }
+    if (any) solve_rows(rows);
+    return any;
+  }
+
+  // Gauss's elimination, down and up again. Before the first frame and after the last the shift fades as a pendulum
+  // does.
+  void solve_rows(std::vector<Row>& rows) {
+    const std::size_t count = rows.size();
+    std::vector<double> middle;
+    for (const Row& row : rows) middle.push_back(-2.0 * row.spread - row.pressure_N);
+    for (const std::size_t end : {std::size_t{0}, count - 1})
+      middle[end] += rows[end].spread / (1.0 + pendulum_per_s(end) / motion_.rate_hz);
+    for (std::size_t f = 1; f < count; ++f) {
+      const double share = rows[f].spread / middle[f - 1];
+      middle[f] -= share * rows[f - 1].spread;
+      rows[f].ask -= share * rows[f - 1].ask;
     }
     Vec3 next(0.0);
-    for (int f = count - 1; f >= 0; --f) {
-      next = (right[at(f)] - (f + 1 < count ? high[at(f)] : 0.0) * next) / middle[at(f)];
-      shift_m_[at(f)] = next;
+    for (std::size_t f = count; f-- > 0;) {
+      next = (rows[f].ask - (f + 1 < count ? rows[f].spread : 0.0) * next) / middle[f];
+      shift_m_[f] = next;
     }
-    return true;
+  }
+
+  double pendulum_per_s(std::size_t frame) const {
+    return std::sqrt(kGravity_m_s2 / std::max(needs_[frame].com_m.y, kLowestBody_m));
   }
 
   void move() {
-    start_m_s_ += std::sqrt(kGravity_m_s2 / std::max(needs_.front().com_m.y, 0.2)) * shift_m_.front();
+    start_m_s_ += pendulum_per_s(0) * shift_m_.front();
     for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m += shift_m_[at(f)];
     keep_all_soles();
     for (int again = 0; again < kLowerings && lower(missing_m_); ++again) keep_all_soles();

@@ -11,8 +11,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kRecovers_s = 1.5;  // after a blow
-constexpr double kSlips_m_s = 0.5;   // a sole that a blow makes faster than this does not stand any more
+constexpr double kRecovers_s = 1.5;  // after an impact
+constexpr double kSlips_m_s = 0.5;   // a sole that an impact makes faster than this does not stand any more
 
 class Simulation {
  public:
@@ -135,6 +135,8 @@ class Simulation {
     s_.equation.find_mass();
     if (s_.loose.is_loose()) s_.loose.carry_momentum(s_.equation);
     if (s_.loose.is_loose() && !s_.loose.has_fallen()) try_to_stand();
+    // Without a sole on the ground the rest of the figure may touch it.
+    if (!s_.loose.is_loose() && s_.contacts.has_soles() && s_.contacts.planned(frame_) == 0) let_go();
     if (!s_.loose.is_loose() && !s_.standing.stand(s_.equation, s_.contacts, s_.tracked, s_.record, s_.actuation))
       let_go();
     if (s_.loose.is_loose()) s_.loose.fall(s_.equation, s_.tracked, s_.actuation);

@@ -37,7 +37,7 @@ struct SimulationScratch {
   Recorder record;
   std::vector<double> tracked;          // accelerations that tracking wants, by freedom
   Actuation actuation;                  // of this tick
-  std::vector<double> velocity_before;  // feet took hold
+  std::vector<double> velocity_before;  // of a trial to take hold
   std::function<void()> after_tick;     // for those who measure; mostly empty
 };
 

@@ -20,7 +20,7 @@ class Standing {
   // The time of a tick in frames, and whether anything acts on the figure from outside: dynamic control waits for that.
   void begin_tick(double frame, bool is_disturbed) { frame_ = frame, is_disturbed_ = is_disturbed; }
 
-  // Feet have come or gone: control forgets what it was doing.
+  // Control forgets what it was doing, because the velocities have changed at once.
   void rest() { control_.rest(); }
 
   // The figure has let go of the ground.

@@ -96,10 +96,6 @@ void project_on_support(std::span<const double> ease, SupportRows& support, std:
   project(ease, support.wanted, support, acceleration);
 }
 
-void stop_feet(std::span<const double> ease, SupportRows& support, std::span<double> velocity) {
-  project(ease, {}, support, velocity);
-}
-
 // (J_l J_l^T + damping): a straight knee would have the legs answer without bound
 void prepare_keep_feet(std::span<const char> legs, SupportRows& support) {
   const auto m = at(support.count);

@@ -56,12 +56,8 @@ void prepare_projection(std::span<const double> ease, SupportRows& support);
 // straight knee) the wanted ones are met as nearly as they can be.
 void project_on_support(std::span<const double> ease, SupportRows& support, std::span<double> acceleration);
 
-// Takes from a change of accelerations all that would move the soles, in place.
+// Takes from a change of accelerations, or from velocities, all that would move the soles, in place.
 void keep_still(std::span<const double> ease, SupportRows& support, std::span<double> change);
-
-// Velocities nearest to the given ones that move no standing sole, by the same costs: what is left of a step when the
-// foot has landed.
-void stop_feet(std::span<const double> ease, SupportRows& support, std::span<double> velocity);
 
 // Changes of acceleration that would move standing soles, with the legs giving way so that they stay: `legs` marks
 // their freedoms. prepare once for all of a tick.

@@ -40,6 +40,17 @@ TEST_F(AuditCommand, PrintsARowForEachActionAndFailsWhereOneIsNotClean) {
   EXPECT_EQ(last_line(ran.out), "RESULT rows=" + std::to_string(rows.size()) + " clean=" + std::to_string(clean));
 }
 
+TEST_F(AuditCommand, NamesTheModesOfDynamics) {
+  const Json rows = Json::parse(contort_program({"audit", "--character", "human", "--action", "turn", "--draws", "1",
+                                                 "--dynamics", "dynamic", "--json"})
+                                    .out);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["dynamics"], "dynamic");
+  const Ran unknown = contort_program({"audit", "--dynamics", "rigid"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("tracking"), std::string::npos) << unknown.err;
+}
+
 TEST_F(AuditCommand, WritesTheWorstOfEachRowInAFileOfItsOwn) {
   const std::string worst = folder_ / "worst";
   const Json rows = Json::parse(audit({"--json", "--worst", worst}).out);

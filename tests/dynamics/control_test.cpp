@@ -74,7 +74,7 @@ class Tick {
       led.push_back({sole.link, sole.link_from_sole, {sole_place(sole, dynamics)}});
     }
     find_rows();
-    stop_feet(ease, support, state.velocity);
+    keep_still(ease, support, state.velocity);
     find_rows();
     for (std::size_t k = kRootDofs; k < n; ++k) acceleration[k] = fixtures::between(random, -2.0, 2.0);
     project_on_support(ease, support, acceleration);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "generator/dynamics/soft_height.h"
 #include "generator/dynamics/support_hull.h"
 #include "generator/generate.h"
 #include "model/motion/kinematics.h"
@@ -123,6 +124,54 @@ TEST(Possible, DynamicWalksStayUpAndNearTheirTargets) {
       EXPECT_LT(walk.farthest_m, 0.05) << name << " " << speed_m_s;
       EXPECT_LT(walk.farthest_deg, 5.0) << name << " " << speed_m_s;
     }
+}
+
+// Both feet are lifted in the air by a pose: no plan can hold that, so the figure sits down.
+TEST(Possible, AFigureThatLiftsBothFeetFallsOntoTheGroundAndNotThroughIt) {
+  Spec spec;
+  spec.character.name = "human";
+  spec.hold_frames = 120;
+  spec.dynamics.mode = Mode::dynamic;
+  spec.sequences = {sequence({use("pose", "leg_left", 0, 120, {{"hip_flex_deg", 80.0}, {"knee_deg", 90.0}}),
+                              use("pose", "leg_right", 0, 120, {{"hip_flex_deg", 80.0}, {"knee_deg", 90.0}})})};
+  const Motion motion = generate(built_stage(spec));
+  EXPECT_EQ(motion.response.stances.back().footing, Footing::fallen);
+  for (std::size_t f = 0; f < motion.root.size(); ++f) ASSERT_GT(motion.root[f].p_m.y, 0.0) << f;
+}
+
+// While nothing acts from outside, the cubics of tracking miss nothing of the target.
+TEST(Possible, AFigureOnWhichNothingActsStaysOnItsTarget) {
+  Spec spec;
+  spec.character.name = "human";
+  spec.dynamics.mode = Mode::dynamic;
+  spec.hold_frames = 30;
+  spec.sequences = {sequence({use("pose", "arm_left", 0, 90, {{"elbow_deg", 70.0}})})};
+  const Motion motion = generate(built_stage(spec));
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < motion.coords.size(); ++i)
+    farthest = std::max(farthest, std::fabs(motion.coords[i] - motion.response.target_coords[i]));
+  EXPECT_LT(farthest, 0.5 * kRadPerDeg);
+}
+
+TEST(SoftHeight, ADipBecomesSoftAndNothingRises) {
+  std::vector<double> dip(120, 1.0);
+  for (int f = 55; f <= 65; ++f) dip[static_cast<std::size_t>(f)] = 0.95;
+  const std::vector<double> soft = without_jolts(dip, std::vector<char>(dip.size(), 0), 60.0);
+  double hardest = 0.0;
+  for (std::size_t f = 1; f + 1 < dip.size(); ++f) {
+    EXPECT_LE(soft[f], dip[f] + 1e-12) << f;
+    hardest = std::max(hardest, 3600.0 * std::fabs(soft[f + 1] - 2.0 * soft[f] + soft[f - 1]));
+  }
+  EXPECT_LT(hardest, 10.0);  // the dip has 180 m/s^2
+  EXPECT_EQ(soft.front(), 1.0);
+}
+
+TEST(SoftHeight, SlowMotionsAndKeptFramesStayBitByBit) {
+  std::vector<double> slow, dip(120, 1.0);
+  for (int f = 0; f < 120; ++f) slow.push_back(1.0 + 1e-4 * f);
+  dip[60] = 0.95;
+  EXPECT_EQ(without_jolts(slow, std::vector<char>(120, 0), 60.0), slow);
+  EXPECT_EQ(without_jolts(dip, std::vector<char>(120, 1), 60.0), dip);
 }
 
 TEST(SupportHull, APointInsideStaysAndOthersComeToTheInset) {

@@ -51,6 +51,19 @@ TEST(Audit, HasARowForEachActionOfEachPartOnce) {
     })) << action;
 }
 
+TEST(Audit, MakesTheSameMotionsAsThoseOfFiguresWithMass) {
+  BuiltInGenerator generator(stock_library());
+  AuditOptions options;
+  options.characters = {"human"}, options.actions = {"turn"}, options.draws = 2;
+  const AuditRow kinematic = rows_of(options, generator).front();
+  options.dynamics = Mode::dynamic;
+  const AuditRow dynamic = rows_of(options, generator).front();
+  Spec drawn = audit_spec(dynamic, generator, 1, 0);
+  EXPECT_EQ(drawn.dynamics.mode, Mode::dynamic);
+  drawn.dynamics.mode = Mode::kinematic;
+  EXPECT_EQ(drawn, audit_spec(kinematic, generator, 1, 0));
+}
+
 TEST(Audit, HasARowForEveryPartWithJointsThatASlotMayHold) {
   BuiltInGenerator generator(stock_library());
   std::set<std::string> parts, with_joints;
