@@ -6,11 +6,11 @@
 
 #include "fuzz/compose_params.h"
 #include "fuzz/dice.h"
+#include "fuzz/figure_extent.h"
 #include "fuzz/parallel.h"
 #include "model/character/character.h"
 #include "model/core/index.h"
 #include "model/core/nearest.h"
-#include "model/geometry/solid_points.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/legs.h"
 
@@ -119,19 +119,6 @@ bool touches_walls(const Generator& generator, const Character& character, const
     return source.event == Event::contact && source.part == part;
   });
   return tells && !is_leg && generator.manifest().can.obstacles;
-}
-
-// The distance from the middle of the figure at rest to its outermost point on a side, m: +1 is its left.
-double extent_m(const Character& character, double side) {
-  std::vector<Rigid> world(character.joints().size());
-  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
-  double most_m = 0.0;
-  for (const Collider& collider : character.colliders()) {
-    const Solid solid = solid_of(collider);
-    for (const Vec3& point : core_points(solid))
-      most_m = std::max(most_m, side * (world[at(collider.joint)] * point).x + solid.radius_m);
-  }
-  return most_m;
 }
 
 // A wall to touch, at the part's side, 2 to 40 cm from the figure at rest.

@@ -77,13 +77,14 @@ EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   const Evaluation& evaluation = *run;
   const Execution& execution = evaluator_.execution();
   report.built = true;
+  report.unmet = execution.intent && !execution.intent->unmet.empty();
   report.tested = labels_of(spec, generator_, execution);
   report.frames = evaluation.frame_count;
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;
   report.broken = families_of(spec.character.name, evaluation.findings);
   const std::int64_t index = task.lineage.back();
-  if (!is_seed(config_, index)) report.near = near_misses(*execution.character, group_of(index));
+  if (!is_seed(config_, index) && !config_.draw.profile.staged) report.near = near_misses(*execution.character, group_of(index));
   return report;
 }
 

@@ -10,6 +10,8 @@
 #include "fuzz/compose_params.h"
 #include "fuzz/compose_turns.h"
 #include "fuzz/features.h"
+#include "fuzz/figure_extent.h"
+#include "fuzz/sensible_pose.h"
 #include "model/character/character.h"
 #include "model/core/detmath.h"
 #include "model/motion/kinematics.h"
@@ -35,18 +37,32 @@ int blend_of(int raw, int preset, const Features& features, const DrawRule* rule
   return frames > 0 ? frames : preset;
 }
 
+bool is_pose(const OfferedAction& action) {
+  return std::ranges::any_of(action.params, [](const ParamDef& def) { return def.domain == Domain::joint_range; });
+}
+
+// Whether a profile has its own ranges for a pose: then these count.
+bool narrows(const Profile& profile, const Part& part, const OfferedAction& action) {
+  return profile.range < 1.0 || std::ranges::any_of(action.params, [&](const ParamDef& def) {
+    return profile.rule_for(part.slot, action.name, def.name) != nullptr;
+  });
+}
+
 // The parts that may be moved, and the actions that may move them.
 struct Stock {
   using Actions = std::vector<const OfferedAction*>;
   const Character& character;
   const Offers& offers;
   const Features& features;
+  const Environment& environment;  // where the figure stands when nothing moves it
   std::vector<const Part*> parts;
 
   Actions actions(const Part& part) const {
     Actions all;
-    for (const OfferedAction& action : offers[static_cast<std::size_t>(&part - character.parts().data())])
-      if (!features.profile().never(part.slot, action.name)) all.push_back(&action);
+    const auto index = static_cast<std::size_t>(&part - character.parts().data());
+    const bool stands = !features.profile().wild_poses && carries_sole(character, static_cast<int>(index));
+    for (const OfferedAction& action : offers[index])
+      if (!features.profile().never(part.slot, action.name) && !(stands && is_pose(action))) all.push_back(&action);
     all = features.among(all, "action", features.profile().actions,
                          [](const OfferedAction* action) { return std::string_view(action->name); });
     return weighted(all, part);
@@ -61,8 +77,9 @@ struct Stock {
   }
 };
 
-Stock stock_of(const Character& character, const Offers& offers, const Features& features) {
-  Stock all{character, offers, features, {}};
+Stock stock_of(const Character& character, const Offers& offers, const Features& features,
+               const Environment& environment) {
+  Stock all{character, offers, features, environment, {}};
   for (const Part& part : character.parts())
     if (!all.actions(part).empty()) all.parts.push_back(&part);
   all.parts = features.among(all.parts, "slot", features.profile().slots,
@@ -87,6 +104,8 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   if (action.timing == Timing::course) draw_blend(raw.blend_in, "blend_in_frames", use.blend_in_frames);
   if (action.layer != Layer::overwrite) draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
+  if (is_pose(action) && !profile.wild_poses && !narrows(profile, part, action))
+    make_sensible(stock.character, part, action.params, stock.environment, use);
   return use;
 }
 
@@ -170,17 +189,30 @@ Ground compose_ground(const std::array<int, kRawGround>& raw, const Features& fe
   return field;
 }
 
-// Some specs have a wall beside or before the character.
-EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features, const Capabilities& can) {
-  EnvironmentDesc environment;
-  if (can.grounds) environment.ground = compose_ground(raw.ground, features);
-  if (!can.obstacles || !happens(raw.obstacle, features.profile().obstacles) || features.omits("obstacle")) return environment;
-  const double distance_m = contort::on_lattice(0.01 * between(raw.obstacle * 3 % (kLattice + 1), 30, 150), 100.0);
+// Some specs have a wall beside the character, 2 to 120 cm from it.
+void add_wall(int raw, const Character& character, EnvironmentDesc& environment) {
+  const double side = raw % 2 == 0 ? 1.0 : -1.0;
+  const double distance_m = extent_m(character, side) + 0.1 + 0.01 * between(raw * 3 % (kLattice + 1), 2, 120);
   Box wall;
-  wall.center_m = Vec3(raw.obstacle % 2 == 0 ? distance_m : -distance_m, 1.0, 1.0);
+  wall.center_m = Vec3(side * contort::on_lattice(distance_m, 100.0), 1.0, 1.0);
   wall.half_m = Vec3(0.1, 1.0, 2.0);
   environment.obstacles = {{"wall", wall}};
+}
+
+EnvironmentDesc compose_environment(const RawSpec& raw, const Features& features, const Capabilities& can,
+                                    const Character& character) {
+  EnvironmentDesc environment;
+  if (can.grounds) environment.ground = compose_ground(raw.ground, features);
+  if (can.obstacles && happens(raw.obstacle, features.profile().obstacles) && !features.omits("obstacle"))
+    add_wall(raw.obstacle, character, environment);
   return environment;
+}
+
+// The obstacles alone, on a level plane: a figure at rest stands on any ground as it does there.
+Environment walls_of(const EnvironmentDesc& environment) {
+  EnvironmentDesc walls;
+  walls.obstacles = environment.obstacles;
+  return build_environment(walls).value();
 }
 
 // One of the sequences of the queue, which then has a name.
@@ -225,7 +257,7 @@ ConditionDesc compose_condition(const RawInterrupt& raw, const Stock& stock, Spe
   const std::vector<std::string> slots = slots_that_tell(when.event, stock, spec);
   if (!can_happen(when.event, slots, spec)) when.event = Event::frame;
   if (when.event == Event::frame) when.frame = between(raw.what, 0, 150);
-  if (when.event == Event::near_obstacle) when.distance_m = contort::on_lattice(0.1 * between(raw.what, 2, 20), 10.0);
+  if (when.event == Event::near_obstacle) when.distance_m = contort::on_lattice(0.1 * between(raw.what, 6, 20), 10.0);
   if (waits_for_slot(when.event)) when.slot = slots[pick(raw.what, slots.size())];
   if (when.event == Event::sequence_ended) when.name = named_sequence(spec, raw.what).name;
   if (when.event == Event::clip_ended) {
@@ -259,11 +291,12 @@ Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator)
   Spec spec;
   spec.character = compose_character(raw, name, features, *manifest.library);
   compose_attachments(raw, features, *manifest.library, spec.character);
-  spec.environment = compose_environment(raw, features, manifest.can);
   spec.hold_frames = between(raw.hold, 0, 10);
   const Result<Character> character = build_character(spec.character, *manifest.library);
   if (!character) return spec;  // the caller's build says why
-  const Stock stock = stock_of(*character, generator.offers(*character), features);
+  spec.environment = compose_environment(raw, features, manifest.can, *character);
+  const Environment beside = walls_of(spec.environment);
+  const Stock stock = stock_of(*character, generator.offers(*character), features, beside);
   for (const std::vector<RawClip>& clips : raw.sequences)
     if (SequenceDesc sequence = compose_sequence(clips, stock); !sequence.clips.empty())
       spec.sequences.push_back(std::move(sequence));

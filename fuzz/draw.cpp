@@ -15,7 +15,7 @@ namespace contort {
 namespace {
 
 constexpr int kSize = 100;                                    // RapidCheck's size; nothing here depends on it
-constexpr std::uint64_t kDrawStream = 0x636f6e746f727435ULL;  // changes when the meaning of (seed, index) changes
+constexpr std::uint64_t kDrawStream = 0x636f6e746f727436ULL;  // changes when the meaning of (seed, index) changes
 
 // Uniform on 0 … kLattice, from one draw of the splittable generator.
 rc::Gen<int> lattice() {

@@ -5,6 +5,7 @@
 
 #include "fuzz/compose.h"
 #include "fuzz/mutate.h"
+#include "fuzz/stages.h"
 
 namespace contort {
 
@@ -47,7 +48,7 @@ RawSpec overlaid(std::int64_t seed, std::int64_t index, const Profile& profile) 
 }  // namespace
 
 std::string_view strategy_name(Strategy strategy) {
-  constexpr std::string_view kNames[kStrategies] = {"uniform", "crowded",           "corners",
+  constexpr std::string_view kNames[kStrategies] = {"single", "pair", "crowd", "uniform", "crowded",           "corners",
                                                     "swarm",   "corners_and_swarm", "guided"};
   return kNames[static_cast<std::size_t>(strategy)];
 }
@@ -70,7 +71,13 @@ Strategy unguided(const Odds& odds, std::int64_t index) {
   return Strategy::corners_and_swarm;
 }
 
+Strategy strategy_of(const Odds& odds, const Lineage& lineage) {
+  if (odds.staged) return static_cast<Strategy>(stage_of(lineage));
+  return lineage.size() > 1 ? Strategy::guided : unguided(odds, lineage.front());
+}
+
 RawSpec raw_of(const DrawConfig& config, Generator& generator, std::int64_t seed, const Lineage& lineage) {
+  if (config.profile.staged) return staged_raw(seed, lineage, config.profile);
   const std::int64_t drawn = lineage.front();
   const Strategy strategy = unguided(odds_of(seed, config.profile), drawn);
   RawSpec raw = strategy == Strategy::uniform ? draw_raw(seed, drawn) : overlaid(seed, drawn, config.profile);

@@ -1,6 +1,7 @@
-// The origin of cases. A case is its ancestry: the indices of the cases that it was mutated from, oldest first, its
-// own index last. The oldest was drawn; every other is a mutation of the one before, thrown with dice keyed by its own
-// index. So nothing but indices has to be kept, sent or stored to make any case of a run again.
+// The origin of cases. A case is its ancestry, the indices of the cases that it was made from, and its own index last.
+// In a staged run these are the singles whose actions it combines (stages.h). In other runs the oldest was drawn, and
+// every other is a mutation of the one before, thrown with dice keyed by its own index. So nothing but indices has to be
+// kept, sent or stored to make any case of a run again.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +14,12 @@
 
 namespace contort {
 
-// Ways of making a case. All but the even ones have other draws laid over them, or come of one that had. In files
-// the strategy `overlaid` has the name "crowded".
-enum class Strategy { uniform, overlaid, corners, swarm, corners_and_swarm, guided };
+// Ways of making a case. The first three are the stages of a staged run (stages.h). In a run that is not staged, all but
+// the even ones have other draws laid over them, or come of one that had; in files the strategy `overlaid` has the name
+// "crowded".
+enum class Strategy { single, pair, crowd, uniform, overlaid, corners, swarm, corners_and_swarm, guided };
 std::string_view strategy_name(Strategy strategy);
-inline constexpr int kStrategies = 6;
+inline constexpr int kStrategies = 9;
 
 using Lineage = std::vector<std::int64_t>;  // never empty
 
@@ -26,17 +28,18 @@ struct Odds {
   std::int64_t seed = 1;
   double guided = Profile{}.guided;
   double uniform = Profile{}.uniform;
+  bool staged = Profile{}.staged;
 };
-inline Odds odds_of(std::int64_t seed, const Profile& profile) { return {seed, profile.guided, profile.uniform}; }
+inline Odds odds_of(std::int64_t seed, const Profile& profile) {
+  return {seed, profile.guided, profile.uniform, profile.staged};
+}
 
 // Decides how case `index` is made. Guidance reaches its share little by little: what few cases have come near to is no
 // nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm
 // instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);
 Strategy unguided(const Odds& odds, std::int64_t index);
-inline Strategy strategy_of(const Odds& odds, const Lineage& lineage) {
-  return lineage.size() > 1 ? Strategy::guided : unguided(odds, lineage.front());
-}
+Strategy strategy_of(const Odds& odds, const Lineage& lineage);
 
 // A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in
 // it.

@@ -61,6 +61,7 @@ template <class V>
 void fields(V& v, const EvaluateReport*) {
   v.constant("type", "evaluated");
   v.field("built", &EvaluateReport::built, {}, "The spec builds.");
+  v.field("unmet", &EvaluateReport::unmet, {}, "The generator could not meet a request.");
   v.field("frames", &EvaluateReport::frames, {.low = 0}, "Of the motion.");
   v.field("motion_hash", &EvaluateReport::motion_hash, message_rules::kHash, "Of all frames.");
   v.field("tested", &EvaluateReport::tested, message_rules::kLabels, "What it was made of.");

@@ -22,6 +22,7 @@ struct EvaluateTask {
 
 struct EvaluateReport {
   bool built = false;
+  bool unmet = false;  // the generator could not meet a request
   int frames = 0;
   std::string motion_hash;
   std::vector<std::string> tested;  // labels of what the case was made of

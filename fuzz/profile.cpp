@@ -58,14 +58,18 @@ void fields(V& v, const Profile*) {
           "Whether an action may take over a part that another one of its sequence still moves.");
   v.field("shortest_frames", &Profile::shortest_frames, kActionFrames, "Shortest action.");
   v.field("longest_frames", &Profile::longest_frames, kActionFrames, "Longest action.");
+  v.field("wild_poses", &Profile::wild_poses, {},
+          "Whether poses are drawn for legs and feet, and such that put bodies into each other, the ground or a wall.");
   v.field("range", &Profile::range, {.low = 0.01, .high = 1},
           "Poses are drawn from this middle share of every joint's range.");
   v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
+  v.field("staged", &Profile::staged, {},
+          "Actions are tried alone first, then pairs and crowds of those that are clean; false: everything at once.");
   v.field("guided", &Profile::guided, kOdds,
-          "Share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
+          "Of a search that is not staged: share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
   v.field(
       "uniform", &Profile::uniform, kOdds,
-      "Share of the others that are drawn evenly; the rest is crowded, with corner values, features left out, both or "
+      "The same: share of the others that are drawn evenly; the rest is crowded, with corner values, features left out, both or "
       "neither.");
   v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53},
           "Of a run, unless the command line says; 0: no opinion.");

@@ -47,9 +47,11 @@ struct Profile {
   bool overlaps = true;           // an action may take over a part that another one of its sequence still moves
   int shortest_frames = 6;        // of an action
   int longest_frames = 90;        // of an action
+  bool wild_poses = false;        // poses of parts that stand on the ground, and such that put bodies into each other
   double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
   std::vector<DrawRule> rules{};
-  double guided = 0.5;            // of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
+  bool staged = true;             // actions alone, then pairs and crowds of clean ones (fuzz/stages.h); false: all at once
+  double guided = 0.5;            // where not staged: of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
   double uniform = 0.02;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
   std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
   std::string time;               // the same: "45s", "10m", "2h"; "" where there is none

@@ -102,10 +102,14 @@ class Run {
     for (std::int64_t index = state_.next; index < state_.next + kRound && !is_last(index); ++index) {
       const int island = island_of(index);
       if (!is_of(config_.shard, island)) continue;
-      const Island& pools = state_.islands[static_cast<std::size_t>(island)];
-      round_.add(is_seed(config_, index) ? Lineage{index} : pools.lineage_of(odds_, index));
+      round_.add(is_seed(config_, index) ? Lineage{index} : lineage_of(static_cast<std::size_t>(island), index));
     }
     time_.begin_round(steady_s());
+  }
+
+  Lineage lineage_of(std::size_t island, std::int64_t index) const {
+    return odds_.staged ? state_.ingredients[island].lineage_of(odds_.seed, index)
+                        : state_.islands[island].lineage_of(odds_, index);
   }
 
   void step(Crew& crew, bool hand_out) {

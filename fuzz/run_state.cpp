@@ -75,7 +75,8 @@ Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord
   if (!read) return refused(read.issue());
   RunState state = std::move(read).value();
   if (const Result<Done> own = check_names(corpus, record, state); !own) return refused(own.issue());
-  if (state.plan != plan || state.islands.size() != static_cast<std::size_t>(kIslands))
+  if (state.plan != plan || state.islands.size() != static_cast<std::size_t>(kIslands) ||
+      state.ingredients.size() != static_cast<std::size_t>(kIslands))
     return Issue{"state.other_plan", "", path + " is of a run with other options; remove it to begin anew"};
   return std::optional<RunState>(std::move(state));
 }

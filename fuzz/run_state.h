@@ -9,6 +9,7 @@
 #include "corpus/runs.h"
 #include "fuzz/islands.h"
 #include "fuzz/messages.h"
+#include "fuzz/stages.h"
 
 namespace contort {
 
@@ -17,6 +18,7 @@ struct RunState {
   std::int64_t next = 0;  // first case of the next round
   RunRecord record;
   std::vector<Island> islands = std::vector<Island>(kIslands);
+  std::vector<Ingredients> ingredients = std::vector<Ingredients>(kIslands);
   std::vector<SettleTask> wanted;          // failures that are not settled yet
   std::vector<std::string> new_buckets;    // names of folders
   std::vector<std::string> known_buckets;  // names of folders

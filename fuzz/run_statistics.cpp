@@ -32,12 +32,21 @@ bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t i
   return true;
 }
 
+void RunStatistics::learn(const Lineage& lineage, const EvaluateReport& report) {
+  if (is_seed(config_, lineage.back())) return;
+  const auto island = static_cast<std::size_t>(island_of(lineage.back()));
+  if (config_.draw.profile.staged)
+    state_.ingredients[island].learn(lineage, report.built && report.broken.empty() && !report.unmet);
+  else
+    state_.islands[island].learn(lineage, report.near, report.broken);
+}
+
 std::vector<SettleTask> RunStatistics::add(const RoundCase& one) {
   const EvaluateReport& report = *one.report;
   const std::int64_t index = one.lineage.back();
   const std::string strategy_name = strategy_of_case(one.lineage);
   count(report, strategy_name);
-  state_.islands[static_cast<std::size_t>(island_of(index))].learn(one.lineage, report.near, report.broken);
+  learn(one.lineage, report);
   std::vector<SettleTask> wanted;
   for (std::size_t rank = 0; rank < report.broken.size(); ++rank)
     if (wants(report.broken[rank], rank, index, strategy_name))

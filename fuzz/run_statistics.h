@@ -24,6 +24,7 @@ class RunStatistics {
   std::string strategy_of_case(const Lineage& lineage) const;
 
  private:
+  void learn(const Lineage& lineage, const EvaluateReport& report);
   void count(const EvaluateReport& report, const std::string& strategy_name);
   bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name);
 

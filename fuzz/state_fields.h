@@ -25,15 +25,23 @@ void fields(V& v, const Island*) {
   v.field("retired", &Island::retired, message_rules::kFamilies, "Families that are broken.");
 }
 
+template <class V>
+void fields(V& v, const Ingredients*) {
+  v.field("setting", &Ingredients::setting, {.low = -1, .high = 0x1p53}, "Index that draws the setting of its epoch.");
+  v.field("clean", &Ingredients::clean, message_rules::kIndices, "Singles without a finding.");
+  v.field("failing", &Ingredients::failing, {.max_count = 1000}, "Pairs with a finding.");
+}
+
 inline const json_fields::Rule kStateFolders{.max_count = 100'000, .text = json_fields::Text::file};
 
 template <class V>
 void fields(V& v, const RunState*) {
-  v.constant("format", "contort.state/4");
+  v.constant("format", "contort.state/5");
   v.field("plan", &RunState::plan, message_rules::kProse, "What the run was asked for.");
   v.field("next", &RunState::next, run_rules::kTotal, "First case of the next round.");
   v.field("record", &RunState::record, {.required = true}, "What was done so far.");
   v.field("islands", &RunState::islands, {.max_count = kIslands}, "What the search knows.");
+  v.field("ingredients", &RunState::ingredients, {.max_count = kIslands}, "What the stages know, by island.");
   v.field("wanted", &RunState::wanted, {.max_count = 1'000'000}, "Failures that are not settled yet.");
   v.field("new_buckets", &RunState::new_buckets, kStateFolders, "Buckets that this run was the first to fill.");
   v.field("known_buckets", &RunState::known_buckets, kStateFolders, "Buckets that were there before.");

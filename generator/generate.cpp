@@ -47,6 +47,7 @@ class Generation {
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
     s_.held_off.assign(character_.parts().size(), 0);
+    s_.landing.assign(character_.parts().size(), 0);
     s_.free_arm.assign(character_.parts().size(), 0);
     for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
       s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);
@@ -93,6 +94,7 @@ class Generation {
     remember_soles(playback);
     LimbKeeper(stage_, s_).note_feet(playback);
     for (std::size_t p = 0; p < s_.stacks.size(); ++p) {
+      if (s_.added[p] == 0 && is_on_its_way(p)) s_.spans.linger(frame, static_cast<int>(p), linger_frames());
       PromiseWatch(stage_, s_).note(playback, p);
       s_.further.ask(playback, p, s_.stacks, s_.rules, s_.postures.shown.root);
     }
@@ -103,6 +105,12 @@ class Generation {
     s_.past.before.coords = s_.postures.shown.coords;
     motion_.frame_count = frame + 1;
   }
+
+  // Held back by its joints' speeds, or kept clear of bodies or of the ground.
+  bool is_on_its_way(std::size_t p) const {
+    return s_.behind[p] != 0 || s_.shift[p] == Shift::lifted || s_.shift[p] == Shift::held_off;
+  }
+  int linger_frames() const { return static_cast<int>(std::ceil(0.5 * stage_.rate_hz)); }
 
   // Tells the queue what happened in this frame; it hears of it in the next one.
   void signal() {

@@ -54,6 +54,7 @@ struct GenerateScratch {
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
+  std::vector<int> landing;        // the same
   int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere
   RootCarry carry;
   SpanRecorder spans;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "generator/actions/hand.h"
+#include "generator/motion/blend.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
@@ -10,7 +12,12 @@ namespace contort {
 bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
   if (ik.action >= 0) return !moves_legs(playback, ik) && !is_cut(playback, ik);
-  return s_.added[p] != 0 || (s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0);
+  return s_.added[p] != 0;
+}
+
+// What it did is over, and it is still on its way to its base.
+bool LimbKeeper::comes_back(std::size_t p) const {
+  return s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0 && s_.stacks[p].ik().action < 0;
 }
 
 HeldObject LimbKeeper::held_by(const Playback& playback, std::size_t p) const {
@@ -37,12 +44,13 @@ bool LimbKeeper::acts(const Playback& playback, const Limb& limb) const {
 // As of now for limbs that are finished, else with the shift of the frame before.
 LegUse LimbKeeper::use_of(const Playback& playback, const Limb& limb) const {
   if (acts(playback, limb)) return LegUse::acts;
+  if (std::ranges::any_of(limb.parts, [&](int p) { return comes_back(at(p)); })) return LegUse::lands;
   const bool is_placed = std::ranges::any_of(limb.parts, [&](int p) {
     return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
   });
   if (is_placed) return LegUse::placed;
   const Shift shift = s_.shift[at(limb.parts.back())];
-  return shift == Shift::lifted || shift == Shift::held_off ? LegUse::acts : LegUse::idle;
+  return shift == Shift::lifted || shift == Shift::held_off ? LegUse::lands : LegUse::idle;
 }
 
 // All parts of the limb are placed.
@@ -53,7 +61,9 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   int& held_off = s_.held_off[at(limb.parts.back())];
   const HeldObject held = held_by(playback, at(limb.parts.front()));
   s_.rules.room().hold(at(limb.parts.back()), held);
-  if (use == LegUse::acts) keep_clear(limb, was_lifted);
+  if (use != LegUse::lands) s_.landing[at(limb.parts.back())] = 0;
+  const bool lands = use == LegUse::lands && land(limb);
+  if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
   if (held_off > 0) try_again(playback, limb);
@@ -93,6 +103,43 @@ void LimbKeeper::plant(const Limb& limb) {
       shift(limb, Shift::planted);
 }
 
+void LimbKeeper::place(const Leg& leg, const Posture& posture) {
+  for (const int j : leg.joints) forward_kinematics(*stage_.character, posture.coords, j, j + 1, s_.rules.world());
+}
+
+// Nothing moves the limb any more: its feet go to where its base posture has them, faster from frame to frame at first.
+// False for a limb without feet of its own, and where there is no room.
+bool LimbKeeper::land(const Limb& limb) {
+  constexpr double kFaster = 0.04, kFastest = 0.25;  // of the way that is left, in a frame
+  int& landing = s_.landing[at(limb.parts.back())];
+  const double share = std::min(kFastest, kFaster * ++landing);
+  bool has_feet = false, is_there = true;
+  for (const int i : limb.legs) {
+    const Leg& leg = stage_.legs[at(i)];
+    if (!limb.is_its_own(leg)) continue;
+    place(leg, s_.postures.base);
+    const Rigid there = world_from_socket(*stage_.character, s_.rules.world(), leg.sole);
+    place(leg, s_.past.before);
+    for (const int p : {leg.part, leg.foot_part})
+      copy_part(*stage_.character, at(p), s_.past.before, s_.postures.shown);
+    is_there = s_.rules.feet().land(at(i), there, share, s_.rules.world(), s_.postures.shown.coords) && is_there;
+    has_feet = true;
+  }
+  if (!has_feet || s_.rules.room().room_m(at(limb.parts.back()), s_.rules.world()) < -kTooNear_m) return false;
+  if (is_there) return arrive(limb), true;
+  shift(limb, Shift::lifted);
+  for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+  return true;
+}
+
+void LimbKeeper::arrive(const Limb& limb) {
+  for (const int p : limb.parts) {
+    copy_part(*stage_.character, at(p), s_.postures.base, s_.postures.shown);
+    s_.path.pass(at(p), s_.postures.shown.coords);
+  }
+  for (const int i : limb.legs) place(stage_.legs[at(i)], s_.postures.base);
+}
+
 void LimbKeeper::note_feet(const Playback& playback) {
   for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
     s_.rules.feet().note(leg, use_of(playback, limb_at(at(stage_.legs[leg].part))), s_.rules.world());
@@ -105,7 +152,11 @@ void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
     case Clearance::Kept::elsewhere: break;
   }
   shift(limb, Shift::held_off);
-  for (const int p : limb.parts) s_.path.correct(at(p), s_.postures.shown.coords);
+  for (const int p : limb.parts)
+    if (was_lifted)
+      s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+    else
+      s_.path.correct(at(p), s_.postures.shown.coords);
 }
 
 

@@ -17,6 +17,7 @@ class LimbKeeper {
 
  private:
   bool makes_way(const Playback& playback, std::size_t p) const;
+  bool comes_back(std::size_t p) const;
   HeldObject held_by(const Playback& playback, std::size_t p) const;
   void note_grasp(const Playback& playback, const Limb& limb, const HeldObject& held);
   bool acts(const Playback& playback, const Limb& limb) const;
@@ -24,6 +25,9 @@ class LimbKeeper {
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
+  void place(const Leg& leg, const Posture& posture);
+  bool land(const Limb& limb);
+  void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
   void try_again(const Playback& playback, const Limb& limb);
 

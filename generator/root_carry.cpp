@@ -1,6 +1,6 @@
 #include "generator/root_carry.h"
 
-#include "generator/motion/place_foot.h"
+#include "generator/motion/stand_on.h"
 #include "generator/motion/way.h"
 
 #include "model/motion/kinematics.h"
@@ -9,13 +9,14 @@ namespace contort {
 
 namespace {
 
-// Hips over the feet, and feet on the ground.
-void fit_to_ground(const Stage& stage, const GaitFrame& frame, std::span<Rigid> world, Posture& posture) {
+// Puts the hips over the feet, and the feet on the ground. `soles` are moved where an ankle does not bend so far.
+void fit_to_ground(const Stage& stage, const GaitFrame& frame, std::span<Rigid> world, Posture& posture,
+                   std::span<Rigid> soles) {
   const Character& character = *stage.character;
   posture.root = frame.root;
   forward_kinematics(character, posture.root, posture.coords, world);
   for (std::size_t i = 0; i < stage.legs.size(); ++i)
-    place_foot(character, stage.legs[i], world, frame.feet[i].world_from_sole, posture.coords);
+    soles[i] = stand_on(character, stage.legs[i], world, frame.feet[i].world_from_sole, posture.coords).world_from_sole;
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ void RootCarry::begin(const Stage& stage, std::span<Rigid> world, Posture& postu
   if ((stage.environment.is_level() && !stage.bends) || stage.legs.empty())
     posture.root.p_m.y += stage.environment.height_at(at.x, at.z);
   else
-    fit_to_ground(stage, gait.stand(0.0), world, posture);
+    fit_to_ground(stage, gait.stand(0.0), world, posture, soles_);
 }
 
 void RootCarry::remember(const GaitFrame& frame) {

@@ -24,6 +24,7 @@ void SpanRecorder::begin(const Timeline& timeline, Motion& motion) {
   held_.assign(timeline.part_order.size(), {-1, -1});
   additives_.assign(timeline.actions.size(), -1);
   aims_.assign(timeline.actions.size(), -1);
+  latest_.assign(timeline.part_order.size(), {-1, -1});
 }
 
 void SpanRecorder::hold(int frame, const PlannedAction& action, bool begins) {
@@ -35,6 +36,13 @@ void SpanRecorder::hold(int frame, const PlannedAction& action, bool begins) {
 void SpanRecorder::additive(int frame, int action) {
   int& entry = additives_[at(action)];
   if (is_over(motion_->spans, entry, frame)) entry = add_span(frame, timeline_->actions[at(action)]);
+  motion_->spans[at(entry)].last_frame = frame;
+  latest_[at(timeline_->actions[at(action)].part)] = {entry, frame};
+}
+
+void SpanRecorder::linger(int frame, int part, int most_frames) {
+  const auto [entry, ended] = latest_[at(part)];
+  if (is_over(motion_->spans, entry, frame) || frame > ended + most_frames) return;
   motion_->spans[at(entry)].last_frame = frame;
 }
 

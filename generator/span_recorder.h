@@ -21,6 +21,9 @@ class SpanRecorder {
   // An additive moves its part in this frame: one entry for as long as it does so without a break.
   void additive(int frame, int action);
 
+  // A part whose additives are over is still on its way back: the latest of them goes on, for `most_frames` at most.
+  void linger(int frame, int part, int most_frames);
+
   // An aim is fully in force in this frame, at a target in the world: one entry for as long as it is, without a break.
   void aim(int frame, int action, const Vec3& target_m);
 
@@ -32,6 +35,7 @@ class SpanRecorder {
   std::vector<std::array<int, 2>> held_;  // by part: the entry of the action that has overwrite, and ik
   std::vector<int> additives_;            // by action: its entry, or -1
   std::vector<int> aims_;
+  std::vector<std::array<int, 2>> latest_;  // by part: the entry of the additive that ended last, and its own last frame
 };
 
 }  // namespace contort

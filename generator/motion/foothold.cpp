@@ -16,6 +16,8 @@ Vec3 footprint_point(const Leg& leg, int across, int lengthwise) {
 
 namespace {
 
+constexpr double kShareOfAnkle = 0.8;  // of its range, so that the leg above may lean a little
+
 // The points under a foot, in its sole's frame, and the heights of the ground there.
 struct Footprint {
   Vec3 points[kAcross * kLong];
@@ -72,9 +74,11 @@ Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid
     xh += point.x * (print.heights_m[k] - print.mean_m), zh += point.z * (print.heights_m[k] - print.mean_m);
   }
   Foothold foothold;
-  const double steepest = det::sin(kSteepestSole_rad) / det::cos(kSteepestSole_rad);
-  foothold.slope_x = std::clamp(xh / xx, -steepest, steepest);
-  foothold.slope_z = std::clamp(zh / zz, -steepest, steepest);
+  const auto slope = [](double angle_rad) { return det::sin(angle_rad) / det::cos(angle_rad); };
+  const double steepest_x = slope(std::min(kSteepestSole_rad, kShareOfAnkle * leg.tilts_rad));
+  const double steepest_z = slope(kSteepestSole_rad);
+  foothold.slope_x = std::clamp(xh / xx, -steepest_x, steepest_x);
+  foothold.slope_z = std::clamp(zh / zz, -steepest_z, steepest_z);
   lay_on_highest(print, foothold);
   return foothold;
 }

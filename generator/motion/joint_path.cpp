@@ -168,6 +168,16 @@ void JointPath::correct(std::size_t part, std::span<const double> coords) {
   std::copy_n(coords.begin() + own.first_coord, own.coord_count, now_.begin() + own.first_coord);
 }
 
+void JointPath::correct(std::size_t part, std::span<const double> shown_before, std::span<const double> coords) {
+  correct(part, coords);
+  const Part& own = character_->parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character_->joint(j);
+    if (joint.kind != JointKind::root)
+      joints_[at(j)].speed = joint_way_vector(joint, shown_before.data() + joint.coord, coords.data() + joint.coord);
+  }
+}
+
 void JointPath::cut(std::size_t part, std::span<const double> coords) {
   const Part& own = character_->parts()[part];
   for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) joints_[at(j)] = {};

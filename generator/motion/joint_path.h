@@ -26,6 +26,8 @@ class JointPath {
 
   // After follow(): the part went elsewhere, as these coordinates say, and is behind.
   void correct(std::size_t part, std::span<const double> coords);
+  // The same for a part that was shown elsewhere in the frame before, too: its joints have the speeds that were seen.
+  void correct(std::size_t part, std::span<const double> shown_before, std::span<const double> coords);
 
   // The part is where it is wanted, and at rest: no way led there.
   void cut(std::size_t part, std::span<const double> coords);

@@ -54,8 +54,21 @@ void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> worl
   const double height = height_m(leg, sole);
   const bool stays_idle = use_[leg] == LegUse::idle && use == LegUse::idle;
   use_[leg] = use;
-  if ((stays_idle && is_planted(leg)) || (use == LegUse::acts && stood_[leg] && height <= kFree_m)) return;
+  if ((stays_idle && is_planted(leg)) || ((use == LegUse::acts || use == LegUse::lands) && stood_[leg] && height <= kFree_m)) return;
   stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
+}
+
+bool StandingFeet::land(std::size_t leg, const Rigid& world_from_sole, double share, std::span<Rigid> world,
+                        std::span<double> row) {
+  constexpr double kArrives_m = 2e-4, kArrives_rad = 2e-3;
+  stood_[leg] = world_from_sole;
+  const Rigid from = world_from_socket(*character_, world, legs_[leg].sole);
+  Rigid sole{slerp_short(from.q, world_from_sole.q, share), from.p_m + share * (world_from_sole.p_m - from.p_m)};
+  sole.p_m.y += std::max(0.0, -spare_m(leg, sole));
+  put(leg, sole, world, row);
+  const Rigid now = world_from_socket(*character_, world, legs_[leg].sole);
+  return length(now.p_m - world_from_sole.p_m) < kArrives_m &&
+         rotation_angle(glm::conjugate(now.q) * world_from_sole.q) < kArrives_rad;
 }
 
 void StandingFeet::put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {

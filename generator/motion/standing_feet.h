@@ -15,6 +15,7 @@ enum class LegUse {
   idle,
   placed,  // by a course, or by an author's key poses
   acts,    // it has another action, or is on its way back from one
+  lands,   // no action moves it any more, but its foot is still lifted
 };
 
 // Legs are named by their index in find_legs(). World coordinates.
@@ -27,6 +28,10 @@ class StandingFeet {
   // does an idle one on a leg that the root part does not carry. Any other foot stands where it is, if it touches the
   // ground.
   void note(std::size_t leg, LegUse use, std::span<const Rigid> world);
+
+  // A lifted foot, which is where `world` has it, goes a share of its way to this sole, the higher the farther it is from
+  // there. True if it has arrived.
+  bool land(std::size_t leg, const Rigid& world_from_sole, double share, std::span<Rigid> world, std::span<double> row);
 
   // Whether the foot must stay where it stood, although what carries its leg may move. As of the frame before.
   bool is_planted(std::size_t leg) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/detmath.h"
 #include "model/core/math.h"
 #include "model/motion/kinematics.h"
 
@@ -60,16 +61,45 @@ void measure_footprint(const Character& character, Leg& leg) {
   }
 }
 
+// The distance from hip to ankle with the joint between them straight, or as near to straight as its range allows.
+double longest_m(const Joint& middle, const Rigid& world_from_middle, const Vec3& hip, const Vec3& ankle, double q) {
+  const Vec3 knee = world_from_middle.p_m, up = hip - knee, down = ankle - knee;
+  const double stretched_m = length(up) + length(down);
+  if (middle.kind != JointKind::hinge) return stretched_m;
+  const Vec3 axis = world_from_middle.q * middle.axis;
+  const Vec3 up_flat = up - glm::dot(up, axis) * axis, down_flat = down - glm::dot(down, axis) * axis;
+  const auto distance_m = [&](double turn_rad) { return length(axis_angle(axis, turn_rad) * down - up); };
+  constexpr double kRounding_rad = 1e-6;
+  double straight_rad = det::atan2(glm::dot(axis, glm::cross(down_flat, -up_flat)), -glm::dot(down_flat, up_flat));
+  for (const double turn_rad : {straight_rad, straight_rad - 2.0 * kPi, straight_rad + 2.0 * kPi})
+    if (q + turn_rad >= middle.low - kRounding_rad && q + turn_rad <= middle.high + kRounding_rad) return stretched_m;
+  return std::max(distance_m(middle.low - q), distance_m(middle.high - q));
+}
+
+// By the hinges of the ankle that turn about the sole's Z.
+double tilt_of_ankle_rad(const Character& character, std::span<const Rigid> world, const Leg& leg) {
+  const Vec3 along = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);
+  for (int i = 0; i < leg.ankle_count; ++i) {
+    const int j = leg.ankles[static_cast<std::size_t>(i)];
+    const Joint& joint = character.joint(j);
+    if (std::fabs(glm::dot(world[static_cast<std::size_t>(j)].q * joint.axis, along)) > 0.9)
+      return std::max(0.0, std::min(-joint.low, joint.high));
+  }
+  return kPi / 2;
+}
+
 void measure(const Character& character, const ReachChain& chain, std::span<const Rigid> world, Leg& leg) {
   const Rigid character_from_world = inverse(world[0] * inverse(character.rest_root()));
   const Rigid world_from_sole = world_from_socket(character, world, leg.sole);
   const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
-  const Vec3 knee = world[static_cast<std::size_t>(chain.middle)].p_m;
   const Vec3 ankle = world_from_socket(character, world, chain.tip).p_m;
   leg.home_m = character_from_world * world_from_sole.p_m;
   leg.hip_m = character_from_world * hip;
   leg.sole_from_ankle = inverse(world_from_sole) * ankle;
-  leg.length_m = length(knee - hip) + length(ankle - knee);
+  const Joint& middle = character.joint(chain.middle);
+  const double q = character.rest_coords()[static_cast<std::size_t>(middle.coord)];
+  leg.length_m = longest_m(middle, world[static_cast<std::size_t>(chain.middle)], hip, ankle, q);
+  leg.tilts_rad = tilt_of_ankle_rad(character, world, leg);
   leg.side = leg.home_m.x >= 0.0 ? 0 : 1;
   measure_footprint(character, leg);
 }

@@ -22,7 +22,8 @@ struct Leg {
   Vec3 home_m{0.0};          // the sole at rest, in the character's frame (on the ground under the root)
   Vec3 hip_m{0.0};           // the chain's first joint, there too
   Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame
-  double length_m = 0.0;     // from hip to ankle, stretched
+  double length_m = 0.0;     // from hip to ankle, as far as the range of the joint between them allows
+  double tilts_rad = kPi / 2;  // how far the ankle tilts the sole about its Z to either side; pi/2 where no hinge does
   Vec3 low_m{0.0};           // the footprint: x and z of the colliders on the sole's joint, in the sole's frame
   Vec3 high_m{0.0};
   int row = 0;  // 0 is the rearmost pair

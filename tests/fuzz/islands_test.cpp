@@ -100,7 +100,8 @@ TEST(Lineages, GuidanceComesIntoItsShareLittleByLittle) {
 
 // More than 400 numbers make up a case, and most mean nothing in it.
 TEST(Lineages, AMutationChangesTheSpec) {
-  const DrawConfig config{{"human"}};
+  DrawConfig config{{"human"}};
+  config.profile.staged = false;
   int same = 0;
   for (std::int64_t index = 0; index < 200; ++index) {
     const auto spec_of = [&](const Lineage& line) {
@@ -113,6 +114,7 @@ TEST(Lineages, AMutationChangesTheSpec) {
 
 TEST(Lineages, AnInterruptMayComeAtAnotherTime) {
   DrawConfig config{{"human"}};
+  config.profile.staged = false;
   config.profile.uniform = 1.0;  // of parents, so that many have one interrupt
   int moved = 0;
   for (std::int64_t index = 0; index < 400 && moved < 3; ++index) {

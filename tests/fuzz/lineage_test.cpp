@@ -32,6 +32,12 @@ std::size_t action_count(const Spec& spec) {
   return count;
 }
 
+DrawConfig all_at_once(std::vector<std::string> characters) {
+  DrawConfig config{std::move(characters)};
+  config.profile.staged = false;
+  return config;
+}
+
 TEST(Lineage, ArmsHaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (int arm = 0; arm < kStrategies; ++arm) names.insert(strategy_name(static_cast<Strategy>(arm)));
@@ -41,6 +47,7 @@ TEST(Lineage, ArmsHaveNamesOfTheirOwn) {
 // The baseline against which the search is measured.
 TEST(Lineage, EvenCasesAreDrawsAsTheyAre) {
   DrawConfig config{{"human"}};
+  config.profile.staged = false;
   config.profile.guided = 0.0, config.profile.uniform = 1.0;
   for (std::int64_t index = 0; index < 50; ++index)
     EXPECT_EQ(raw_of(config, stock_generator(), 3, {index}), draw_raw(3, index));
@@ -124,7 +131,7 @@ TEST(Crowding, EndsWhereThereIsNoRoom) {
 }
 
 TEST(Crowding, MakesCasesThatBuildAndHaveTwiceTheActions) {
-  const DrawConfig config{{"human", "mech", "quadruped"}};
+  const DrawConfig config = all_at_once({"human", "mech", "quadruped"});
   std::size_t even = 0, crowded = 0;
   for (std::int64_t index = 0; index < 300; ++index) {
     if (unguided(odds_of(1, config.profile), index) != Strategy::overlaid) continue;
@@ -149,7 +156,7 @@ TEST(Crowding, BringsGroundsThatAreNotLevel) {
     }
     return 100.0 * level / all;
   };
-  DrawConfig config{{"human"}};
+  DrawConfig config = all_at_once({"human"});
   EXPECT_NEAR(level_percent(config), 12.5, 3.0);
   config.profile.grounds = {"plane", "steps"};  // five of six draws are level
   EXPECT_NEAR(level_percent(config), 100.0 * 125.0 / 216.0, 4.5);

@@ -38,7 +38,7 @@ TEST(Messages, ATaskHasTheFieldsOfItsOwnType) {
 }
 
 TEST(Messages, ReportsArriveAsTheyWereSent) {
-  const EvaluateReport evaluated{true,      60,       "0123456789abcdef", {"ground steps"},
+  const EvaluateReport evaluated{true,      true,           60, "0123456789abcdef", {"ground steps"},
                                  {kFamily}, {{kFamily, 0.1}}, {{3, true}}};
   EXPECT_EQ(parse_report<EvaluateReport>(print_report(evaluated)), evaluated);
   SettledLead settled{{"seed_1", made_up(170, 60, 1), made_up(160, 30, 1)}, true, {}, {}};

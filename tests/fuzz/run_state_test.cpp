@@ -79,7 +79,7 @@ TEST_F(KeptState, ATaskNamesNoFile) {
 
 TEST_F(KeptState, OfAnOlderVersionIsRefused) {
   ASSERT_TRUE(kept());
-  expect_changed_is_refused("contort.state/4", "contort.state/3", "state.wrong_format", "/format");
+  expect_changed_is_refused("contort.state/5", "contort.state/4", "state.wrong_format", "/format");
 }
 
 TEST_F(KeptState, ItIsOfItsOwnRun) {

@@ -12,7 +12,7 @@ class CountedCases : public testing::Test {
  protected:
   std::vector<SettleTask> add(std::int64_t index, std::vector<Family> broken) {
     RoundCase one{{index}};
-    one.report = EvaluateReport{true, 60, "0123456789abcdef", {"ground steps"}, std::move(broken), {}, {}};
+    one.report = EvaluateReport{true, false, 60, "0123456789abcdef", {"ground steps"}, std::move(broken), {}, {}};
     one.ends_process = ends_process_;
     return statistics_.add(one);
   }

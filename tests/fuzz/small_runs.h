@@ -36,6 +36,8 @@ inline Generator& generator() {
 inline RunConfig config_of(std::int64_t cases, int jobs) {
   RunConfig config;
   config.draw.characters = {"small"};
+  config.draw.profile.staged = false;  // all at once, so that much fails early
+  config.draw.profile.wild_poses = true;
   config.seed = 4;
   config.cases = cases;
   config.jobs = jobs;

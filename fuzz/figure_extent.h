@@ -1,0 +1,11 @@
+// How far a figure reaches to its sides.
+#pragma once
+
+#include "model/character/character.h"
+
+namespace contort {
+
+// The distance from the middle of the figure at rest to its outermost point on a side, m: +1 is its left.
+double extent_m(const Character& character, double side);
+
+}  // namespace contort

@@ -1,0 +1,71 @@
+// Poses that are drawn put no body into another one.
+#include "fuzz/sensible_pose.h"
+
+#include <gtest/gtest.h>
+
+#include "fuzz/compose.h"
+#include "fuzz/draw.h"
+#include "tests/character/stock.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+
+namespace {
+
+const OfferedAction& pose_of(const Character& character, int part) {
+  return *find_offer(stock_generator().offers(character), part, "pose");
+}
+
+ActionUse made_sensible(const Character& character, const std::string& slot, std::map<std::string, ParamValue> values) {
+  const int part = character.find_part(slot);
+  ActionUse use;
+  use.action = "pose", use.slot = slot, use.params = std::move(values);
+  make_sensible(character, character.parts()[static_cast<std::size_t>(part)], pose_of(character, part).params, {}, use);
+  return use;
+}
+
+TEST(SensiblePoses, LeaveAPoseThatIsClearAsItIs) {
+  const std::map<std::string, ParamValue> clear = {{"elbow_deg", 60.0}};
+  EXPECT_EQ(made_sensible(fixtures::built({"human", {}, {}}), "arm_left", clear).params, clear);
+}
+
+TEST(SensiblePoses, BringBackAHandThatWouldBeInTheChest) {
+  const Character human = fixtures::built({"human", {}, {}});
+  const std::map<std::string, ParamValue> into_chest = {{"shoulder_deg", Vec3(-40.0, 0.0, -40.0)},
+                                                        {"elbow_deg", 140.0}};
+  const ActionUse use = made_sensible(human, "arm_left", into_chest);
+  EXPECT_NE(use.params, into_chest);
+  EXPECT_EQ(use.params.size(), 2U) << "no parameter is lost";
+}
+
+TEST(SensiblePoses, PartsThatCarryASole) {
+  const Character human = fixtures::built({"human", {}, {}});
+  EXPECT_TRUE(carries_sole(human, human.find_part("leg_left")));
+  EXPECT_TRUE(carries_sole(human, human.find_part("foot_right")));
+  EXPECT_FALSE(carries_sole(human, human.find_part("arm_left")));
+  EXPECT_FALSE(carries_sole(human, human.find_part("waist")));
+}
+
+// The figure alone, before anything moves, is never in its wall; and no default draw poses a leg.
+TEST(SensiblePoses, DefaultDrawsStandBesideTheirWallsAndPoseNoLegs) {
+  const DrawConfig config{{"human", "mech", "quadruped"}};
+  StageEvaluator evaluator;
+  int walls = 0;
+  for (int index = 0; index < 300; ++index) {
+    Spec spec = draw_spec(config, stock_generator(), 11, index);
+    const Character character = build_character(spec.character, stock_library()).value();
+    for (const SequenceDesc& sequence : spec.sequences)
+      for (const ClipDesc& clip : sequence.clips)
+        for (const ActionUse& use : clip.actions)
+          EXPECT_FALSE(use.action == "pose" && carries_sole(character, character.find_part(use.slot))) << use.slot;
+    walls += static_cast<int>(spec.environment.obstacles.size());
+    spec.sequences.clear(), spec.interrupts.clear();
+    spec.dynamics = {};
+    EXPECT_TRUE(evaluator.run(*build_stage(spec, stock_library()), "obstacle_penetration").findings.empty()) << index;
+  }
+  EXPECT_GT(walls, 50);
+}
+
+}  // namespace
+
+}  // namespace contort

@@ -1,0 +1,91 @@
+// Feet that an action has moved come back to where they stood, and figures stand on any slope that a spec may have.
+#include <gtest/gtest.h>
+
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/legs.h"
+#include "tests/character/stock.h"
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+Spec spec_with(const std::string& character, const ActionUse& action, int hold_frames) {
+  Spec spec;
+  spec.character.name = character;
+  spec.hold_frames = hold_frames;
+  spec.sequences = {sequence({action})};
+  return spec;
+}
+
+std::vector<Finding> findings_in(const Spec& spec, StageEvaluator& evaluator) {
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  EXPECT_TRUE(stage);
+  return stage ? evaluator.run(*stage).findings : std::vector<Finding>{};
+}
+
+// A foot that had been lifted once hung over the ground for good, or went up and down there.
+TEST(Landing, ALegThatWasHitIsBackWithinHalfASecond) {
+  StageEvaluator evaluator;
+  for (const std::string name : {"human", "mech", "quadruped"}) {
+    const std::vector<Leg> legs = find_legs(fixtures::built({name, {}, {}}));
+    for (int draw = 0; draw < 24; ++draw) {
+      const Leg& leg = legs[at(draw) % legs.size()];
+      const std::string slot = fixtures::built({name, {}, {}}).parts()[at(leg.part)].slot;
+      ActionUse hit = use("hit_reaction", slot, 12, 12 + 2 * draw,
+                          {{"azimuth_deg", 37 * draw % 340 - 170.0}, {"strength_deg", 20.0 + draw}});
+      hit.blend_in_frames = ActionUse{}.blend_in_frames;
+      for (const Finding& finding : findings_in(spec_with(name, hit, 40), evaluator))
+        if (finding.check == "residue" || finding.check == "foot_slide" || finding.check == "ground_penetration")
+          ADD_FAILURE() << name << " " << slot << " draw " << draw << ": " << finding.check;
+      const Motion& motion = evaluator.motion();
+      const std::span<const double> last = motion.row(motion.frame_count - 1), first = motion.row(0);
+      EXPECT_TRUE(std::ranges::equal(first, last, [](double a, double b) { return std::fabs(a - b) < 1e-9; }))
+          << name << " " << slot << " draw " << draw;
+    }
+  }
+}
+
+// Ankles tilt less far than the ground, and a leg need not become straight.
+TEST(Landing, FiguresAtRestStandOnSlopesOfAnyHeading) {
+  StageEvaluator evaluator;
+  for (const std::string name : {"human", "mech", "quadruped"})
+    for (const double slope_deg : {8.0, 16.0, 23.0, 25.0})
+      for (double heading_deg = -180.0; heading_deg < 180.0; heading_deg += 15.0) {
+        Spec spec;
+        spec.character.name = name;
+        spec.hold_frames = 3;
+        spec.environment.ground = SlopeGround{slope_deg, heading_deg};
+        for (const Finding& finding : findings_in(spec, evaluator))
+          ADD_FAILURE() << name << " on " << slope_deg << " to " << heading_deg << ": " << finding.check << " "
+                        << finding.subject;
+      }
+}
+
+// The elbow of a fore leg does not open as far as to be straight.
+TEST(Landing, ALegIsAsLongAsItsMiddleJointAllows) {
+  for (const std::string name : {"human", "mech", "quadruped"}) {
+    const Character character = fixtures::built({name, {}, {}});
+    std::vector<Rigid> world(character.joints().size());
+    for (const Leg& leg : find_legs(character)) {
+      const ReachChain& chain = character.parts()[at(leg.part)].reach.front();
+      const Joint& middle = character.joint(chain.middle);
+      std::vector<double> row(character.rest_coords().begin(), character.rest_coords().end());
+      double longest_m = 0.0;
+      for (int step = 0; step <= 2000; ++step) {
+        row[at(middle.coord)] = middle.low + (middle.high - middle.low) * step / 2000.0;
+        forward_kinematics(character, character.rest_root(), row, world);
+        longest_m = std::max(longest_m,
+                             length(world_from_socket(character, world, chain.tip).p_m - world[at(chain.upper)].p_m));
+      }
+      EXPECT_NEAR(leg.length_m, longest_m, 1e-4) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contort
