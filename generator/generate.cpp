@@ -67,6 +67,7 @@ class Generation {
     s_.path.begin(character_, start.coords, stage_.rate_hz);
     s_.clearance.begin(character_, s_.rules.room());
     s_.past.before = s_.past.earlier = start;
+    s_.wanted = s_.between = start;
     s_.past.frame_s = 1.0 / stage_.rate_hz;
   }
 

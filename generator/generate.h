@@ -55,6 +55,8 @@ struct GenerateScratch {
   std::vector<Shift> shift;        // by part
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
   std::vector<int> landing;        // the same
+  Posture wanted;                  // of a limb that lands
+  Posture between;                 // on its way
   int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere
   RootCarry carry;
   SpanRecorder spans;

@@ -1,6 +1,7 @@
 #include "generator/limb_keeper.h"
 
 #include <algorithm>
+#include <array>
 
 #include "generator/actions/hand.h"
 #include "generator/motion/blend.h"
@@ -114,6 +115,7 @@ bool LimbKeeper::land(const Limb& limb) {
   int& landing = s_.landing[at(limb.parts.back())];
   const double share = std::min(kFastest, kFaster * ++landing);
   bool has_feet = false, is_there = true;
+  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
   for (const int i : limb.legs) {
     const Leg& leg = stage_.legs[at(i)];
     if (!limb.is_its_own(leg)) continue;
@@ -125,11 +127,26 @@ bool LimbKeeper::land(const Limb& limb) {
     is_there = s_.rules.feet().land(at(i), there, share, s_.rules.world(), s_.postures.shown.coords) && is_there;
     has_feet = true;
   }
-  if (!has_feet || s_.rules.room().room_m(at(limb.parts.back()), s_.rules.world()) < -kTooNear_m) return false;
+  if (!has_feet || !has_room_on_the_way(limb)) {
+    for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
+    return false;
+  }
   if (is_there) return arrive(limb), true;
   shift(limb, Shift::lifted);
   for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
   return true;
+}
+
+// From where the limb was in the frame before to where it is shown now.
+bool LimbKeeper::has_room_on_the_way(const Limb& limb) {
+  const Character& character = *stage_.character;
+  const std::span<Rigid> world = s_.rules.world();
+  return std::ranges::all_of(std::array{0.25, 0.5, 0.75, 1.0}, [&](double share) {
+    for (const int p : limb.parts)
+      blend_part(character, at(p), s_.past.before, s_.postures.shown, share, s_.between);
+    for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, world);
+    return s_.rules.room().room_m(at(limb.parts.back()), world) >= -kTooNear_m;
+  });
 }
 
 void LimbKeeper::arrive(const Limb& limb) {

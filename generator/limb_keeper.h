@@ -27,6 +27,7 @@ class LimbKeeper {
   void plant(const Limb& limb);
   void place(const Leg& leg, const Posture& posture);
   bool land(const Limb& limb);
+  bool has_room_on_the_way(const Limb& limb);
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
   void try_again(const Playback& playback, const Limb& limb);
