@@ -61,6 +61,7 @@ void add_replay(CLI::App& app, Context& context);
 void add_generate(CLI::App& app, Context& context);
 void add_audit(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
+void add_measure(CLI::App& app, Context& context);
 void add_shrink(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_import(CLI::App& app, Context& context);

@@ -7,11 +7,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <set>
-#include <span>
 #include <thread>
 
+#include "cli/against.h"
 #include "cli/case_log.h"
 #include "cli/commands.h"
+#include "cli/fuzz_totals.h"
 #include "cli/input.h"
 #include "cli/limits.h"
 #include "cli/outputs.h"
@@ -23,14 +24,11 @@
 #include "cli/surroundings.h"
 #include "corpus/leads.h"
 #include "corpus/lifecycle.h"
-#include "corpus/search_progress.h"
 #include "fuzz/run.h"
 #include "fuzz/run_state.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
-#include "model/core/json_fields.h"
 #include "model/core/output.h"
-#include "renders/search_html.h"
 
 namespace contort::cli {
 
@@ -54,7 +52,8 @@ struct FuzzOptions {
   int shrinks_per_case = 4;
   int shrink_evaluations = 2000;
   std::string shrink_time;
-  std::string corpus = "contort-out/corpus";
+  std::string corpus;  // "": contort-out/corpus, or the folder of the pair of builds
+  AgainstOptions against;
   std::string report;
   std::string log;
   OutputRequest outputs;
@@ -169,77 +168,10 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
   return config;
 }
 
-void print_found(const RunResult& result, const std::vector<std::string>& library_folders) {
-  for (const std::string& folder : result.new_buckets) {
-    const Result<std::string> line = bucket_line(folder, library_folders);
-    std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
-  }
-  for (const std::string& lead : result.unconfirmed)
-    std::printf("NOT CONFIRMED (a second run differed)  %s\n", replay_command(lead, library_folders).c_str());
-}
-
-void print_totals(const RunResult& result, const FuzzOptions& options, const CheckSettings& settings,
-                  const std::vector<std::string>& library_folders) {
-  const RunRecord& t = result.record;
-  if (options.json) {
-    json_fields::Json families = json_fields::Json::object(), arms = json_fields::Json::object();
-    for (const auto& [family, count] : t.families) families[print_family(family)] = count.cases;
-    for (const auto& [arm, count] : t.arms)
-      arms[arm] = {{"cases", count.cases}, {"failing", count.failing}, {"families", 0}};
-    for (const auto& [family, count] : t.families)
-      if (arms.contains(count.first_arm))
-        arms[count.first_arm]["families"] = arms[count.first_arm]["families"].get<int>() + 1;
-    json_fields::Json out = {{"cases", t.cases},
-                             {"frames", t.frames},
-                             {"failing", t.failing},
-                             {"families", families},
-                             {"arms", arms},
-                             {"shard", t.shard},
-                             {"shards", t.shards},
-                             {"new_buckets", result.new_buckets},
-                             {"known_buckets", result.known_buckets},
-                             {"waiting", result.waiting},
-                             {"unconfirmed", result.unconfirmed},
-                             {"discarded", t.discarded},
-                             {"waivers", json_fields::Json::parse(waivers_json(settings, result.waivers))},
-                             {"tested", t.tested}};
-    if (!options.report.empty()) out["report"] = options.report + "/index.html";
-    std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
-    return;
-  }
-  print_found(result, library_folders);
-  for (const std::string& line : waiver_lines(settings, result.waivers)) std::printf("%s\n", line.c_str());
-  std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
-              static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
-              static_cast<long long>(t.failing), t.families.size(), options.corpus.c_str());
-  if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
-    std::printf(
-        "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
-        "(--shrinks-per-case)\n",
-        static_cast<long long>(late), options.shrinks_per_case);
-  if (t.cases > 0) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
-  if (result.interrupted)
-    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
-  if (!result.waiting.empty())
-    std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
-                result.waiting.size(), options.corpus.c_str());
-  if (t.shards > 1)
-    std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
-                options.corpus.c_str());
-}
-
-// The last line, whatever else was printed.
-void print_result(const RunResult& result) {
-  const RunRecord& t = result.record;
-  std::printf(
-      "RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld\n",
-      static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(), result.waiting.size(),
-      t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases), static_cast<long long>(t.frames));
-}
-
 // Whether anything that was found fails a build: what people know of, or the baseline has, does not.
 Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const FuzzOptions& options,
                        const std::string& today) {
+  if (result.record.against) return comparison_gates(result, options.against);
   const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
   if (!baseline) return baseline.issue();
   for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
@@ -261,7 +193,7 @@ int exit_code_of(const RunResult& result, bool gates) {
   if (is_refused || is_untrusted(result.issue)) return kBadInput;
   if (!result.issue.code.empty()) return kInternal;
   if (result.interrupted) return kInterrupted;
-  if (!result.unconfirmed.empty() || result.record.discarded > 0) return kInconclusive;
+  if (!result.unconfirmed.empty() || result.record.discarded > 0 || compared_nothing(result)) return kInconclusive;
   return gates ? kFindings : kClean;
 }
 
@@ -293,7 +225,15 @@ Result<Done> check_results(const FuzzOptions& options) {
   return options.report.empty() ? Result<Done>(Done{}) : check_report_folder(options.report);
 }
 
-void run(const FuzzOptions& options, Context& context) {
+// A comparison has a corpus of its own for each pair of builds.
+Result<Corpus> open_corpus(const FuzzOptions& options, const RunConfig& config) {
+  Result<Corpus> corpus = Corpus::create(options.corpus);
+  if (!corpus) return corpus;
+  if (const Result<Done> fits = check_pair(*corpus, config.against); !fits) return fits.issue();
+  return corpus;
+}
+
+void run(FuzzOptions options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
   Generator* generator = context.load_generator();
@@ -304,12 +244,16 @@ void run(const FuzzOptions& options, Context& context) {
   if (!configured) return context.fail(configured.issue());
   RunConfig config = std::move(configured).value();
   config.surroundings = surroundings_id(context);
+  Result<std::optional<AgainstConfig>> base = choose_base(options.against, config.limits, context);
+  if (!base) return context.fail(base.issue());
+  config.against = std::move(base).value();
+  if (options.corpus.empty()) options.corpus = config.against ? folder_of_pair(*config.against) : "contort-out/corpus";
   if (const Result<Done> ready = check_results(options); !ready)
     return context.fail(ready.issue(), exit_of(ready.issue()));
   // Now, not after an hour of fuzzing; it is read again at the end, when others may have added to it.
   if (const Result<Baseline> known = load_baseline(options.outputs.baseline); !known)
     return context.fail(known.issue());
-  const Result<Corpus> corpus = Corpus::create(options.corpus);
+  const Result<Corpus> corpus = open_corpus(options, config);
   if (!corpus) return context.fail(corpus.issue(), exit_of(corpus.issue()));
   warn_of_other_rules(*corpus);
   warn_of_other_states(config, *corpus);
@@ -325,7 +269,8 @@ void run(const FuzzOptions& options, Context& context) {
   if (!gates) context.fail(gates.issue());
   const int code = exit_code_of(result, !gates || *gates);
   context.exit_code = code;
-  print_totals(result, options, *settings, context.library_folders);
+  print_totals(result, {options.json, options.corpus, options.report, options.shrinks_per_case, *settings,
+                        context.library_folders, config.against});
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
   if (result.record.discarded > 0)
@@ -374,7 +319,8 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--shrink-time", options->shrink_time,
                       "Stop each shrink after this time: 45s, 1.5m; results then depend on the machine");
-  command->add_option("--corpus", options->corpus, "Where failures are kept")->capture_default_str();
+  command->add_option("--corpus", options->corpus, "Where failures are kept")->default_str("contort-out/corpus");
+  add_against_options(*command, options->against);
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   command->add_option("--log", options->log, "Write every failing case as a line of JSON: index, arm, families, spec");
   add_output_options(*command, options->outputs);

@@ -31,6 +31,23 @@ void fields(V& v, const StrategyCount*) {
 }
 
 template <class V>
+void fields(V& v, const AgainstCounts*) {
+  const json_fields::Rule index{.low = -1, .high = 0x1p53}, prose{.text = json_fields::Text::prose, .may_be_empty = true};
+  v.field("base", &AgainstCounts::base, {.text = json_fields::Text::label, .required = true}, "The other build.");
+  v.field("build", &AgainstCounts::build, run_rules::kLabel, "This build.");
+  v.field("same", &AgainstCounts::same, run_rules::kTotal, "Cases without any difference.");
+  v.field("moved", &AgainstCounts::moved, run_rules::kTotal, "Cases that only move differently.");
+  v.field("broke", &AgainstCounts::broke, run_rules::kTotal, "Cases with a failure that the base passes.");
+  v.field("worse", &AgainstCounts::worse, run_rules::kTotal, "Cases with a failure that is much deeper.");
+  v.field("mended", &AgainstCounts::mended, run_rules::kTotal, "Cases with a failure of the base that is gone.");
+  v.field("refused", &AgainstCounts::refused, run_rules::kTotal, "Cases for which the base has no answer.");
+  v.field("first_moved", &AgainstCounts::first_moved, index, "Index of the first that moved.");
+  v.field("first_moved_frame", &AgainstCounts::first_moved_frame, {.low = -1}, "First frame that differs there.");
+  v.field("first_refused", &AgainstCounts::first_refused, index, "Index of the first that was refused.");
+  v.field("first_refusal", &AgainstCounts::first_refusal, prose, "Its reason.");
+}
+
+template <class V>
 void fields(V& v, const RunRecord*) {
   v.constant("format", "contort.run/4");
   v.field("name", &RunRecord::name, {.required = true}, "Name of the run.");
@@ -50,6 +67,7 @@ void fields(V& v, const RunRecord*) {
   v.field("families", &RunRecord::families, {.max_count = run_rules::kMostEntries, .key_text = Text::prose},
           "Failures, by family.");
   v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");
+  v.field("against", &RunRecord::against, {}, "Comparison with another build.");
 }
 
 }  // namespace contort

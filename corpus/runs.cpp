@@ -35,6 +35,19 @@ void add_families(const RunRecord& shard, RunRecord& sum) {
   }
 }
 
+// Whether `index` comes before the first one so far.
+bool comes_first(std::int64_t index, std::int64_t first) { return index >= 0 && (first < 0 || index < first); }
+
+void add_comparison(const AgainstCounts& shard, AgainstCounts& sum) {
+  sum.base = shard.base, sum.build = shard.build;
+  sum.same += shard.same, sum.moved += shard.moved, sum.broke += shard.broke;
+  sum.worse += shard.worse, sum.mended += shard.mended, sum.refused += shard.refused;
+  if (comes_first(shard.first_moved, sum.first_moved))
+    sum.first_moved = shard.first_moved, sum.first_moved_frame = shard.first_moved_frame;
+  if (comes_first(shard.first_refused, sum.first_refused))
+    sum.first_refused = shard.first_refused, sum.first_refusal = shard.first_refusal;
+}
+
 }  // namespace
 
 Result<RunRecord> read_run(const std::string& path) {
@@ -56,6 +69,10 @@ RunRecord added_up(const std::vector<RunRecord>& shards) {
     sum.discarded += shard.discarded;
     for (const auto& [label, count] : shard.tested) sum.tested[label] += count;
     add_families(shard, sum);
+    if (shard.against) {
+      if (!sum.against) sum.against.emplace();
+      add_comparison(*shard.against, *sum.against);
+    }
     for (const auto& [arm, count] : shard.arms) {
       sum.arms[arm].cases += count.cases;
       sum.arms[arm].failing += count.failing;

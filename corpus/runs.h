@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,23 @@ struct StrategyCount {
   bool operator==(const StrategyCount&) const = default;
 };
 
+// The comparison of a run with another build (docs/against.md). Counts are of cases.
+struct AgainstCounts {
+  std::string base;          // version and content hash of the other build
+  std::string build;         // the same of this one
+  std::int64_t same = 0;     // equal motions and no change
+  std::int64_t moved = 0;    // other motions, and no family that broke, got worse or was mended
+  std::int64_t broke = 0;    // at least one family fails here and passes there
+  std::int64_t worse = 0;    // at least one fails in both, and much deeper here
+  std::int64_t mended = 0;   // at least one fails there and passes here
+  std::int64_t refused = 0;  // the base did not accept the spec, or ended badly
+  std::int64_t first_moved = -1;    // index of the first case that moved; -1: there is none
+  int first_moved_frame = -1;       // the first frame in which its motions differ
+  std::int64_t first_refused = -1;  // index of the first refused case; -1: there is none
+  std::string first_refusal;        // its reason
+  bool operator==(const AgainstCounts&) const = default;
+};
+
 // Nothing in it depends on time or machine. `shard` of `shards` ran; a whole run is shard 0 of 1.
 struct RunRecord {
   std::string name;  // "seed_7_0123abcd"
@@ -42,6 +60,7 @@ struct RunRecord {
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
   std::map<Family, FamilyCount> families;
   std::map<std::string, StrategyCount> arms;         // "uniform", "guided"
+  std::optional<AgainstCounts> against;  // of a run that was compared; failures are then those that count there
   bool operator==(const RunRecord&) const = default;
 };
 

@@ -55,7 +55,9 @@ const std::vector<std::int8_t>& TargetGroups::of(const CheckDef& check, const Ch
 }
 
 CaseWork::CaseWork(const RunConfig& config, Generator& generator, const Corpus& corpus)
-    : config_(config), generator_(generator), corpus_(corpus), evaluator_(generator, config.checks) {}
+    : config_(config), generator_(generator), corpus_(corpus), evaluator_(generator, config.checks) {
+  if (config.against) against_.emplace(*config.against);
+}
 
 std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   struct Doing {
@@ -68,13 +70,26 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   return std::visit(Doing{*this, slot}, parse_task(text));
 }
 
+// Where there is a base, both builds work at the same time.
 EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   EvaluateReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);
   slot.note(print_spec(spec));
+  if (against_ && !task.ends.empty()) {
+    report.built = true, report.broken = {task.ends};
+    report.against = against_->compare_ending(spec, task.ends, slot);
+    return report;
+  }
+  if (against_) against_->begin(spec);
   const Result<Evaluation> run = evaluator_.run(spec);
-  if (!run) return report;
-  const Evaluation& evaluation = *run;
+  if (run) report = report_of(task, spec, *run);
+  if (run && against_) report.against = against_->compare(spec, *run, evaluator_, slot);
+  if (!run && against_) against_->drop(slot);
+  return report;
+}
+
+EvaluateReport CaseWork::report_of(const EvaluateTask& task, const Spec& spec, const Evaluation& evaluation) {
+  EvaluateReport report;
   const Execution& execution = evaluator_.execution();
   report.built = true;
   report.unmet = execution.intent && !execution.intent->unmet.empty();
@@ -151,12 +166,18 @@ SettleReport CaseWork::settle(const SettleTask& task, WorkerSlot& slot) {
   Provenance& from = settled.lead.original.provenance;
   from = provenance_in(config_, task.lineage.back());
   from.rank = task.rank;
-  settled.confirmed = again && (is_abnormal_exit(again->expect) || again->expect.motion_hash == task.motion_hash);
+  settled.confirmed = again && (is_abnormal_exit(again->expect) || again->expect.motion_hash == task.motion_hash) &&
+                      counts_again(settled.lead.original, task.base_hash, slot);
   from.shrink_stopped = !settled.confirmed ? kUnsteady : task.shrinks ? "" : kWaits;
   Result<Done> kept = done(keep_lead(corpus_, settled.lead));
   if (kept && settled.confirmed && task.shrinks) kept = shrink_lead(settled, task.guarded, slot);
   if (!kept) report.issue = kept.issue().text;
   return report;
+}
+
+// Against a base a failure must count the second time, too; without one it always does.
+bool CaseWork::counts_again(Case& found, const std::string& base_hash, WorkerSlot& slot) {
+  return !against_ || against_->confirm(found, evaluator_, base_hash, slot);
 }
 
 // The lead is of an earlier run, or of this one before. Another process may have taken it meanwhile; then there is
@@ -176,24 +197,29 @@ namespace {
 
 bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shrunk.stopped != "gone"; }
 
-void take_shrunk(const Shrunk& shrunk, Lead& lead) {
-  lead.minimal = shrunk.minimal, lead.worst = shrunk.worst;
-  if (family_of(shrunk.minimal) != family_of(lead.original)) lead.shrunk_from = shrunk.original;
-}
-
 }  // namespace
 
+// The smallest and the deepest case are run once more in both builds, where there is a base. False if the smallest does not
+// count there; a deepest case that does not is left out.
+bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, WorkerSlot& slot) {
+  Case minimal = shrunk.minimal, worst = shrunk.worst;
+  if (!counts_again(minimal, "", slot)) return false;
+  lead.minimal = minimal;
+  lead.worst = counts_again(worst, "", slot) ? worst : minimal;
+  if (family_of(minimal) == family_of(lead.original)) return true;
+  lead.shrunk_from = shrunk.original;
+  (void)counts_again(*lead.shrunk_from, "", slot);  // for its provenance
+  return true;
+}
+
 // A lead is shrunk in this process at first, and with a guard once a candidate has ended that.
-Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const {
+Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) {
   Lead& lead = settled.lead;
   const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
     return shrink_one(original, lead.run, guarded, slot, search);
   });
-  settled.confirmed = shows_again(shrunk);
-  if (settled.confirmed)
-    take_shrunk(shrunk, lead);
-  else
-    lead.original.provenance.shrink_stopped = kUnsteady;
+  settled.confirmed = shows_again(shrunk) && take_shrunk(shrunk, lead, slot);
+  if (!settled.confirmed) lead.original.provenance.shrink_stopped = kUnsteady;
   Result<Done> kept = done(keep_lead(corpus_, lead));
   for (const Case& met : shrunk.met)
     if (kept && is_abnormal_exit(met.expect)) kept = keep_incidental(met, settled, slot);
@@ -202,14 +228,17 @@ Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlo
 
 // A spec that ends its process is a failure of its own, whatever was being shrunk. What is met while this one is shrunk
 // is not followed any further.
-Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) const {
+Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) {
+  if (against_ && against_->is_refused(met.spec, slot))
+    return settled.incidental_of_base.push_back(family_of(met)), Done{};
   Lead lead{settled.lead.run, met, {}};
   lead.original.provenance = settled.lead.original.provenance;
   lead.original.provenance.met_shrinking = family_of(settled.lead.original);
   const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot, {});
-  const bool again = shows_again(smaller);
+  Case minimal = smaller.minimal;
+  const bool again = shows_again(smaller) && counts_again(minimal, "", slot);
   if (again)
-    lead.minimal = smaller.minimal;
+    lead.minimal = minimal;
   else
     lead.original.provenance.shrink_stopped = kUnsteady;
   (again ? settled.incidental : settled.incidental_unconfirmed).push_back(lead);
@@ -225,12 +254,13 @@ std::function<bool(const Spec&)> CaseWork::allowed_for(const Case& original, con
 }
 
 Shrunk CaseWork::shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
-                            const PrimarySearch& search) const {
+                            const PrimarySearch& search) {
   ShrinkConfig config = config_.shrink;
   config.search = search;
   config.checks = config_.checks;
   config.isolation = isolation_of(config_.limits);
   config.guarded = guarded;
+  if (against_) config.base = &against_->base(), config.rules = against_->rules();
   config.allowed = allowed_for(original, run);
   config.before_run = [&](const Spec& spec) {
     slot.note(print_spec(spec));

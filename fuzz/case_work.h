@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "checks/check.h"
+#include "fuzz/against_work.h"
 #include "fuzz/messages.h"
 #include "fuzz/run.h"
 #include "process/worker_pool.h"
@@ -38,21 +39,25 @@ class CaseWork {
 
  private:
   EvaluateReport evaluate(const EvaluateTask& task, WorkerSlot& slot);
+  EvaluateReport report_of(const EvaluateTask& task, const Spec& spec, const Evaluation& evaluation);
+  bool counts_again(Case& found, const std::string& base_hash, WorkerSlot& slot);
   SettleReport settle(const SettleTask& task, WorkerSlot& slot);
   ShrinkReport shrink_waiting(const ShrinkTask& task, WorkerSlot& slot);
   std::vector<NearMiss> near_misses(const Character& character, int group);
   std::optional<Case> shown_again(const SettleTask& task, const Spec& spec);
   Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
-                    const PrimarySearch& search) const;
-  Result<Done> shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) const;
+                    const PrimarySearch& search);
+  Result<Done> shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot);
+  bool take_shrunk(const Shrunk& shrunk, Lead& lead, WorkerSlot& slot);
   std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
-  Result<Done> keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot) const;
+  Result<Done> keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot);
 
   const RunConfig& config_;
   Generator& generator_;
   const Corpus& corpus_;
   Evaluator evaluator_;
   TargetGroups groups_;
+  std::optional<AgainstWork> against_;
 };
 
 }  // namespace contort

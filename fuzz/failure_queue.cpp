@@ -97,7 +97,11 @@ void FailureQueue::take_wanted(const WantedFailure& job, const WorkerEvent& even
     keep_unsteady(lead_of(seen_once(task, spec_of(config_, generator_, task.lineage), generator_, config_.limits),
                           task.lineage, task.rank));
   }
-  if (job.ender && !is_among(settled.incidental, *job.ender)) keep_unsteady(*job.ender);
+  if (!job.ender || is_among(settled.incidental, *job.ender)) return;
+  const auto& of_base = settled.incidental_of_base;
+  if (std::ranges::find(of_base, family_of(job.ender->original)) != of_base.end())
+    return drop_lead(corpus_, *job.ender);
+  keep_unsteady(*job.ender);
 }
 
 // It may have been another process that did it, or this one under another name before. What ended its worker waits for

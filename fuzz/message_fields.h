@@ -25,6 +25,7 @@ template <class V>
 void fields(V& v, const EvaluateTask* task) {
   v.constant("type", type_name(task));
   v.field("lineage", &EvaluateTask::lineage, message_rules::kIndices, "Ancestry of the case, itself last.");
+  v.field("ends", &EvaluateTask::ends, message_rules::kProse, "How the case ends this build; only the base runs it.");
 }
 
 template <class V>
@@ -36,6 +37,7 @@ void fields(V& v, const SettleTask* task) {
   v.field("motion_hash", &SettleTask::motion_hash, message_rules::kHash, "Of the first time.");
   v.field("guarded", &SettleTask::guarded, {}, "Running or shrinking it ended a process before.");
   v.field("shrinks", &SettleTask::shrinks, {}, "There is time to shrink it.");
+  v.field("base_hash", &SettleTask::base_hash, message_rules::kProse, "Of the base's motion the first time.");
 }
 
 template <class V>
@@ -58,6 +60,17 @@ void fields(V& v, const WaiverUse*) {
 }
 
 template <class V>
+void fields(V& v, const Comparison*) {
+  v.field("refusal", &Comparison::refusal, message_rules::kProse, "Why the base has no measurement.");
+  v.field("moved", &Comparison::moved, {}, "The motions differ.");
+  v.field("first_difference", &Comparison::first_difference, {.low = -1}, "The first frame that does.");
+  v.field("base_hash", &Comparison::base_hash, message_rules::kProse, "Of the base's motion.");
+  v.field("broke", &Comparison::broke, message_rules::kFamilies, "Failures that the base passes.");
+  v.field("worse", &Comparison::worse, message_rules::kFamilies, "Failures that are much deeper.");
+  v.field("mended", &Comparison::mended, message_rules::kFamilies, "Failures of the base that are gone.");
+}
+
+template <class V>
 void fields(V& v, const EvaluateReport*) {
   v.constant("type", "evaluated");
   v.field("built", &EvaluateReport::built, {}, "The spec builds.");
@@ -68,6 +81,7 @@ void fields(V& v, const EvaluateReport*) {
   v.field("broken", &EvaluateReport::broken, message_rules::kFamilies, "Families that failed.");
   v.field("near", &EvaluateReport::near, {.max_count = 100'000}, "Near misses.");
   v.field("waivers", &EvaluateReport::waivers, {.max_count = 1000}, "Use of each.");
+  v.field("against", &EvaluateReport::against, {}, "Comparison with the base.");
 }
 
 template <class V>
@@ -86,6 +100,8 @@ void fields(V& v, const SettledLead*) {
   v.field("incidental", &SettledLead::incidental, message_rules::kLeads, "Of other families, met while shrinking.");
   v.field("incidental_unconfirmed", &SettledLead::incidental_unconfirmed, message_rules::kLeads,
           "Those that did not happen again.");
+  v.field("incidental_of_base", &SettledLead::incidental_of_base, message_rules::kFamilies,
+          "Endings that the base shows as well.");
 }
 
 template <class V>

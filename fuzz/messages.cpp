@@ -1,5 +1,6 @@
 #include "fuzz/messages.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fuzz/message_fields.h"
@@ -16,6 +17,16 @@ T parsed(const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<Family> counted_families(const EvaluateReport& report) {
+  if (!report.against) return report.broken;
+  const Comparison& against = *report.against;
+  std::vector<Family> counted;
+  for (const Family& family : report.broken)
+    if (std::ranges::binary_search(against.broke, family) || std::ranges::binary_search(against.worse, family))
+      counted.push_back(family);
+  return counted;
+}
 
 std::string print_task(const Task& task) { return json_fields::write_canonical(task); }
 Task parse_task(const std::string& text) { return parsed<Task>(text); }

@@ -9,6 +9,7 @@
 
 #include "checks/waive.h"
 #include "corpus/leads.h"
+#include "fuzz/comparison.h"
 #include "fuzz/islands.h"
 #include "fuzz/lineage.h"
 
@@ -17,6 +18,7 @@ namespace contort {
 // Run a case.
 struct EvaluateTask {
   Lineage lineage;
+  Family ends{};  // the crash, timeout or memory by which the case ends this build: only the base runs it; else empty
   bool operator==(const EvaluateTask&) const = default;
 };
 
@@ -29,8 +31,12 @@ struct EvaluateReport {
   std::vector<Family> broken;       // by their first frame, then the deepest in its check's scale
   std::vector<NearMiss> near;       // of the subjects of the island's group
   std::vector<WaiverUse> waivers;
+  std::optional<Comparison> against;  // of a run that compares two builds
   bool operator==(const EvaluateReport&) const = default;
 };
+
+// The families of `broken` that a run counts: all, or those that broke or got worse against the base.
+std::vector<Family> counted_families(const EvaluateReport& report);
 
 // Settle a failure of a case: run it again, keep it as a lead, shrink it.
 struct SettleTask {
@@ -40,6 +46,7 @@ struct SettleTask {
   std::string motion_hash;  // of the first time
   bool guarded = false;     // the case, or a candidate of its shrinking, ended a process before
   bool shrinks = true;      // false: there is no time; the lead waits
+  std::string base_hash{};  // of the base's motion the first time, in a run that compares
   bool operator==(const SettleTask&) const = default;
 };
 
@@ -56,6 +63,7 @@ struct SettledLead {
   bool confirmed = false;  // the second time was bit for bit the first
   std::vector<Lead> incidental;
   std::vector<Lead> incidental_unconfirmed;  // they did not happen again
+  std::vector<Family> incidental_of_base{};  // endings that the base shows as well: they do not count
   bool operator==(const SettledLead&) const = default;
 };
 

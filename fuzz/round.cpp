@@ -20,6 +20,11 @@ std::optional<int> Round::next() {
   return std::nullopt;
 }
 
+EvaluateTask Round::task(int place) const {
+  const RoundCase& of_round = cases_[static_cast<std::size_t>(place)];
+  return {of_round.lineage, of_round.ends};
+}
+
 void Round::close(int place, EvaluateReport report) {
   cases_[static_cast<std::size_t>(place)].report = std::move(report);
   --open_;
@@ -29,20 +34,25 @@ void Round::take_report(int place, EvaluateReport report) { close(place, std::mo
 
 void Round::take_ending(int place, const Case& ended, bool is_known) {
   RoundCase& of_round = cases_[static_cast<std::size_t>(place)];
-  if (!of_round.ended_once && !is_known) {
+  if (of_round.ends.empty() && !of_round.ended_once && !is_known) {
     of_round.ended_once = ended;
     return again_.push_back(place);
   }
   of_round.ended_once.reset();
   of_round.ends_process = true;
+  if (asks_base_ && of_round.ends.empty()) {
+    of_round.ends = family_of(ended);
+    return again_.push_back(place);
+  }
   EvaluateReport report;
   report.built = true;
-  report.broken = {family_of(ended)};
+  report.broken = {of_round.ends.empty() ? family_of(ended) : of_round.ends};
+  if (asks_base_) report.against.emplace().refusal = "the worker that asked the base ended";
   close(place, std::move(report));
 }
 
 bool Round::has_failure() const {
-  return std::ranges::any_of(cases_, [](const RoundCase& one) { return one.report && !one.report->broken.empty(); });
+  return std::ranges::any_of(cases_, [](const RoundCase& one) { return one.report && !counted_families(*one.report).empty(); });
 }
 
 }  // namespace contort

@@ -15,15 +15,18 @@ struct RoundCase {
   std::optional<EvaluateReport> report{};
   std::optional<Case> ended_once{};  // how it ended its process the first time, and not the second
   bool ends_process = false;         // both times
+  Family ends{};                     // then how, where the base is asked whether it ends as well
 };
 
 class Round {
  public:
+  // `asks_base`: a case that ends this build is given out once more, for the base alone.
+  explicit Round(bool asks_base = false) : asks_base_(asks_base) {}
   void add(const Lineage& lineage);
 
   // The next case for a worker, by its place; what is to be tried again goes first.
   std::optional<int> next();
-  const Lineage& lineage(int place) const { return cases_[static_cast<std::size_t>(place)].lineage; }
+  EvaluateTask task(int place) const;
 
   void take_report(int place, EvaluateReport report);
 
@@ -41,6 +44,7 @@ class Round {
  private:
   void close(int place, EvaluateReport report);
 
+  bool asks_base_;
   std::vector<RoundCase> cases_;
   int open_ = 0;            // cases without a report
   int given_ = 0;           // cases that were handed out

@@ -33,6 +33,8 @@ RunState fresh_state(const RunConfig& config) {
   state.record.tool = config.tool;
   state.record.shrinks_per_family = config.shrinks_per_family;
   state.record.shard = config.shard.index, state.record.shards = config.shard.count;
+  if (config.against) state.record.against.emplace().base = config.against->base;
+  if (config.against) state.record.against->build = config.against->build;
   return state;
 }
 
@@ -83,7 +85,7 @@ class Run {
       begin_round();
       while (!round_.is_whole() && !(must_fold() && !crew.is_any_case_running())) step(crew, !must_fold());
       fold_round();
-      round_ = {};
+      round_ = Round(config_.against.has_value());
       keep_state_sometimes();
     }
     settle_the_rest(crew);
@@ -125,7 +127,7 @@ class Run {
   // Failures go first: what was found shall be on its way to the user.
   std::optional<Job> next_job() {
     if (const std::optional<FailureJob> failure = failures_.next(has_time_for_waiting())) return *failure;
-    if (const std::optional<int> place = round_.next()) return PlacedCase{*place, {round_.lineage(*place)}};
+    if (const std::optional<int> place = round_.next()) return PlacedCase{*place, round_.task(*place)};
     return std::nullopt;
   }
 
@@ -161,7 +163,7 @@ class Run {
   }
 
   void tell(const RoundCase& one) {
-    const std::vector<Family>& broken = one.report->broken;
+    const std::vector<Family> broken = counted_families(*one.report);
     if (!listeners_.failing || broken.empty()) return;
     listeners_.failing({one.lineage.back(), statistics_.strategy_of_case(one.lineage), broken,
                         spec_of(config_, generator_, one.lineage)});
@@ -230,7 +232,7 @@ class Run {
   TimeBudget time_{config_.time_s, start_s_};
   KeepingPace pace_{start_s_};
   RunState state_;
-  Round round_;
+  Round round_{config_.against.has_value()};
   bool is_cut_ = false;  // the last round was not done whole
   FailureQueue failures_{config_, generator_, corpus_, state_};
   RunStatistics statistics_{config_, state_};
@@ -256,6 +258,7 @@ std::string run_name(const RunConfig& config) {
   std::string text = print_profile(config.draw.profile) + config.surroundings;
   for (const std::string& name : config.draw.characters) text += name + "\n";
   for (const Spec& spec : config.seeds) text += spec_id(spec) + "\n";
+  if (config.against) text += "against " + config.against->base + " " + std::to_string(config.against->rules.tolerance);
   return "seed_" + std::to_string(config.seed) + "_" + content_id(text).substr(0, 8);
 }
 

@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "corpus/corpus.h"
 #include "corpus/runs.h"
 #include "process/worker_pool.h"
+#include "fuzz/base_build.h"
 #include "fuzz/draw.h"
 #include "fuzz/lineage.h"
 #include "fuzz/shard.h"
@@ -38,6 +40,7 @@ struct RunConfig {
   ShrinkConfig shrink;
   double shrink_time_s = 0.0;  // stop each shrink after so long; 0: no limit
   CheckSettings checks;
+  std::optional<AgainstConfig> against;  // only failures that this build does not show count
   std::string surroundings;  // what all cases depend on, as an id: another one is another run
   std::string tool;      // version, for provenance
   double deadline_s = 0.0;  // on the steady clock; set by the run
@@ -60,7 +63,7 @@ struct RunProgress {
 struct FailingCase {
   std::int64_t index = 0;
   std::string arm;                    // "guided"
-  std::vector<Family> families;       // in the order of their first frames
+  std::vector<Family> families;       // in the order of their first frames; against a base, those that count
   Spec spec;
 };
 

@@ -10,13 +10,32 @@ std::string RunStatistics::strategy_of_case(const Lineage& lineage) const {
   return std::string(strategy_name(strategy_of(odds_of(config_.seed, config_.draw.profile), lineage)));
 }
 
-void RunStatistics::count(const EvaluateReport& report, const std::string& strategy_name) {
+namespace {
+
+// A case is the same or moved only if no family changed.
+void add_case(const Comparison& comparison, std::int64_t index, AgainstCounts& counts) {
+  if (!comparison.refusal.empty()) {
+    if (counts.refused++ == 0) counts.first_refused = index, counts.first_refusal = comparison.refusal;
+    return;
+  }
+  counts.broke += !comparison.broke.empty();
+  counts.worse += !comparison.worse.empty();
+  counts.mended += !comparison.mended.empty();
+  if (!comparison.broke.empty() || !comparison.worse.empty() || !comparison.mended.empty()) return;
+  if (!comparison.moved) ++counts.same;
+  if (comparison.moved && counts.moved++ == 0)
+    counts.first_moved = index, counts.first_moved_frame = comparison.first_difference;
+}
+
+}  // namespace
+
+void RunStatistics::count(const EvaluateReport& report, bool fails, const std::string& strategy_name) {
   RunRecord& record = state_.record;
   StrategyCount& strategy = record.arms[strategy_name];
   ++record.cases, ++strategy.cases;
   record.frames += report.frames;
   record.discarded += !report.built;
-  record.failing += !report.broken.empty(), strategy.failing += !report.broken.empty();
+  record.failing += fails, strategy.failing += fails;
   for (const std::string& label : report.tested) ++record.tested[label];
   add_uses(report.waivers, state_.waivers);
 }
@@ -45,13 +64,15 @@ std::vector<SettleTask> RunStatistics::add(const RoundCase& one) {
   const EvaluateReport& report = *one.report;
   const std::int64_t index = one.lineage.back();
   const std::string strategy_name = strategy_of_case(one.lineage);
-  count(report, strategy_name);
+  const std::vector<Family> counted = counted_families(report);
+  count(report, !counted.empty(), strategy_name);
+  if (report.against && state_.record.against) add_case(*report.against, index, *state_.record.against);
   learn(one.lineage, report);
   std::vector<SettleTask> wanted;
-  for (std::size_t rank = 0; rank < report.broken.size(); ++rank)
-    if (wants(report.broken[rank], rank, index, strategy_name))
-      wanted.push_back({one.lineage, report.broken[rank], static_cast<int>(rank), report.motion_hash,
-                        one.ends_process, true});
+  for (std::size_t rank = 0; rank < counted.size(); ++rank)
+    if (wants(counted[rank], rank, index, strategy_name))
+      wanted.push_back({one.lineage, counted[rank], static_cast<int>(rank), report.motion_hash, one.ends_process, true,
+                        report.against ? report.against->base_hash : ""});
   return wanted;
 }
 

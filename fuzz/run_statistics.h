@@ -25,7 +25,7 @@ class RunStatistics {
 
  private:
   void learn(const Lineage& lineage, const EvaluateReport& report);
-  void count(const EvaluateReport& report, const std::string& strategy_name);
+  void count(const EvaluateReport& report, bool fails, const std::string& strategy_name);
   bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name);
 
   const RunConfig& config_;

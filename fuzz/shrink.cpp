@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corpus/ending_case.h"
+#include "fuzz/against_trial.h"
 #include "fuzz/explain.h"
 #include "fuzz/precursor.h"
 #include "fuzz/shrink_stages.h"
@@ -79,18 +80,28 @@ Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, con
   return shrunk;
 }
 
+namespace {
+
+Shrunk shrink_against(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config) {
+  if (config.base == nullptr) return shrink_with(trial, original, generator, config);
+  AgainstTrial both(trial, original.expect, *config.base, config.rules, config.out_of_time);
+  return shrink_with(both, original, generator, config);
+}
+
+}  // namespace
+
 Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config) {
   if (!is_abnormal_exit(original.expect)) {
     CheckTrial trial(original.expect, generator, config.checks, config.before_run);
     GuardedTrial guarded(trial, config.isolation);
-    return shrink_with(config.guarded ? static_cast<Trial&>(guarded) : trial, original, generator, config);
+    return shrink_against(config.guarded ? static_cast<Trial&>(guarded) : trial, original, generator, config);
   }
   const auto work = [&](const Spec& spec) {
     if (config.before_run) config.before_run(spec);
     (void)Evaluator(generator, config.checks).run(spec);  // how that ends is what is asked
   };
   EndingTrial trial(original.expect, work, isolation_of(original.expect, config.isolation));
-  return shrink_with(trial, original, generator, config);
+  return shrink_against(trial, original, generator, config);
 }
 
 }  // namespace contort

@@ -12,6 +12,7 @@
 #include "corpus/case.h"
 #include "corpus/evaluator.h"
 #include "process/isolate.h"
+#include "fuzz/base_build.h"
 #include "fuzz/trial.h"
 #include "model/generator.h"
 
@@ -30,6 +31,8 @@ struct ShrinkConfig {
   double depth_floor = 0.5;
   CheckSettings checks;  // those that found the failure
   Isolation isolation;   // for cases that end their process
+  BaseBuild* base = nullptr;   // candidates must count against this build, by `rules`; null: there is none
+  CompareRules rules;
   bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
   BeforeRun before_run;  // may be empty
   std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty

@@ -39,6 +39,7 @@ std::optional<TrialResult> ShrinkState::run(const Spec& candidate) {
   if (spent()) return std::nullopt;
   TrialResult shown = trial_.run(candidate, most_frames_);
   if (shown.built) ++evaluations_;
+  if (shown.base > most_) shown.fails = false;
   for (const Case& other : shown.met) meet(other);
   return shown;
 }
@@ -47,7 +48,8 @@ bool ShrinkState::confirm() {
   const std::optional<TrialResult> first = run(best_.spec);
   const std::optional<TrialResult> second = run(best_.spec);
   if (!first || !second) return false;
-  if (first->fails != second->fails || first->expect.motion_hash != second->expect.motion_hash)
+  if (first->fails != second->fails || first->expect.motion_hash != second->expect.motion_hash ||
+      first->base_hash != second->base_hash)
     stopped_ = "flaky";
   else if (!first->fails)
     stopped_ = "gone";
@@ -55,6 +57,7 @@ bool ShrinkState::confirm() {
   best_.expect = second->expect;
   best_.free_fields.clear(), best_.co_failures.clear();
   shown_ = *second;
+  most_ = shown_.base;
   least_depth_ = least_depth_of(best_, shown_.depth, config_.depth_floor);
   most_frames_ = shown_.most_frames;
   for (const Case& other : trial_.others(best_.spec)) beside_.emplace(family_of(other), other);
@@ -74,6 +77,7 @@ bool ShrinkState::accept(Spec candidate) {
   best_.spec = std::move(candidate);
   best_.expect = shown->expect;
   shown_ = std::move(*shown);
+  most_ = shown_.base;
   return true;
 }
 

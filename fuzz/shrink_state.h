@@ -68,6 +68,7 @@ class ShrinkState {
   Case best_;
   TrialResult shown_;
   double least_depth_ = 0.0;
+  BaseShows most_ = BaseShows::milder;   // a candidate must not be less clear a regression than the smallest spec
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
   std::map<Family, Case> beside_;        // the original's other families

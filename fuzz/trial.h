@@ -8,6 +8,7 @@
 
 #include "corpus/case.h"
 #include "corpus/evaluator.h"
+#include "fuzz/comparison.h"
 #include "process/isolate.h"
 #include "model/generator.h"
 
@@ -22,6 +23,8 @@ struct TrialResult {
   std::shared_ptr<const Character> character;  // null where the generator runs in another process
   std::vector<ActionSpan> spans;               // what moved, and when
   std::vector<Case> met;                       // failures of other families that were seen at no further cost
+  BaseShows base = BaseShows::passes_check;    // of a failure that counts against a base
+  std::string base_hash{};                     // of the base's motion
 };
 
 // Told each spec in the process that runs it, before it does: what it notes may be its last words.

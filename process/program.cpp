@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "process/launch.h"
+
 namespace contort {
 
 namespace {
@@ -21,7 +23,6 @@ namespace {
 constexpr std::size_t kMostText = 1 << 20;  // of what is printed the end is kept
 constexpr int kSignalCheck_ms = 50;
 constexpr int kFailedInForeground = 3;  // the command line's code of an internal error
-constexpr int kNotStarted = 127;        // the exit code that shells have for it
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
@@ -44,34 +45,11 @@ bool read_some(int file, std::string& text) {
   return true;
 }
 
-// Between fork and exec, in a process that has other threads: nothing but calls to the kernel. It may have children,
-// which are of its group and end with it.
-[[noreturn]] void become(char* const* arguments, int out, int err, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that call
-  ::setpgid(0, 0);
-  sigset_t none;
-  ::sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0) ::execv(arguments[0], arguments);
-  ::_exit(kNotStarted);
-}
-
 std::vector<char*> arguments_of(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);
   return arguments;
-}
-
-pid_t start(const std::vector<std::string>& command, const Pipe& out, const Pipe& err) {
-  std::vector<char*> arguments = arguments_of(command);
-  const pid_t parent = ::getpid();
-  const pid_t pid = ::fork();
-  if (pid == 0) become(arguments.data(), out.ends[1], err.ends[1], parent);
-  if (pid > 0) ::setpgid(pid, pid);  // whichever of the two comes first
-  return pid;
 }
 
 double seconds_of(const timeval& time) {
@@ -86,7 +64,7 @@ Result<ProgramResult> run_program(const std::vector<std::string>& command, doubl
                                   const std::function<bool()>& stop) {
   Pipe out, err;
   if (!out.open() || !err.open()) return Issue{"work.no_process", "", "no pipe for a program"};
-  const pid_t pid = start(command, out, err);
+  const pid_t pid = launch(command, {-1, out.ends[1], err.ends[1]});
   if (pid < 0) return Issue{"work.no_process", "", "cannot start " + command[0]};
   out.close_writer(), err.close_writer();
   ProgramResult ran;

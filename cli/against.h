@@ -1,0 +1,50 @@
+// contort fuzz --against: the base, the corpus of a pair of builds, and the rows about what differs (docs/against.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "corpus/corpus.h"
+#include "fuzz/run.h"
+
+namespace contort::cli {
+
+struct AgainstOptions {
+  std::string base;        // path of the other program; "": no comparison
+  bool moved = false;      // motions that merely differ gate, too
+  double tolerance = 0.1;  // depth below which a failure of one build alone does not count
+};
+
+void add_against_options(CLI::App& command, AgainstOptions& options);
+
+// Starts the base once to see that it answers; nothing without --against. Codes file.unreadable, against.*.
+Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
+                                                 const Context& context);
+
+// "contort-out/against-0123abcd": the corpus of this pair of builds.
+std::string folder_of_pair(const AgainstConfig& against);
+
+// Refuses a corpus that is not of this pair of builds, and without a comparison one that is of any. Code
+// against.other_corpus.
+Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>& against);
+
+// Rows, counts and what was not compared, for people.
+void print_comparison(const RunResult& result, const AgainstConfig& against,
+                      const std::vector<std::string>& library_folders);
+
+// The same as a JSON object.
+std::string comparison_json(const RunResult& result, const AgainstConfig& against,
+                            const std::vector<std::string>& library_folders);
+
+// " broke=1 worse=0 mended=2 moved=3 refused=0 same=250", for the last line; "" without a comparison.
+std::string comparison_counts(const RunResult& result);
+
+// Whether something broke or got worse, or moved where that counts.
+bool comparison_gates(const RunResult& result, const AgainstOptions& options);
+
+// The base refused every case, so that nothing was compared.
+bool compared_nothing(const RunResult& result);
+
+}  // namespace contort::cli

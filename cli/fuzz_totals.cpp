@@ -1,0 +1,97 @@
+#include "cli/fuzz_totals.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <span>
+
+#include "cli/against.h"
+#include "cli/input.h"
+#include "cli/print.h"
+#include "cli/report.h"
+#include "corpus/search_progress.h"
+#include "model/core/json_fields.h"
+#include "renders/search_html.h"
+
+namespace contort::cli {
+
+namespace {
+
+void print_found(const RunResult& result, const TotalsRequest& request) {
+  if (request.against) print_comparison(result, *request.against, request.library_folders);
+  for (const std::string& folder : request.against ? std::vector<std::string>() : result.new_buckets) {
+    const Result<std::string> line = bucket_line(folder, request.library_folders);
+    std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
+  }
+  for (const std::string& lead : result.unconfirmed)
+    std::printf("NOT CONFIRMED (a second run differed)  %s\n", replay_command(lead, request.library_folders).c_str());
+}
+
+void print_totals_json(const RunResult& result, const TotalsRequest& request) {
+  const RunRecord& t = result.record;
+  json_fields::Json families = json_fields::Json::object(), arms = json_fields::Json::object();
+  for (const auto& [family, count] : t.families) families[print_family(family)] = count.cases;
+  for (const auto& [arm, count] : t.arms)
+    arms[arm] = {{"cases", count.cases}, {"failing", count.failing}, {"families", 0}};
+  for (const auto& [family, count] : t.families)
+    if (arms.contains(count.first_arm))
+      arms[count.first_arm]["families"] = arms[count.first_arm]["families"].get<int>() + 1;
+  json_fields::Json out = {{"cases", t.cases},
+                           {"frames", t.frames},
+                           {"failing", t.failing},
+                           {"families", families},
+                           {"arms", arms},
+                           {"shard", t.shard},
+                           {"shards", t.shards},
+                           {"new_buckets", result.new_buckets},
+                           {"known_buckets", result.known_buckets},
+                           {"waiting", result.waiting},
+                           {"unconfirmed", result.unconfirmed},
+                           {"discarded", t.discarded},
+                           {"waivers", json_fields::Json::parse(waivers_json(request.settings, result.waivers))},
+                           {"tested", t.tested}};
+  if (request.against)
+    out["against"] = json_fields::Json::parse(comparison_json(result, *request.against, request.library_folders));
+  if (!request.report.empty()) out["report"] = request.report + "/index.html";
+  std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
+}
+
+void print_totals_text(const RunResult& result, const TotalsRequest& request) {
+  const RunRecord& t = result.record;
+  print_found(result, request);
+  for (const std::string& line : waiver_lines(request.settings, result.waivers)) std::printf("%s\n", line.c_str());
+  std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
+              static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
+              static_cast<long long>(t.failing), t.families.size(), request.corpus.c_str());
+  if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
+    std::printf(
+        "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
+        "(--shrinks-per-case)\n",
+        static_cast<long long>(late), request.shrinks_per_case);
+  if (t.cases > 0) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
+  if (result.interrupted)
+    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
+  if (!result.waiting.empty())
+    std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
+                result.waiting.size(), request.corpus.c_str());
+  if (t.shards > 1)
+    std::printf("shard %d of %d: what it found waits in %s/leads for contort merge\n", t.shard, t.shards,
+                request.corpus.c_str());
+}
+
+}  // namespace
+
+void print_totals(const RunResult& result, const TotalsRequest& request) {
+  request.json ? print_totals_json(result, request) : print_totals_text(result, request);
+}
+
+// The last line, whatever else was printed.
+void print_result(const RunResult& result) {
+  const RunRecord& t = result.record;
+  std::printf(
+      "RESULT findings=%lld new=%zu known=%zu waiting=%zu families=%zu unconfirmed=%zu cases=%lld frames=%lld%s\n",
+      static_cast<long long>(t.failing), result.new_buckets.size(), result.known_buckets.size(), result.waiting.size(),
+      t.families.size(), result.unconfirmed.size(), static_cast<long long>(t.cases), static_cast<long long>(t.frames),
+      comparison_counts(result).c_str());
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,28 @@
+// The result of a run, as contort fuzz prints it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz/run.h"
+
+namespace contort::cli {
+
+struct TotalsRequest {
+  bool json = false;
+  std::string corpus;
+  std::string report;  // folder of the report; "": there is none
+  int shrinks_per_case = 4;
+  const CheckSettings& settings;
+  const std::vector<std::string>& library_folders;
+  const std::optional<AgainstConfig>& against;
+};
+
+// All but the last line: failures with their commands, waivers, counts, and what is left to do.
+void print_totals(const RunResult& result, const TotalsRequest& request);
+
+// The last line, whatever else was printed.
+void print_result(const RunResult& result);
+
+}  // namespace contort::cli

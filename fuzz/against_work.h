@@ -1,0 +1,45 @@
+// A worker's share of a comparison of two builds: it keeps the base at hand and says which failures count.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "corpus/case.h"
+#include "fuzz/base_build.h"
+#include "process/worker_pool.h"
+
+namespace contort {
+
+// One per worker. The base starts at the first spec.
+class AgainstWork {
+ public:
+  explicit AgainstWork(const AgainstConfig& config) : config_(config) {}
+
+  // Has the base begin with the spec, while this process runs it. compare() or drop() must follow.
+  void begin(const Spec& spec);
+  Comparison compare(const Spec& spec, const Evaluation& ours, const Evaluator& evaluator, WorkerSlot& slot);
+  void drop(WorkerSlot& slot);
+
+  // The comparison for a case that ends this build in the way of `ended`: that broke if the base has an answer.
+  Comparison compare_ending(const Spec& spec, const Family& ended, WorkerSlot& slot);
+
+  // Runs the case in both builds once more. True if this build repeats its motion, the base repeats `base_hash` (any,
+  // if that is empty), and the failure counts. The provenance then says what the base shows. A case that ended this
+  // build is run by the base alone.
+  bool confirm(Case& found, Evaluator& evaluator, const std::string& base_hash, WorkerSlot& slot);
+
+  // Whether the base ends on the spec, or refuses it.
+  bool is_refused(const Spec& spec, WorkerSlot& slot);
+
+  BaseBuild& base();
+  const CompareRules& rules() const { return config_.rules; }
+
+ private:
+  Measurement measure_base(const MeasureRequest& request, WorkerSlot& slot);
+
+  const AgainstConfig& config_;
+  std::shared_ptr<BaseBuild> base_;
+};
+
+}  // namespace contort
