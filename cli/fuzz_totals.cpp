@@ -59,15 +59,16 @@ void print_totals_text(const RunResult& result, const TotalsRequest& request) {
   const RunRecord& t = result.record;
   print_found(result, request);
   for (const std::string& line : waiver_lines(request.settings, result.waivers)) std::printf("%s\n", line.c_str());
-  std::printf("%lld cases (%lld frames) in %.1f s: %lld failing, %zu families; corpus: %s\n",
+  std::printf("%lld cases (%lld frames) in %.1f s: %lld %s, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
-              static_cast<long long>(t.failing), t.families.size(), request.corpus.c_str());
+              static_cast<long long>(t.failing), request.against ? "broke or got worse" : "failing", t.families.size(),
+              request.corpus.c_str());
   if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
     std::printf(
         "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), request.shrinks_per_case);
-  if (t.cases > 0) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
+  if (t.cases > 0 && !request.against) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
   if (result.interrupted)
     std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
   if (!result.waiting.empty())

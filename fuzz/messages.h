@@ -31,7 +31,7 @@ struct EvaluateReport {
   std::vector<Family> broken;       // by their first frame, then the deepest in its check's scale
   std::vector<NearMiss> near;       // of the subjects of the island's group
   std::vector<WaiverUse> waivers;
-  std::optional<Comparison> against;  // of a run that compares two builds
+  std::optional<Comparison> against{};  // of a run that compares two builds
   bool operator==(const EvaluateReport&) const = default;
 };
 

@@ -43,6 +43,7 @@ Provenance provenance_of(const Case& original, const ShrinkState& state, const s
   }
   from.shrink_evaluations = state.evaluations();
   from.shrink_stopped = stopped;
+  from.base.clear(), from.base_shows.clear(), from.base_margin = 0.0;  // of the spec before; a run says it of this one
   return from;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -87,6 +88,29 @@ TEST(CiFiles, CommandsExistWithTheirOptions) {
     }
   EXPECT_GE(calls, 24);
   EXPECT_GE(options, 40);
+}
+
+// The words of the call of this command that has the option; empty where no call has.
+std::vector<std::string> call_with(const std::string& text, const std::string& command, const std::string& option) {
+  for (const std::vector<std::string>& call : calls_in(without_comments(text)))
+    if (!call.empty() && call.front() == command && std::ranges::find(call, option) != call.end()) return call;
+  return {};
+}
+
+TEST(CiFiles, ChangesAreComparedWithTheBuildOfTheirBase) {
+  for (const char* name : {"/github.yml", "/gitlab.yml"}) {
+    const std::string text = slurp(kFolder + name);
+    const std::vector<std::string> fuzz = call_with(text, "fuzz", "--against");
+    const auto against = std::ranges::find(fuzz, "--against"), corpus = std::ranges::find(fuzz, "--corpus");
+    ASSERT_TRUE(against != fuzz.end() && corpus != fuzz.end()) << name;
+    ASSERT_TRUE(against + 1 != fuzz.end() && corpus + 1 != fuzz.end()) << name;
+    EXPECT_EQ(*(against + 1), "base/build/release/contort") << "which " << name << " builds with:";
+    EXPECT_LT(text.find("base/run version"), text.find("--against")) << name;
+    const std::vector<std::string> report = call_with(text, "report", "--gate");
+    ASSERT_GE(report.size(), 2U) << name;
+    EXPECT_EQ(report[1], *(corpus + 1)) << "what was found gates: " << name;
+    EXPECT_EQ(std::ranges::find(report, "--baseline"), report.end()) << "every failure there is new: " << name;
+  }
 }
 
 TEST(CiFiles, CallsAreFoundInYamlAndInScripts) {

@@ -60,7 +60,10 @@ Case draw_case() {
                   *rc::gen::inRange(0, 1001),
                   draw_text("tame_2-x.", 0, 20),
                   *rc::gen::inRange(0, 2) == 0 ? Family{}
-                                               : Family{"check", draw_text("abc_", 1, 20), draw_text("abc|/ ~", 1, 40)}};
+                                               : Family{"check", draw_text("abc_", 1, 20), draw_text("abc|/ ~", 1, 40)},
+                  draw_text("0123456789. abcdef", 0, 40),
+                  draw_text("passes_check", 0, 12),
+                  std::ldexp(static_cast<double>(*rc::gen::inRange(-1000, 1000)), -4)};
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {
     c.free_fields.push_back("/" + draw_text("abc/_0", 1, 60));
     c.co_failures.push_back({"check", draw_text("abc/_ ~", 1, 60), "a"});

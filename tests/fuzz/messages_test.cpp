@@ -23,7 +23,10 @@ std::string with(const std::string& message, const char* name, const json& value
 }
 
 TEST(Messages, TasksArriveAsTheyWereSent) {
-  const Task tasks[] = {EvaluateTask{{3, 9}}, SettleTask{{3, 9}, kFamily, 2, "0123456789abcdef", true, false},
+  const Task tasks[] = {EvaluateTask{{3, 9}},
+                        EvaluateTask{{3}, {"crash", "human", "SIGSEGV"}},
+                        SettleTask{{3, 9}, kFamily, 2, "0123456789abcdef", true, false},
+                        SettleTask{{3}, kFamily, 0, "0123456789abcdef", false, true, "fedcba9876543210"},
                         ShrinkTask{"corpus/leads/seed_1/0123456789ab-0000000000000001.json", true}};
   for (const Task& task : tasks) EXPECT_EQ(parse_task(print_task(task)), task) << print_task(task);
 }
@@ -41,10 +44,16 @@ TEST(Messages, ReportsArriveAsTheyWereSent) {
   const EvaluateReport evaluated{true,      true,           60, "0123456789abcdef", {"ground steps"},
                                  {kFamily}, {{kFamily, 0.1}}, {{3, true}}};
   EXPECT_EQ(parse_report<EvaluateReport>(print_report(evaluated)), evaluated);
+  EvaluateReport compared = evaluated;
+  compared.against = Comparison{"", true, 17, "fedcba9876543210", {kFamily}, {kFamily}, {kFamily}};
+  EXPECT_EQ(parse_report<EvaluateReport>(print_report(compared)), compared);
+  compared.against = Comparison{"base.crash: gone", false, -1, "", {}, {}, {}};
+  EXPECT_EQ(parse_report<EvaluateReport>(print_report(compared)), compared);
   SettledLead settled{{"seed_1", made_up(170, 60, 1), made_up(160, 30, 1)}, true, {}, {}};
   settled.lead.shrunk_from = made_up(171, 61, 1);
   settled.lead.minimal->co_failures = {kFamily};
   settled.incidental = {settled.lead};
+  settled.incidental_of_base = {kFamily};
   settled.incidental_unconfirmed = {{"seed_1", made_up(172, 62, 1), {}}};
   const SettleReport report{settled, ""};
   EXPECT_EQ(parse_report<SettleReport>(print_report(report)), report);

@@ -67,6 +67,41 @@ TEST(Rounds, RememberWhatEndedAProcessOnce) {
   EXPECT_FALSE(round.cases()[0].ends_process);
 }
 
+TEST(Rounds, AskTheBaseAboutWhatEndsThisBuild) {
+  Round round(true);
+  round.add({4});
+  round.next();
+  round.take_ending(0, crash(), false);
+  EXPECT_TRUE(round.task(0).ends.empty()) << "it is tried again first";
+  round.next();
+  round.take_ending(0, crash(), false);
+  EXPECT_FALSE(round.is_whole());
+  EXPECT_EQ(round.next(), 0);
+  EXPECT_EQ(round.task(0), (EvaluateTask{{4}, family_of(crash())}));
+  EvaluateReport report;
+  report.broken = {family_of(crash())};
+  round.take_report(0, report);
+  EXPECT_TRUE(round.is_whole());
+  EXPECT_TRUE(round.cases()[0].ends_process);
+  EXPECT_FALSE(round.cases()[0].ended_once);
+}
+
+TEST(Rounds, CountAWorkerThatEndsWhileItAsksTheBaseAsRefused) {
+  Round round(true);
+  round.add({4});
+  round.next();
+  round.take_ending(0, crash(), true);
+  EXPECT_EQ(round.next(), 0);
+  Case other = crash();
+  other.expect.subject = "SIGKILL";
+  round.take_ending(0, other, false);
+  ASSERT_TRUE(round.is_whole());
+  const EvaluateReport& report = *round.cases()[0].report;
+  EXPECT_EQ(report.broken, std::vector<Family>{family_of(crash())});
+  EXPECT_FALSE(report.against->refusal.empty());
+  EXPECT_TRUE(counted_families(report).empty());
+}
+
 TEST(Rounds, NeedNoSecondWitnessOfAKnownEnding) {
   Round round = round_of(1);
   round.next();

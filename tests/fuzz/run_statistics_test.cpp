@@ -60,6 +60,36 @@ TEST_F(CountedCases, ThatEndTheirProcessAreShrunkWithAGuard) {
   EXPECT_TRUE(add(4, {family("crash|human|SIGSEGV")}).at(0).guarded);
 }
 
+TEST_F(CountedCases, AgainstABaseCountOnlyWhatChanged) {
+  state_.record.against.emplace();
+  const auto add_compared = [&](std::int64_t index, const Comparison& comparison) {
+    RoundCase one{{index}};
+    one.report = EvaluateReport{true, 60, "0123456789abcdef", {}, {hip_, knee_}, {}, {}, comparison};
+    return statistics_.add(one);
+  };
+  const std::vector<SettleTask> wanted = {{{1}, knee_, 0, "0123456789abcdef", false, true, "bb"}};
+  EXPECT_EQ(add_compared(1, {"", true, 3, "bb", {knee_}, {}, {}}), wanted);
+  EXPECT_EQ(add_compared(2, {"", true, 3, "bb", {}, {hip_}, {knee_}}).size(), 1U);
+  EXPECT_TRUE(add_compared(3, {"", true, 7, "bb", {}, {}, {}}).empty());
+  EXPECT_TRUE(add_compared(4, {"", true, 2, "bb", {}, {}, {}}).empty());
+  EXPECT_TRUE(add_compared(5, {}).empty());
+  EXPECT_TRUE(add_compared(6, {"base.crash: gone", false, -1, "", {}, {}, {}}).empty());
+  const AgainstCounts expected{"", "", 1, 2, 1, 1, 1, 1, 3, 7, 6, "base.crash: gone"};
+  EXPECT_EQ(state_.record.against, expected);
+  EXPECT_EQ(state_.record.failing, 2);
+  EXPECT_EQ(state_.record.families.size(), 2U);
+}
+
+TEST_F(CountedCases, AgainstABaseTeachTheirIslandAllThatFailed) {
+  std::int64_t index = 0;
+  while (group_of(index) != group_of_target(knee_)) ++index;
+  RoundCase one{{index}};
+  one.report = EvaluateReport{};
+  one.report->broken = {knee_}, one.report->against = Comparison{};
+  EXPECT_TRUE(statistics_.add(one).empty());
+  EXPECT_EQ(state_.islands[static_cast<std::size_t>(island_of(index))].retired, std::vector<Family>{knee_});
+}
+
 TEST_F(CountedCases, TeachTheirIsland) {
   RoundCase one{{8}};
   one.report = EvaluateReport{};
