@@ -94,8 +94,8 @@ std::string text_of_row(const AgainstRow& row, const std::vector<std::string>& l
 std::string firsts_text(const AgainstCounts& counts) {
   std::string text;
   if (counts.first_moved >= 0)
-    text += "first case that only moved: " + std::to_string(counts.first_moved) + ", from frame " +
-            std::to_string(counts.first_moved_frame) + "\n";
+    text += "first case that only moved: " + std::to_string(counts.first_moved) +
+            (counts.first_moved_frame < 0 ? "" : ", from frame " + std::to_string(counts.first_moved_frame)) + "\n";
   if (counts.first_refused >= 0)
     text += "first case that the base refused: " + std::to_string(counts.first_refused) + ", " +
             printable(counts.first_refusal) + "\n";

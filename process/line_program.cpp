@@ -57,7 +57,8 @@ void LineProgram::send_line(const std::string& text) {
     if (sent >= 0 || errno == EINTR) continue;
     if (errno != EAGAIN) return;
     if (is_stuck_ = steady_s() > deadline_s; is_stuck_) return;
-    is_ready(socket_, POLLOUT, kPoll_ms);
+    is_ready(socket_, POLLIN | POLLOUT, kPoll_ms);
+    if (is_ready(socket_, POLLIN, 0) && !receive()) return;  // it may have to be rid of its output first
   }
 }
 

@@ -76,8 +76,10 @@ TEST_F(AgainstRuns, ShrinkAFastSwingToOneThatTheBaseDoesSlowly) {
     EXPECT_GT(min.provenance.base_margin, 0.0);
     ASSERT_EQ(min.spec.sequences.size(), 1U);
     ASSERT_EQ(min.spec.sequences[0].clips.size(), 1U);
-    EXPECT_EQ(min.spec.sequences[0].clips[0].actions.size(), 1U);
-    EXPECT_LT(std::get<double>(min.spec.sequences[0].clips[0].actions[0].params.at("angle_deg")), -60.0);
+    const std::vector<ActionUse>& uses = min.spec.sequences[0].clips[0].actions;
+    EXPECT_LE(uses.size(), 2U) << "the wide swing, and at most the one before it";
+    EXPECT_TRUE(std::ranges::any_of(
+        uses, [](const ActionUse& use) { return std::get<double>(use.params.at("angle_deg")) < -115.0; }));
   }
   EXPECT_GE(speeds, 1);
 }

@@ -37,7 +37,7 @@ class GeneratorBase final : public BaseBuild {
   MeasureRequest request_;
 };
 
-// The pendulum, which turns three times as far as it should for angles below -60 degrees. A swing to such an angle is
+// The pendulum, which turns three times as far as it should for angles below -115 degrees. A swing to such an angle is
 // then faster than its joints allow.
 class WideSwingGenerator final : public Generator {
  public:
@@ -48,7 +48,7 @@ class WideSwingGenerator final : public Generator {
     const Result<Done> done = swing_.run(spec, execution);
     if (done)
       for (double& angle_rad : execution.motion.coords)
-        if (angle_rad < -60 * kRadPerDeg) angle_rad *= 3.0;
+        if (angle_rad < -115 * kRadPerDeg) angle_rad *= 3.0;
     return done;
   }
   std::unique_ptr<Generator> another() const override { return std::make_unique<WideSwingGenerator>(); }
