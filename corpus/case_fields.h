@@ -58,7 +58,7 @@ void fields(V& v, const Provenance*) {
   v.field("base", &Provenance::base, stored_rules::kText,
           "Build that this one was compared with: version and content hash; empty: with none.");
   v.field("base_shows", &Provenance::base_shows, stored_rules::kText,
-          "By the base for this spec: passes_check (no finding of this check), passes (none of this family) or milder.");
+          "By the base for this spec: passes_check (no finding of the check), passes (none of the family) or milder.");
   v.field("base_margin", &Provenance::base_margin, {.low = -1e300, .high = 1e300},
           "The base's margin for the family, in the check's scale; 0 if it judged none.");
 }

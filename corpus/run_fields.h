@@ -32,7 +32,8 @@ void fields(V& v, const StrategyCount*) {
 
 template <class V>
 void fields(V& v, const AgainstCounts*) {
-  const json_fields::Rule index{.low = -1, .high = 0x1p53}, prose{.text = json_fields::Text::prose, .may_be_empty = true};
+  const json_fields::Rule index{.low = -1, .high = 0x1p53};
+  const json_fields::Rule prose{.text = json_fields::Text::prose, .may_be_empty = true};
   v.field("base", &AgainstCounts::base, {.text = json_fields::Text::label, .required = true}, "The other build.");
   v.field("build", &AgainstCounts::build, run_rules::kLabel, "This build.");
   v.field("same", &AgainstCounts::same, run_rules::kTotal, "Cases without any difference.");

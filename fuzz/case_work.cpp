@@ -199,7 +199,7 @@ bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shr
 
 }  // namespace
 
-// The smallest and the deepest case are run once more in both builds, where there is a base. False if the smallest does not
+// If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does not
 // count there; a deepest case that does not is left out.
 bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, WorkerSlot& slot) {
   Case minimal = shrunk.minimal, worst = shrunk.worst;

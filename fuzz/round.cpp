@@ -52,7 +52,8 @@ void Round::take_ending(int place, const Case& ended, bool is_known) {
 }
 
 bool Round::has_failure() const {
-  return std::ranges::any_of(cases_, [](const RoundCase& one) { return one.report && !counted_families(*one.report).empty(); });
+  return std::ranges::any_of(
+      cases_, [](const RoundCase& one) { return one.report && !counted_families(*one.report).empty(); });
 }
 
 }  // namespace contort

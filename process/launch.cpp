@@ -26,7 +26,7 @@ namespace {
 
 }  // namespace
 
-pid_t launch(const std::vector<std::string>& command, const Streams& streams) {
+int launch(const std::vector<std::string>& command, const Streams& streams) {
   std::vector<char*> arguments;
   for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
   arguments.push_back(nullptr);

@@ -1,8 +1,6 @@
 // Starts programs. Every program that this project runs beside itself is started here.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
 
@@ -20,6 +18,6 @@ struct Streams {
 // Starts a program in a process group of its own, without a shell, with no signal blocked. It is killed when the
 // calling thread ends. Gives the process number, or -1 where the system has no process. A program that cannot be run
 // ends with kNotStarted. The caller closes its copies of the descriptors.
-pid_t launch(const std::vector<std::string>& command, const Streams& streams);
+int launch(const std::vector<std::string>& command, const Streams& streams);
 
 }  // namespace contort
