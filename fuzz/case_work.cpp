@@ -199,8 +199,8 @@ bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shr
 
 }  // namespace
 
-// If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does not
-// count there; a deepest case that does not is left out.
+// If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does
+// not count there; a deepest case that does not is left out.
 bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, WorkerSlot& slot) {
   Case minimal = shrunk.minimal, worst = shrunk.worst;
   if (!counts_again(minimal, "", slot)) return false;
