@@ -1,5 +1,5 @@
-// Finds how near two bodies come between two frames, where joints turn and travel evenly from the one to the other.
-// docs/checks.md has the formula behind it.
+// Finds the smallest distance of two bodies between two frames. Joints are assumed to turn and travel evenly from one
+// frame to the next. docs/checks.md has the formulas.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,22 @@ class BetweenFrames {
     std::span<const double> coords;
     std::span<const Rigid> world;  // world_from_joint
   };
-  // The data that the frames point to has to stay where it is.
+  // The data that the frames point to must stay valid and in place.
   void set(const Frame& before, const Frame& now);
 
-  // No point of one body of a judged pair moves farther as seen from the other; NaN where that is unknown.
+  // An upper bound on the path, in metres, of any point of one body as seen from the other body of a judged pair. NaN
+  // if it is unknown.
   double path_m(std::size_t judged) const { return paths_m_[chains_[judged].a] + paths_m_[chains_[judged].b]; }
 
-  // The same of all judged pairs.
+  // Writes path_m() of all judged pairs to `out`.
   void paths_m(std::span<double> out) const;
 
-  // Whether the pair may overlap by over a millimetre more in between than in both frames, going by its path alone.
-  // The frames' distances may be given too small, not too large.
+  // Returns true if the path length alone allows the pair to overlap by more than 1 mm more between the frames than
+  // in either frame. The distances in the frames may be given too small, but not too large.
   bool may_overlap(std::size_t judged, double before_m, double now_m) const;
 
-  // The least distance in between, where the pair overlaps there by over a millimetre more than in both frames;
-  // otherwise that of the frames.
+  // The smallest distance between the frames if the pair overlaps there by more than 1 mm more than in both frames;
+  // otherwise the smaller distance of the two frames.
   double least_distance(std::size_t judged, double before_m, double now_m);
 
  private:
@@ -47,7 +48,7 @@ class BetweenFrames {
     int trunk;
     std::size_t a, b;  // of paths_m_: what the links up to the trunk add up to
   };
-  // The points of a body move against a joint that carries it, all between two frames.
+  // Bounds on the movement of a body's points relative to a joint that carries the body, between the two frames.
   struct Travel {
     double path_m = 0.0;   // no longer
     double curve_m = 0.0;  // second derivative, no greater
@@ -55,7 +56,7 @@ class BetweenFrames {
   struct Places {  // of two bodies, as seen from the joint that carries both
     Rigid a, b;
   };
-  // The figure at a moment in between, as far as anybody asked.
+  // The figure at a moment between the frames; transforms are computed on demand.
   struct Pose {
     int interval = 0;
     double time = 0.0;
@@ -110,7 +111,8 @@ class BetweenFrames {
   std::vector<double> steps_;  // of joints, between the frames: rad or m
   double farthest_out_m_ = 0.0;
   std::vector<Vec3> directions_;  // of judged colliders, as seen from a's body: what parted b from a when last measured
-  // One body after another: no point of it moves farther against the joint that carries its first 0, 1, 2 … links.
+  // For each body in turn: bounds on the path of its points relative to the joint that carries its first 0, 1, 2 …
+  // links.
   std::vector<double> paths_m_;
 };
 

@@ -19,7 +19,8 @@
 
 namespace contort {
 
-// A check may need more than a character and a motion of it. Where that is missing it cannot judge, and says so.
+// The data that a check needs in addition to a character and a motion of it. If the data are missing, the check
+// reports that it could not judge.
 enum class Needs : std::uint8_t {
   motion,            // nothing else
   height,            // how high the root is above the ground
@@ -62,22 +63,23 @@ struct CheckDef {
   Needs needs;
   std::string_view nothing;  // what is missing where what it needs is there and it still judged nothing
   std::string_view help;
-  // The subjects that are judged, numbered from 0. Checks of clips have no such subjects, and measure nothing.
+  // The judged subjects, numbered from 0. Checks of clips have no such subjects and measure nothing.
   int (*subject_count)(const Character&);
   Subject (*subject)(const Character&, int);
-  // Reports every subject in every frame that it judges; it may leave out margins that change nothing (fold.h).
+  // Reports the margin of every subject in every frame that the check judges. It may leave out margins that change no
+  // result (fold.h).
   void (*measure)(const CheckInput&, MarginFold&);
   ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // of checks of clips, and of no other
 };
 
-// A check that judged, with the number of its subjects. The texts are those of the manifest.
+// A check that judged, with its number of subjects. The text is that of the manifest.
 struct JudgedCheck {
   std::string_view check;
   int subjects = 0;
   bool operator==(const JudgedCheck&) const = default;
 };
 
-// A check that could not judge: "the motion has no dynamics".
+// A check that could not judge, with the reason, such as "the motion has no dynamics".
 struct NotJudged {
   std::string_view check;
   std::string_view reason;
@@ -86,10 +88,10 @@ struct NotJudged {
 
 std::span<const CheckDef> all_checks();
 
-// Why a check cannot judge a motion; empty where it can.
+// Returns the reason why a check cannot judge a motion; empty if it can.
 std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& input);
 
-// The row of this name; there must be one.
+// Returns the check of this name, which must exist.
 const CheckDef& find_check(std::string_view name);
 
 }  // namespace contort

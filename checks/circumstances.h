@@ -1,4 +1,4 @@
-// In what circumstances a finding happened: which actions moved the figure then, and what had just changed.
+// Describes the circumstances of a finding: the actions that moved the figure, and the event that had just happened.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// The first that fits, from the most violent on.
+// The phase of a frame: the first in this list that applies, from the most violent on.
 enum class Phase {
   impact,       // up to half a second after a blow
   interrupt,    // up to 0.15 s after an interrupt cut in or handed back: as long as what was cut fades

@@ -1,8 +1,10 @@
-// Signed distances of the judged pairs of bodies in one frame after another, each as exactly as somebody needs it.
+// Measures signed distances of the judged pairs of bodies in one frame after another, each as exactly as the caller
+// needs it.
 //
-// A pair's distance is the least over its colliders. Bounding balls, first of bodies and then of colliders, dismiss
-// what is far apart; spheres and capsules that are left are measured together (round_distances.h), then boxes and
-// hulls, of which most are dismissed by the direction that parted them when they were last measured.
+// A pair's distance is the smallest over its colliders. Pairs that are far apart are dismissed by bounding spheres,
+// first of bodies and then of colliders. The remaining spheres and capsules are measured together
+// (round_distances.h), then boxes and hulls. Most of those are dismissed by the direction that separated them when
+// they were last measured.
 #pragma once
 
 #include <limits>
@@ -25,17 +27,17 @@ class Clearances {
  public:
   explicit Clearances(const Character& character);
 
-  // The next frame: world_from_joint, which has to stay where it is.
+  // Begins the next frame. `world` holds world_from_joint and must stay in place.
   void place(std::span<const Rigid> world);
 
-  // No more than a pair's distance in this frame: how far apart its bodies are along the way out that they had when
-  // they were last measured (distance.h). NaN where they never were.
+  // A lower bound on a pair's distance in this frame: the gap between its bodies along the direction of their last
+  // measurement (distance.h). NaN if they were never measured.
   double gap_m(std::size_t judged) const;
 
   // Measures the pairs that are due in this frame.
   void measure(std::span<const DuePair> due);
-  // The distance of a pair that was measured, where that is below what matters; otherwise one that is no greater than
-  // its distance and no less than what matters. NaN where a body has no place.
+  // The distance of a measured pair, if it is below what matters; otherwise a value between what matters and the
+  // distance. NaN if a transform of a body is not finite.
   double distance_m(const DuePair& due);
 
  private:
@@ -47,7 +49,7 @@ class Clearances {
     std::size_t body_a, body_b;
     double radii_m;                                   // of their balls, the sum
     std::size_t first_round, first_other, end_other;  // of colliders_: spheres and capsules, then with a box or a hull
-    // When last measured:
+    // The state of the last measurement:
     bool is_near = false;
     double apart_m = 0.0;                                // its balls, or the reach
     std::size_t first_measured = 0, end_measured = 0;    // of round_m_

@@ -1,4 +1,4 @@
-// A check of a clip as it is in its file, without a character: a row CLIP of the manifest and a function foo_in_clip.
+// A check of a clip of an animation file, without a character: a row CLIP of the manifest and a function foo_in_clip.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct ClipInput {
   std::optional<double> max_gap_m;  // joints farther from their places are faults; nothing says so without
 };
 
-// Frames of findings are keys.
+// Frames of these findings are numbers of keys.
 struct ClipCheckResult {
   int subjects = 0;          // that were judged
   std::string_view why_not;  // where there are none

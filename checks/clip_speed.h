@@ -1,6 +1,7 @@
-// angular_velocity and pop for animations made elsewhere: the speed of every rotation channel of a clip between its own
-// neighbouring keys, so that no peak between keys is averaged away. An interval that is too fast is one of the two,
-// never both: a pop where the motion around it does not explain the speed (pop.h), angular_velocity otherwise.
+// Measures angular_velocity and pop for animations made elsewhere: the speed of every rotation channel of a clip
+// between its own neighbouring keys, so that no peak between keys is averaged away. An interval that is too fast is
+// one of the two, never both: a pop if the surrounding motion does not explain the speed (pop.h), otherwise
+// angular_velocity.
 #pragma once
 
 #include <limits>
@@ -35,15 +36,15 @@ struct ClipSpeeds {
   double peak_t0_s = 0.0;
   double peak_t1_s = 0.0;
   int channels = 0;
-  // The smallest of limit - speed over all intervals, rad/s; infinite where nothing turns.
+  // The smallest value of limit - speed over all intervals, rad/s; infinite if nothing turns.
   double least_margin_rad_s = std::numeric_limits<double>::infinity();
   std::vector<ClipFinding> findings;  // in the order of channels, then time
 };
 
 ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const SpeedLimits& limits);
 
-// Measures each clip of that name; with `name` empty, all clips. Nothing fails: a clip without rotations has a peak of
-// 0.
+// Measures each clip of that name, or all clips if `name` is empty. It cannot fail: a clip without rotations has a
+// peak of 0.
 std::vector<ClipSpeeds> check_clip_speeds(const Asset& asset, const SpeedLimits& limits, const std::string& name = "");
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// joint_range for motion capture: the numbers of an AMC against the limits that its own ASF declares. The oracle is the
-// file's maker: nothing is assumed about people.
+// Measures joint_range for motion capture: the numbers of an AMC against the limits that its own ASF declares. It
+// assumes nothing about people.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace contort {
 
 struct DofLimits {
-  // Numbers that were judged: those of degrees of freedom with limits, the root's left out, in all frames.
+  // The number of judged values: those of degrees of freedom with limits, in all frames, without the root.
   std::int64_t samples = 0;
   std::int64_t out_of_range = 0;
   int subjects = 0;  // limits that have samples
@@ -27,7 +27,7 @@ struct DofLimits {
 // Limits are inclusive; 1e-6 degrees beyond are the rounding of printed numbers.
 inline constexpr double kDofResolution_rad = 1e-6 * kRadPerDeg;
 
-// Rules of the settings for joint_range change what is found, not what is counted.
+// Rules of the settings for joint_range change the findings, but not the counts.
 DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion, const CheckSettings& settings = {});
 
 }  // namespace contort

@@ -18,10 +18,10 @@ struct Family {
   bool empty() const { return *this == Family{}; }              // no family
 };
 
-// "joint_range|human|arm_left/elbow max" for files and people; "" of the empty one.
+// The family as text for files and people, such as "joint_range|human|arm_left/elbow max"; "" for the empty family.
 std::string print_family(const Family& family);
 
-// Returns nothing if a part is missing. Only the subject may hold the separator itself.
+// Parses the text of print_family. Returns nothing if a part is missing. Only the subject may contain the separator.
 std::optional<Family> parse_family(std::string_view text);
 
 }  // namespace contort

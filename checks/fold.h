@@ -1,4 +1,4 @@
-// From margins to findings.
+// Folds margins of frames into findings.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct Finding {
 
 Family family_of(const std::string& character, const Finding& finding);
 
-// Folds margins as they are measured, without storing them: per subject the open episode and the smallest margin.
-// Frames of one subject must come in rising order.
+// Folds margins while they are measured and stores only the open episode and the smallest margin of each subject.
+// Frames of one subject must come in ascending order.
 class MarginFold {
  public:
   struct Episode {
@@ -39,16 +39,17 @@ class MarginFold {
   // Margins down to -resolution count as 0.
   MarginFold(int subject_count, int merge_gap_frames, double resolution = 0.0);
 
-  // Added to every margin of the subject, in all phases or in one; infinite: it is not judged. With `phases` (of each
-  // frame) empty, the first number of each subject counts for every frame.
+  // Adds a tolerance to every margin of a subject, in all phases or in one. An infinite tolerance means that the
+  // subject is not judged. If `phases` (of each frame) is empty, the first number of each subject counts for every
+  // frame.
   void tolerate(std::vector<double> tolerances, std::vector<std::uint8_t> phases, int phase_count);
 
   // Margins of frames before this one are not judged.
   void begin_at(int frame);
 
-  // Keeps the margins themselves, too: frame_count of each subject.
+  // Also stores the margins: frame_count of each subject.
   void record(int frame_count);
-  // The margins of a subject that was recorded, by frame; +infinity where it was not judged.
+  // The stored margins of a subject, by frame; +infinity if it was not judged in that frame.
   std::span<const double> recorded(int subject) const;
 
   void report(int subject, int frame, double margin) {
@@ -64,26 +65,27 @@ class MarginFold {
     }
   }
 
-  // The subject's margins from here up change nothing that is kept, and need not be reported.
+  // Margins of the subject that are not below this value change no result, and need not be reported.
   double matters_below(int subject) const {
     const double smallest = smallest_[static_cast<std::size_t>(subject)];
     if (!plain_) return std::numeric_limits<double>::infinity();
     return smallest > least_ ? smallest : least_;
   }
 
-  // For checks that leave out margins: whatever subject has no margin was judged, too.
+  // For checks that leave out margins: counts subjects without a margin as judged, too.
   void judged_all() { judged_all_ = true; }
-  // Subjects that have a margin, or were judged without; not those that rules of the settings ignore.
+  // The number of judged subjects: those with a margin, or counted by judged_all(). Subjects that the settings ignore
+  // do not count.
   int judged_subjects() const;
 
   // Episodes in the order of their first frame, then of subjects.
   std::vector<Episode> episodes() const;
 
-  // Smallest margin of each subject; +infinity where it was never judged.
+  // The smallest margin of each subject; +infinity if it was never judged.
   const std::vector<double>& smallest() const { return smallest_; }
 
  private:
-  // +infinity where it is not judged.
+  // Returns +infinity if the subject is not judged in this frame.
   double tolerated_and_recorded(int subject, int frame, double margin);
   void violated(int subject, int frame, double margin);
   bool is_ignored(std::size_t subject) const;

@@ -1,4 +1,4 @@
-// Which joint of a character a node of somebody else's skeleton stands for, so that the character's limits apply.
+// Maps nodes of a foreign skeleton to joints of a character, so that the character's limits apply to them.
 #pragma once
 
 #include <map>
@@ -14,7 +14,8 @@ struct JointMap {
   bool operator==(const JointMap&) const = default;
 };
 
-// {"format": "contort.map/1", "joints": {"mixamorig:LeftForeArm": "arm_left/elbow"}}. Codes json.*, map.*.
+// Parses a file such as {"format": "contort.map/1", "joints": {"mixamorig:LeftForeArm": "arm_left/elbow"}}. Codes
+// json.*, map.*.
 Result<JointMap> parse_joint_map(std::string_view text);
 
 std::string print_joint_map(const JointMap& map);

@@ -1,4 +1,4 @@
-// The distance of a joint between two poses. Shared by the checks that judge motion of joints.
+// Measures the distance of a joint between two poses. The checks that judge the motion of joints share it.
 #pragma once
 
 #include "checks/check.h"
@@ -6,15 +6,17 @@
 
 namespace contort {
 
-// rad: the angle between two coordinates of a hinge, for a ball that of the rotation between them, the short way, so
-// that the sign of a quaternion does not matter; metres for a prismatic joint. Poses are whole rows of coordinates.
+// The distance between two poses, which are whole rows of coordinates. For a hinge it is the angle between them, rad;
+// for a ball the angle of the rotation between them on the shorter way, so that the sign of a quaternion does not
+// matter; for a prismatic joint metres.
 double joint_step(const Joint& joint, const double* before, const double* now);
 
-// The same with its direction in the joint's frame: (x, 0, 0) for a hinge or prismatic joint, a rotation vector for a
-// ball.
+// The distance with its direction in the joint's frame: (x, 0, 0) for a hinge or prismatic joint, a rotation vector
+// for a ball.
 Vec3 joint_step_vector(const Joint& joint, const double* before, const double* now);
 
-// Makes joints of all kinds comparable: metres count ten times, as 1 cm is about as plain to see as 0.1 rad.
+// The distance in a unit that is comparable between joints of all kinds: metres count ten times, because 1 cm is
+// about as visible as 0.1 rad.
 double likeness_rad(const Joint& joint, const double* before, const double* now);
 
 // "rad/s" or "m/s", and so on: the unit of a joint's coordinate with this ending.

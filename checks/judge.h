@@ -1,4 +1,4 @@
-// The one path from an Execution to findings; the fuzzer, the shrinker, replay and the command line all take it.
+// Turns an Execution into findings. The fuzzer, the shrinker, replay and the command line all use this one path.
 #pragma once
 
 #include <cstdint>
@@ -29,39 +29,39 @@ struct Evaluation {
   bool operator==(const Evaluation&) const = default;
 };
 
-// A motion came so near to the limits of one check: the smallest margin of each subject, in the subject's unit;
-// +infinity where it was not judged.
+// How near a motion came to the limits of one check: the smallest margin of each subject, in the subject's unit;
+// +infinity if it was not judged.
 struct SmallestMargins {
   const CheckDef* check = nullptr;
   std::vector<double> of_subject;
 };
 
-// The margins of one subject over a motion, for people to look at.
+// The margins of one subject over a motion, for display.
 struct MarginCurve {
   const CheckDef* check = nullptr;
   Subject subject;
   std::vector<double> margins;  // by frame; +infinity where it was not judged
 };
 
-// Owns the memory of one thread's judgements; nothing of one judgement reaches the next.
+// Judges executions, and owns the memory that one thread needs for it. Nothing of one judgement affects the next.
 class Judge {
  public:
   explicit Judge(CheckSettings settings = {}) : settings_(settings) {}
 
-  // Measures, folds, and sets apart what waivers hide. With `only_check`, that check alone: the shrinker asks for
-  // nothing else.
+  // Measures margins, folds them, and separates the findings that waivers hide. With `only_check`, it runs that check
+  // only; the shrinker uses this.
   Evaluation evaluate(const Execution& execution, std::string_view only_check = {});
 
-  // The findings alone, waived ones among them, of a motion from elsewhere; without surroundings, on level ground at
-  // height 0; without an intent, promises are not judged.
+  // Returns only the findings, including waived ones, of a motion made elsewhere. Without surroundings the ground is
+  // level at height 0. Without an intent, checks that need one do not judge.
   std::vector<Finding> judge(const Character& character, const Motion& motion, std::string_view only_check = {},
                              const Environment& environment = {}, const Intent* intent = nullptr);
 
-  // The margins of the last judgement, in the manifest's order, of all checks of motions, whether they could judge or
-  // not. The search is guided by them.
+  // The smallest margins of the last judgement, in the manifest's order, of all checks of motions, whether they could
+  // judge or not. They guide the search.
   const std::vector<SmallestMargins>& smallest_margins() const { return smallest_; }
-  // The curves of the last judgement, which was of this execution and had all checks: first the subject that a finding
-  // is about, then those that came nearest to their limits in the check's scale, `most` at the most.
+  // The curves of the last judgement, which must be of this execution and of all checks. The first is that of the
+  // finding's subject; then follow the subjects nearest to their limits in the check's scale, at most `most` in all.
   std::vector<MarginCurve> curves(const Execution& execution, const Finding& about, std::size_t most) const;
 
  private:

@@ -1,4 +1,5 @@
-// Judges a clip of an animation file: what needs no character, and, where there is one, what a motion of it showed.
+// Judges a clip of an animation file by the checks that need no character, and adds the findings of a character's
+// motion if there is one.
 #pragma once
 
 #include <optional>
@@ -36,7 +37,7 @@ struct SpeedsElsewhere {
   std::set<std::string> not_followed;  // their coordinates say nothing of how their nodes turn; nor of accelerations
 };
 
-// Adds what the clip's motion of a character showed.
+// Adds the findings of the clip's motion of a character.
 void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, ClipEvaluation& into);
 
 }  // namespace contort

@@ -25,10 +25,11 @@ inline constexpr double kPopFactor = 4.0;
 // Two frames at 24 Hz last 83 ms. People need longer to start and stop a limb.
 inline constexpr double kPopLongest_s = 0.1;
 
-// The speed up to which the motion around interval i explains it, rad/s; infinite where nothing can be said.
+// The speed that the surrounding motion explains for interval i, rad/s; infinite if there are no neighbours to
+// compare with.
 double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t i);
 
-// The speed of a joint in a motion from the frame before into `frame` >= 1, and what the motion around that step
+// The speed of a joint from the previous frame to `frame` >= 1, and the speed that the motion around that step
 // explains; rad/s, or m/s for prismatic joints.
 double speed_into(const Motion& motion, const Joint& joint, int frame);
 double explained_speed(const Motion& motion, const Joint& joint, int frame);

@@ -20,7 +20,7 @@ namespace contort {
 
 enum class LimitUse { change, ignore };
 
-// Changes or ignores the limits of the subjects that match. Of several rules for one subject the last one counts.
+// Changes or ignores the limits of the matching subjects. If several rules match a subject, the last one counts.
 struct LimitRule {
   std::string check;          // "joint_range"
   std::string subject = "*";  // "*" is any run of characters
@@ -51,20 +51,21 @@ struct CheckSettings {
   bool operator==(const CheckSettings&) const = default;
 };
 
-// Codes json.*, settings.*: unknown fields, checks and phases, days that are none.
+// Parses a settings file. Codes json.* and settings.*, for unknown fields, checks and phases, and for invalid dates.
 Result<CheckSettings> parse_settings(std::string_view text);
 std::string settings_schema();
 
-// Infinite where the rule ignores.
+// The tolerance that a rule adds to margins; infinite if the rule ignores the subject.
 double tolerance_of(const LimitRule& rule);
 
-// The sum that rules without a phase add to a subject's margins: 0 where none is meant, infinite where it is ignored.
+// The tolerance that rules without a phase add to a subject's margins: 0 if no rule matches, infinite if it is
+// ignored.
 double tolerance_of(const CheckSettings& settings, std::string_view check, std::string_view subject);
 
-// Whether a text is a day of the calendar, YYYY-MM-DD.
+// Returns true if the text is a calendar date, YYYY-MM-DD.
 bool is_day(std::string_view text);
 
-// Whether a subject is meant by a pattern.
+// Returns true if the text matches the pattern, in which "*" is any run of characters.
 bool matches(std::string_view pattern, std::string_view text);
 
 }  // namespace contort

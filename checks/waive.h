@@ -1,4 +1,4 @@
-// Which findings waivers hide, and which waivers hide nothing any more.
+// Finds the findings that waivers hide, and the waivers that hide nothing.
 #pragma once
 
 #include <string_view>
@@ -22,12 +22,13 @@ struct Waived {
   bool operator==(const Waived&) const = default;
 };
 
-// `phases`: of each finding's worst frame; empty for animations made elsewhere, which have none. `today`: "2026-11-21".
-// A margin that is not a number is hidden only by a waiver without `deepest`.
+// Applies waivers to findings. `phases` has the phase of each finding's worst frame; it is empty for animations made
+// elsewhere, which have no phases. `today` is a date such as "2026-11-21". A finding whose margin is NaN is hidden
+// only by a waiver without `deepest`.
 Waived waive(const std::vector<Waiver>& waivers, const std::vector<Finding>& findings, const std::vector<Phase>& phases,
              std::string_view today);
 
-// Adds what waivers hid in one motion to what they hid before; an empty total is one of zeros.
+// Adds the counts of one motion to the total. An empty total counts as zeros.
 void add_uses(const std::vector<WaiverUse>& uses, std::vector<WaiverUse>& total);
 
 }  // namespace contort

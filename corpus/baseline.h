@@ -1,4 +1,4 @@
-// The failures that are known on the branch that a change is compared with: these do not gate.
+// The failures that are known on the branch with which a change is compared. They do not gate.
 #pragma once
 
 #include <optional>
@@ -20,17 +20,16 @@ struct Baseline {
   bool operator==(const Baseline&) const = default;
 };
 
-// From a corpus' folder, or from what one of two commands printed:
-// `contort corpus list --json`: what is fixed there is no failure that the other branch has;
-// `contort replay FOUND --json`, by the other branch's contort: what fails there, too, as the case says.
-// Codes baseline.*, corpus.*, file.*, json.*.
+// Reads a baseline from a corpus folder, or from the output of one of two commands. With `contort corpus list
+// --json`, fixed buckets do not count as failures of the other branch. With `contort replay FOUND --json`, run by the
+// other branch's contort, the failures that still fail there count. Codes baseline.*, corpus.*, file.*, json.*.
 Result<Baseline> read_baseline(const std::string& path);
 
-// is_gating, of what the baseline does not have.
+// Returns true if the bucket gates and the baseline does not contain it.
 bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& known);
 
-// Families of which something is known, in the baseline or as buckets that do not gate. Failures that wait to be shrunk
-// (leads.h) gate where theirs is none of these: which bucket they belong to, nobody knows yet.
+// The families that are known: those in the baseline, and those of buckets that do not gate. A lead that waits to be
+// shrunk (leads.h) gates if its family is not among these, because its bucket is not known yet.
 std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// A bucket: what is one failure, told by its identity, and what people and replays know about it.
+// A bucket is one failure, recognised by its identity, with the knowledge of people and replays about it.
 #pragma once
 
 #include <string>
@@ -10,21 +10,22 @@
 
 namespace contort {
 
-// Rules by which family, features and id are made. A bucket says by which it was named; `contort corpus rekey` names it
-// anew.
+// The version of the rules that make family, features and id. A bucket stores the version that named it; `contort
+// corpus rekey` names it again.
 inline constexpr int kSignatureVersion = 2;
 
-// Coarse features of a minimal spec: what it needed in order to fail, without numbers.
+// The coarse features of a minimal spec, without numbers: what it needs in order to fail. Example:
 // "actions=pose,reach clips=1 sequences=1 interrupt swap".
 std::string features_of(const Spec& spec);
 
-// 12 hex digits over the family and the features.
+// The id of a bucket: 12 hex digits of a hash over the family and the features.
 std::string bucket_id(const Family& family, const std::string& features);
 
-// Order of cost between specs that show the same: fewer actions, then shorter text, then the text.
+// Returns true if `a` is cheaper than `b`, for specs that show the same failure: fewer actions, then shorter text,
+// then the text itself.
 bool cheaper(const Spec& a, const Spec& b);
 
-// docs/corpus.md has what leads from one to another. In files `fresh` is "new".
+// docs/corpus.md describes the transitions. In files `fresh` is "new".
 enum class BucketState { fresh, open, fixed, regressed, flaky, quarantined, invalid };
 std::string_view state_name(BucketState state);
 
@@ -51,30 +52,30 @@ struct Bucket {
   bool operator==(const Bucket&) const = default;
 };
 
-// The bucket that a minimal case belongs to, by today's rules.
+// The bucket of a minimal case, by the present rules.
 Bucket bucket_of(const Case& minimal);
 
-// "joint_range-0123456789ab": the bucket's folder in buckets/.
+// The name of the bucket's folder in buckets/, such as "joint_range-0123456789ab".
 std::string folder_name(const Bucket& bucket);
 
-// "min-0123456789abcdef.json"
+// The name of a case file, such as "min-0123456789abcdef.json".
 std::string case_file_name(std::string_view role, const Spec& spec);
 
-// bucket.json; codes json.*, bucket.*, file.*. Code bucket.bad_name where the id or the name of a case has not its
-// form: strangers write them, and they become paths.
+// Reads bucket.json. Codes json.*, bucket.*, file.*. Code bucket.bad_name if the id or the name of a case has an
+// invalid form; these names may come from strangers and become paths.
 Result<Bucket> read_bucket(const std::string& folder);
 
-// The same, and the bucket may be worked with: it lies in the folder of its name (code bucket.wrong_folder), and its
-// cases are no links that lead out of it (code file.outside).
+// Reads bucket.json and checks that the bucket may be changed: it lies in the folder of its name (code
+// bucket.wrong_folder), and none of its cases is a link that leads out of it (code file.outside).
 Result<Bucket> read_own_bucket(const std::string& folder);
 
-// Reads bucket.json; names that are not of their form are empty. For fsck, which mends them.
+// Reads bucket.json; names with an invalid form become empty. For fsck, which repairs them.
 Result<Bucket> read_bucket_without_bad_names(const std::string& folder);
 
-// Whether a bucket was refused for where its names or links lead, and not because it cannot be read.
+// Returns true if a bucket was refused because of its names or links, and not because it cannot be read.
 bool is_untrusted(const Issue& issue);
 
-// Also codes of read_bucket, where it could not be read again.
+// Writes bucket.json. Also has the codes of read_bucket, if the existing file cannot be read.
 Result<Done> write_bucket(const std::string& folder, const Bucket& bucket);
 std::string print_bucket(const Bucket& bucket);
 std::string bucket_schema();

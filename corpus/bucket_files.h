@@ -1,4 +1,4 @@
-// The case files of a bucket's folder. What is replaced stays until bucket.json names the new ones.
+// The case files of a bucket's folder. Replaced files stay until bucket.json names the new ones.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ class BucketFiles {
  public:
   explicit BucketFiles(std::string folder) : folder_(std::move(folder)) {}
 
-  // Keeps a minimal case and the one that it was shrunk from (nullptr: it was pruned) where they are cheaper than what
-  // is there. They stay together.
+  // Stores a minimal case and the case that it was shrunk from (nullptr: it was pruned), if they are cheaper than the
+  // present pair. The two stay together.
   Result<Done> put_pair(const Case& minimal, const Case* original, Bucket& bucket);
-  // Keeps the case where it is deeper than what is there.
+  // Stores the case if it is deeper than the present worst case.
   Result<Done> put_worst(const Case& shown, Bucket& bucket);
 
-  // Writes bucket.json, then removes what it names no more.
+  // Writes bucket.json, then removes the files that it no longer names.
   Result<Done> commit(const Bucket& bucket) const;
 
  private:
@@ -28,11 +28,11 @@ class BucketFiles {
   std::vector<std::string> replaced_;
 };
 
-// Adds a bucket from folder `from` to what is in folder `to`, if anything is: the cheapest and the deepest cases, the
-// state that was changed more often, all runs.
+// Merges a bucket from folder `from` into folder `to`: the cheapest and the deepest cases, the state that was changed
+// more often, and all runs.
 Result<Done> merge_bucket(const std::string& from, const Bucket& source, const std::string& to);
 
-// The files that min, worst and orig name, as far as they name something.
+// The files that min, worst and orig name; empty names are left out.
 std::vector<std::string> files_of(const Bucket& bucket);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// A case: a spec, what it is expected to show, and where it came from. One JSON file, contort.case/1.
+// A case is a spec with its expected failure and its origin. It is one JSON file, contort.case/1.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// A run of the spec is expected to show this.
+// The failure that a run of the spec is expected to show.
 struct Expectation {
   std::string check;    // "self_collision"; with the subject and the character's name, the family
   std::string subject;  // "arm_left/forearm ~ torso/trunk"
@@ -61,18 +61,20 @@ struct Case {
 
 Family family_of(const Case& stored);
 
-// The depth of the failure in its check's scale. Nothing finite is as deep as NaN.
+// The depth of the failure in its check's scale. NaN is deeper than any finite depth.
 double depth_of(const Expectation& expect);
 
-// The checks "crash", "timeout" and "memory" have no row in the manifest: no motion is there to be measured.
+// Returns true for the checks "crash", "timeout" and "memory". They have no row in the manifest, because there is no
+// motion to measure.
 bool is_abnormal_exit(const Expectation& expect);
 
-// Codes "case.*" and "json.*".
+// Parses a case file. Codes case.* and json.*.
 Result<Case> parse_case(std::string_view json);
 std::string print_case(const Case& stored);  // indented, sorted keys
 std::string case_schema();
 
-// One finding as an evaluation of this execution shows it. No phase where the generator does not say its intent.
+// Makes an expectation from a finding of an evaluation of this execution. It has no phase if the generator gives no
+// intent.
 Expectation expectation_of(const Execution& execution, const Evaluation& evaluation, const Finding& finding);
 
 }  // namespace contort

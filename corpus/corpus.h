@@ -34,38 +34,39 @@ struct Found {
 
 class Corpus {
  public:
-  // Makes the folders where they are missing and tries to write; code file.unwritable, and folder.other_files where the
-  // folder holds files and no corpus.
+  // Creates missing folders and tests writing. Code file.unwritable; code folder.other_files if the folder has files
+  // but is not a corpus.
   static Result<Corpus> create(const std::string& folder);
-  // Code corpus.not_found where the folder holds no corpus. Both: code file.outside where one of the corpus' own
-  // folders is a link that leads out of it.
+  // Opens an existing corpus. Code corpus.not_found if the folder is not a corpus. Both functions: code file.outside
+  // if one of the corpus' own folders is a link that leads out of it.
   static Result<Corpus> open(const std::string& folder);
 
-  // Stores a failure under its bucket. `is_new`: the bucket was not there before. What was fixed has regressed.
+  // Stores a failure in its bucket. `is_new`: the bucket did not exist before. A fixed bucket regresses.
   struct Added {
     std::string bucket;  // folder of the bucket
     bool is_new = false;
   };
   Result<Added> add(const Found& found) const;
 
-  // Adds a bucket of another corpus, with its state and cases. Nothing changes where one of its cases cannot be read.
+  // Adds a bucket of another corpus, with its state and cases. Nothing changes if one of its cases cannot be read.
   Result<Done> take(const Corpus& from, const Bucket& bucket) const;
 
-  // Reads a bucket anew, lets it change and writes it, with nobody else writing in between; gives what is there now.
+  // Reads a bucket again, applies the change and writes it while no other process writes. Returns the bucket that is
+  // now stored.
   using Change = std::function<Result<Bucket>(const Bucket&)>;
   Result<Bucket> change(const Bucket& bucket, const Change& change) const;
 
-  // Takes the bucket and its cases away.
+  // Removes the bucket and its cases.
   Result<Done> remove(const Bucket& bucket) const;
 
-  // All buckets, by folder name. Folders that cannot be read while nobody writes, and buckets whose names or links lead
-  // elsewhere (is_untrusted), are reported in `damaged`, never skipped silently. Not for whoever holds the corpus'
-  // lock, which takes the next.
+  // Returns all buckets, sorted by folder name. Folders that cannot be read while nobody writes, and buckets whose
+  // names or links lead elsewhere (is_untrusted), are reported in `damaged`, never skipped silently. A caller that
+  // holds the corpus' lock must use buckets_under_lock().
   std::vector<Bucket> buckets(std::vector<Issue>& damaged) const;
   std::vector<Bucket> buckets_under_lock(std::vector<Issue>& damaged) const;
 
-  // Cases of a bucket. Where another process has replaced one since the bucket was read, it is read anew, into
-  // `bucket`.
+  // A stored case of a bucket. If another process has replaced a case since the bucket was read, the bucket is read
+  // again, into `bucket`.
   struct Stored {
     std::string path;
     Result<Case> stored;
@@ -78,14 +79,14 @@ class Corpus {
 
  private:
   explicit Corpus(std::string folder) : folder_(std::move(folder)) {}
-  // folder_of, once it is certain that writing there stays in the corpus.
+  // Returns folder_of() after checking that writing there stays in the corpus.
   Result<std::string> place_of(const Bucket& bucket) const;
   std::string folder_;
 };
 
 Result<Case> read_case(const std::string& path);
 
-// FOLDER/FILE of a folder that others may have filled: never a file outside. Code file.outside.
+// Reads FOLDER/FILE of a folder with untrusted contents, but never a file outside of it. Code file.outside.
 Result<Case> read_case_of(const std::string& folder, const std::string& file);
 
 }  // namespace contort

@@ -6,11 +6,12 @@
 
 namespace contort {
 
-// A finding of its own (is_abnormal_exit): check and subject say what ended, within what limit, depth 1, without frames
-// or hashes. Not for what finished.
+// Makes a case of an abnormal exit (is_abnormal_exit): check and subject name the kind of exit and its limit, the
+// depth is 1, and there are no frames or hashes. The work must not have finished normally.
 Case ending_case(const Spec& spec, const Ending& ending, const Isolation& isolation = {});
 
-// The limits in which a stored ending came about, where it says them: in others it may come to another end.
+// The limits under which a stored abnormal exit occurred, if the case has them; under other limits it may end
+// differently. Else `otherwise`.
 Isolation isolation_of(const Expectation& stored, Isolation otherwise);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// From a spec to findings: a generator makes the motion, and the checks judge it.
+// Turns a spec into findings: a generator makes the motion, and the checks judge it.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// Owns the memory of one thread's evaluations; nothing of one evaluation reaches the next.
+// Evaluates specs, and owns the memory that one thread needs for it. Nothing of one evaluation affects the next.
 class Evaluator {
  public:
   // The generator must outlive it, and is used by this thread alone.
@@ -18,7 +18,8 @@ class Evaluator {
 
   Generator& generator() const { return generator_; }
 
-  // Generates and judges. With `only_check`, that check alone. The issue is the generator's, where it refuses the spec.
+  // Generates and judges. With `only_check`, it runs that check only. If the generator refuses the spec, the issue is
+  // the generator's.
   Result<Evaluation> run(const Spec& spec, std::string_view only_check = {});
 
   // The findings of all checks in the motion of the last run; waived findings are among them.

@@ -1,4 +1,5 @@
-// Families in files (json_fields.h): as print_family writes them, also as keys. Included from .cpp files only.
+// Reads and writes families in files (json_fields.h) as print_family writes them, also as keys. Included from .cpp
+// files only.
 #pragma once
 
 #include "checks/family.h"
@@ -6,7 +7,7 @@
 
 namespace contort::json_fields {
 
-// Code bad_family. An empty text is no family, where the rule allows that.
+// Code bad_family. An empty text means no family, if the rule allows it.
 template <>
 struct Codec<Family> {
   static void read(const Json& in, const Rule& r, Family& out, ReadContext& c) {

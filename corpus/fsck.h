@@ -1,6 +1,6 @@
-// Whether a corpus' files are what they should be, and how they are mended. Nothing that a person may need is deleted:
-// it moves to DIR/invalid/, under the path that it had. Nothing outside of the corpus is read, moved or written: a
-// field that names a file elsewhere is replaced, and a link that leads out moves as a link.
+// Checks the files of a corpus and repairs them. Nothing that a person may need is deleted: it moves to DIR/invalid/,
+// under the same path. Nothing outside of the corpus is read, moved or written: a field that names a file elsewhere
+// is replaced, and a link that leads out is moved as a link.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ struct CorpusFault {
   bool operator==(const CorpusFault&) const = default;
 };
 
-// By path. With `repair` nobody else writes meanwhile; code file.unwritable where mending fails.
+// Returns the faults, sorted by path. With `repair` it holds the corpus' lock. Code file.unwritable if a repair
+// fails.
 Result<std::vector<CorpusFault>> check_files(const Corpus& corpus, bool repair);
 
 }  // namespace contort

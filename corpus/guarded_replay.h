@@ -1,4 +1,5 @@
-// Replays in another process: a generator that crashes, hangs or eats memory on one stored case ends that alone.
+// Replays cases in another process, so that a generator that crashes, hangs or uses too much memory on a stored case
+// ends only that process.
 #pragma once
 
 #include <string>
@@ -8,13 +9,14 @@
 
 namespace contort {
 
-// One worker, which keeps what `replay` has built from case to case; where a case ends it, another takes its place. The
-// caller must have no other threads. A case that was stored as such an ending is up to `replay` (corpus/replay.h).
+// A worker that keeps the characters that `replay` has built from case to case. If a case ends the worker, another
+// one takes its place. The caller must have no other threads. A case that was stored as an abnormal exit is left to
+// `replay` (corpus/replay.h).
 class GuardedReplay {
  public:
   GuardedReplay(RunCase replay, const WorkerLimits& limits);
 
-  // A case that ends the worker is `different` from what any check has found; `now` says how it ended.
+  // Replays a case. If it ends the worker, the verdict is `different`, and `now` says how it ended.
   Replay operator()(const Case& stored);
 
  private:

@@ -6,8 +6,9 @@
 
 namespace contort {
 
-// Removes such files of the buckets, which nobody writes without the corpus's lock, and of this run, whose lock the
-// caller holds. Leads of a run of several shards stay, as the others may be writing theirs; fsck removes what is left.
+// Removes partly written files of the buckets, which nobody writes without the corpus' lock, and of this run, whose
+// lock the caller holds. Leads of a run of several shards stay, because other shards may be writing theirs; fsck
+// removes what is left.
 Result<Done> drop_half_written(const Corpus& corpus, const RunRecord& run);
 
 }  // namespace contort

@@ -28,33 +28,35 @@ struct Lead {
   bool operator==(const Lead&) const = default;
 };
 
-// Why a lead of a run that has ended is not in a bucket (shrink_stopped of its original): its time was up, and the next
-// run on the corpus shrinks it; or it did not show the same again.
+// The reason why a lead of an ended run is not in a bucket (shrink_stopped of its original): its time was up, and the
+// next run on the corpus shrinks it; or it did not fail in the same way again.
 inline constexpr char kWaits[] = "time", kUnsteady[] = "flaky";
 bool waits(const Lead& lead);
 bool is_unsteady(const Lead& lead);
 
-// Families that its minimal spec shows: of the same case, these need no bucket of their own. None before it was shrunk.
+// The families that its minimal spec shows. In the same case these need no bucket of their own. Empty before the lead
+// was shrunk.
 std::set<Family> families_told_by(const Lead& lead);
 
-// Writes what it has; the path of the original.
+// Writes the cases of a lead. Returns the path of the original.
 Result<std::string> keep_lead(const Corpus& corpus, const Lead& lead);
 
-// `path` is the original's.
+// Reads a lead. `path` is that of the original.
 Result<Lead> read_lead(const std::string& path);
 
 // The path of a lead's original.
 std::string lead_path(const Corpus& corpus, const Lead& lead);
 
-// By run, then family's hash, then index. Files that cannot be read are reported in `damaged`.
+// Returns all leads, sorted by run, then by hash of the family, then by index. Files that cannot be read are reported
+// in `damaged`.
 std::vector<Lead> leads_of(const Corpus& corpus, std::vector<Issue>& damaged);
 
-// Puts a shrunk lead into its bucket and drops it.
+// Adds a shrunk lead to its bucket and removes the lead.
 Result<Corpus::Added> file_lead(const Corpus& corpus, const Lead& lead);
 
 void drop_lead(const Corpus& corpus, const Lead& lead);
 
-// Removes the folder of a run that has no leads left and writes no more.
+// Removes the folder of a finished run that has no leads left.
 void tidy_leads(const Corpus& corpus, const std::string& run);
 
 }  // namespace contort

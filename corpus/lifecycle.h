@@ -1,4 +1,4 @@
-// The states of a bucket: the table of docs/corpus.md as pure functions. No clock: days are handed in.
+// The states of a bucket: the table of docs/corpus.md as pure functions. They use no clock; dates are arguments.
 #pragma once
 
 #include <string>
@@ -21,35 +21,36 @@ struct Observation {
   std::string build;  // in which this was seen: "contort 0.1.0 abc123"
 };
 
-// Builds in which a bucket must be gone, one after the other, to count as fixed.
+// The number of builds in which a bucket must be gone to count as fixed.
 inline constexpr int kBuildsToFix = 2;
-// Steady replays after which a flaky bucket is again what it was.
+// The number of steady replays in a row after which a flaky bucket returns to its earlier state.
 inline constexpr int kSteadyReplays = 20;
-// Passes after which a quarantine is reported as needless.
+// The number of passes in a row after which a quarantine is reported as unnecessary.
 inline constexpr int kStalePasses = 5;
 inline constexpr int kLongestQuarantineDays = 30;
 
 Bucket next_state(const Bucket& bucket, const Observation& seen, const std::string& today);
 
-// Whether it fails a build: new, regressed, or quarantined until before today. The one place that says so.
+// Returns true if the bucket fails a build: it is new, regressed, or its quarantine ended before today. Only this
+// function decides that.
 bool is_gating(const Bucket& bucket, const std::string& today);
 
 bool is_expired(const Bucket& bucket, const std::string& today);
 
-// Quarantined, and passes all the time.
+// Returns true if the bucket is quarantined and always passes.
 bool is_stale(const Bucket& bucket);
 
-// Changes that people make. Codes bucket.is_fixed, bucket.no_owner, bucket.no_ticket, bucket.no_reason, bucket.no_day,
+// Changes by people. Codes bucket.is_fixed, bucket.no_owner, bucket.no_ticket, bucket.no_reason, bucket.no_day,
 // bucket.too_long.
 Result<Bucket> acknowledge(const Bucket& bucket, const std::string& owner, const std::string& ticket);
 Result<Bucket> quarantine(const Bucket& bucket, const std::string& owner, const std::string& reason,
                           const std::string& expires, const std::string& today);
 
-// "" takes the note away.
+// Sets the note of a bucket; "" removes it.
 Bucket annotate(const Bucket& bucket, const std::string& note);
 
-// If there are two copies of a bucket, the state of the one that was changed more often, with what belongs to it, goes
-// to `into`. Commutative, associative, idempotent.
+// Merges the state of another copy of a bucket into `into`: the state that was changed more often wins, with its
+// owner and so on. The merge is commutative, associative and idempotent.
 void merge_state(Bucket& into, const Bucket& other);
 
 }  // namespace contort

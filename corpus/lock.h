@@ -1,4 +1,4 @@
-// One writer of a corpus at a time, in this process and in others.
+// Makes sure that a corpus has one writer at a time, in this process and in others.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace contort {
 
-// Holds DIR/.lock until it goes. The empty file stays, so that folders do not differ; the kernel lets go of it when a
-// process ends, however it ends.
+// Holds DIR/.lock until it is destroyed. The empty file stays, so that folders do not differ. The kernel releases the
+// lock when a process ends, however it ends.
 class CorpusLock {
  public:
-  // Waits for others; code file.unwritable.
+  // Takes the lock and waits for other holders. Code file.unwritable.
   static Result<CorpusLock> take(const std::string& folder);
-  // For reading, beside other readers; nobody writes meanwhile. Not in a process that has taken it. Code file.unreadable:
-  // where no lock is, nobody has ever written.
+  // Takes the lock for reading, together with other readers and without writers. A process that holds the lock must
+  // not call it. Code file.unreadable if there is no lock file, which means that nobody has ever written.
   static Result<CorpusLock> share(const std::string& folder);
   CorpusLock(CorpusLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   CorpusLock& operator=(CorpusLock&&) = delete;

@@ -1,7 +1,7 @@
-// Corpora become one. Merging is a minimum in every bucket and a union of runs, so it is commutative, associative and
-// idempotent: any order, any grouping and any repetition leave the same bytes.
+// Merges corpora. Merging is a minimum in every bucket and a union of runs, so it is commutative, associative and
+// idempotent: any order, grouping or repetition gives the same bytes.
 //
-// The shards of a run leave leads. Once all of them are there, the first failures of each family go into buckets, as
+// The shards of a run leave leads. Once all shards are there, the first failures of each family go into buckets, as
 // they would have in one run, and the counts are added up.
 #pragma once
 

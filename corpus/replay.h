@@ -1,4 +1,4 @@
-// Does a stored case still do what it says?
+// Replays a stored case and compares the result with what the case expects.
 #pragma once
 
 #include <functional>
@@ -30,14 +30,15 @@ struct Replay {
 
 using RunCase = std::function<Replay(const Case&)>;
 
-// In a scope below the whole the motion is another by nature: `same_family` is the best that it can be. A case that
-// ended its process (is_abnormal_exit) is run in a child process first, within the limits that it says, else those of
-// `isolation`: the caller has one thread then.
+// Replays a case. If the scope is not the whole, the motion differs by nature, so `same_family` is the best verdict.
+// A case of an abnormal exit (is_abnormal_exit) is first run in a child process, within its stored limits or else
+// those of `isolation`; the caller must then have one thread.
 Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope = {},
               const Isolation& isolation = {});
 
-// Does `work`, which may end its process, in a child, and compares that with the stored ending: `same` where it ends as
-// stored, `different` where it ends otherwise. Where it finishes, what it returns here once more.
+// Runs `work`, which may end its process, in a child process, and compares the ending with the stored one: `same` if
+// it ends as stored, `different` if it ends otherwise. If the work finishes, it is run once more here and its result
+// returned.
 Replay replay_ending(const Case& stored, const std::function<Replay()>& work, const Isolation& isolation);
 
 }  // namespace contort

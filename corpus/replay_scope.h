@@ -1,5 +1,5 @@
-// The share of a stored spec that is played again: the whole, one of its sequences, one of its clips, or one part's
-// animation alone.
+// The scope of a stored spec that is replayed: the whole, one of its sequences, one of its clips, or the animation of
+// one part.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ struct ReplayScope {
   bool operator==(const ReplayScope&) const = default;
 };
 
-// "sequence:2", "clip:2/1", "part:arm_right". Code level.bad_name.
+// Parses a scope such as "sequence:2", "clip:2/1" or "part:arm_right". Code level.bad_name.
 Result<ReplayScope> parse_scope(const std::string& text);
 
-// The spec of that scope alone. A sequence or a clip begins from the state that those before it have left; a part is
-// moved in the frames in which the whole spec moves it, and everything else stays.
+// The spec of that scope. A sequence or a clip begins from the state that the earlier ones have left. A part moves in
+// the frames in which the whole spec moves it, and everything else stands still.
 Spec scoped(Spec spec, const ReplayScope& scope);
 
 }  // namespace contort

@@ -1,4 +1,5 @@
-// The record of a run, with the failures that it met: DIR/runs/<run>.json. Counts add up over the shards of a run.
+// The record of a run and of the failures that it found: DIR/runs/<run>.json. The counts of the shards of a run are
+// added up.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace contort {
 
-// The cases of one family: how many, and the first ones. The first of all families together are the discovery curve.
+// The number of cases of one family, and the first of them. The first cases of all families together are the
+// discovery curve.
 struct FamilyCount {
   std::int64_t cases = 0;
   std::int64_t first_index = 0;  // of the first of them
@@ -46,7 +48,8 @@ struct AgainstCounts {
   bool operator==(const AgainstCounts&) const = default;
 };
 
-// Nothing in it depends on time or machine. `shard` of `shards` ran; a whole run is shard 0 of 1.
+// The record of one run, or of shard `shard` of `shards`; a whole run is shard 0 of 1. Nothing in it depends on time
+// or machine.
 struct RunRecord {
   std::string name;  // "seed_7_0123abcd"
   std::string tool;
@@ -64,21 +67,21 @@ struct RunRecord {
   bool operator==(const RunRecord&) const = default;
 };
 
-// "seed_7_0123abcd", of a shard "seed_7_0123abcd.shard_3_of_16".
+// The name of a record, such as "seed_7_0123abcd", or for a shard "seed_7_0123abcd.shard_3_of_16".
 std::string record_name(const RunRecord& run);
 
-// Code json.* where it is none of this version's.
+// Reads a record. Code json.* if it is not of this version.
 Result<RunRecord> read_run(const std::string& path);
 
 void drop_run(const Corpus& corpus, const RunRecord& run);
 
-// Keeps the record unless one of the same name with more cases is there.
+// Stores the record, unless one of the same name with more cases exists.
 Result<Done> keep_run(const Corpus& corpus, const RunRecord& run);
 
 // The sum of all shards of one run; there must be at least one.
 RunRecord added_up(const std::vector<RunRecord>& shards);
 
-// By file name. Files that cannot be read are reported in `damaged`.
+// Returns all records, sorted by file name. Files that cannot be read are reported in `damaged`.
 std::vector<RunRecord> runs_of(const Corpus& corpus, std::vector<Issue>& damaged);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// The progress of a search, and what it leaves unseen: from the records of its runs.
+// Computes the progress of a search, and estimates what it has not found, from the records of its runs.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +29,15 @@ struct SearchProgress {
   bool operator==(const SearchProgress&) const = default;
 };
 
-// Runs count one after another, in the order given; shards of one run count as one.
+// Returns the progress of the runs in the given order, as one search; the shards of one run count as one run.
 SearchProgress progress_of(std::span<const RunRecord> runs);
 
-// The share of further cases that would show a family not met so far, [0, 1]: lone_cases / cases, as the chance that a
-// case shows what all others do not is about the same for the next one (Good, "The population frequencies of species",
-// Biometrika 40, 1953; for fuzzers Böhme, "STADS", TOSEM 27, 2018). Where there is no such case, and above all where
-// none failed, 3 / cases: more would have shown something with 95 % confidence (Hanley and Lippman-Hand, JAMA 249,
-// 1983). Both are for cases that are drawn independently; guided ones are not, which makes it an estimate.
+// An estimate of the fraction of further cases that would show a new family, [0, 1]. It is lone_cases / cases,
+// because the chance that a case shows something that no other case does is about the same for the next one (Good,
+// "The population frequencies of species", Biometrika 40, 1953; for fuzzers Böhme, "STADS", TOSEM 27, 2018). If there
+// is no such case, and in particular if no case failed, it is 3 / cases: a greater fraction would have been seen with
+// 95 % confidence (Hanley and Lippman-Hand, JAMA 249, 1983). Both formulas assume independent cases; guided cases are
+// not independent.
 double unseen_share(const SearchProgress& progress);
 
 }  // namespace contort

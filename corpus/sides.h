@@ -1,4 +1,4 @@
-// Failures of the left side and of the right: two buckets, and often one fault.
+// Relates failures of the left and the right side: they are two buckets, and often one fault.
 #pragma once
 
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace contort {
 
-// The family with "left" and "right" exchanged in the names of its subject, pairs in order again:
-// "self_collision|human|arm_left/hand ~ head" has "self_collision|human|arm_right/hand ~ head".
+// The family with "left" and "right" exchanged in the names of its subject, and with pairs in order again:
+// "self_collision|human|arm_left/hand ~ head" becomes "self_collision|human|arm_right/hand ~ head".
 Family other_side(const Family& family);
 
-// Buckets that are alike but for the side stand together, as indices, each group and all groups in the given order.
+// Groups buckets that differ only in the side, as indices. The groups, and the buckets in each group, keep the given
+// order.
 std::vector<std::vector<std::size_t>> without_sides(const std::vector<Bucket>& buckets);
 
 }  // namespace contort

@@ -1,4 +1,5 @@
-// Whether the stored cases of a bucket still fail: what a replay of a corpus does, bucket by bucket.
+// Replays the stored cases of a bucket and tells whether they still fail. `contort replay CORPUS` does this bucket by
+// bucket.
 #pragma once
 
 #include <functional>
@@ -24,18 +25,19 @@ struct BucketReplay {
   Verdict verdict = Verdict::refused;  // of the cases that decide `shown`, of which one it is worth to be told
 };
 
-// Runs all cases. One that does not show what it showed runs a second time, to tell a change from chance; those of a
-// flaky bucket run three times.
+// Runs all cases of a bucket. A case with a different result runs a second time, to tell a change from chance; cases
+// of a flaky bucket run three times.
 BucketReplay replay_bucket(const Corpus& corpus, const Bucket& bucket, const RunCase& run);
 
-// Regressed, new, quarantined, open, flaky, invalid, fixed; within a state by name.
+// Sorts buckets for replay: regressed, new, quarantined, open, flaky, invalid, fixed; within a state by name.
 std::vector<Bucket> replay_order(std::vector<Bucket> buckets);
 
-// For a slice of time that may not reach all: the states take turns, in the same order, so that none waits for all of
-// another; within a state the order is another one for each day.
+// Sorts buckets for a replay with limited time. The states take turns, in the same order, so that no state waits for
+// all buckets of another. The order within a state differs from day to day.
 std::vector<Bucket> replay_order_of_day(std::vector<Bucket> buckets, const std::string& day);
 
-// Quarantined ones always run: a quarantine must not hide that a failure has become another.
+// Returns true if the bucket may be skipped when the time is up. Quarantined buckets always run, because a quarantine
+// must not hide that a failure has become another one.
 bool may_skip(const Bucket& bucket);
 
 }  // namespace contort
