@@ -1,4 +1,4 @@
-// The solid of each bone: what collides, and its mass.
+// Makes the solid of each bone, for collisions and mass.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@ struct BoneBody {
   BodyInertia inertia;
 };
 
-// Capsules, and boxes for feet that stand on the ground; without masses. By bone.
+// Returns for each bone its capsules, or boxes for feet that stand on the ground; without masses.
 std::vector<BoneBody> fit_bodies(const RiggedFigure& figure);
 
-// Whether it is weighed by de Leva's shares of a human's mass, and not by volume.
+// Returns true if masses come from de Leva's table of human segments, and not from volume.
 bool weighs_as_human(const RiggedFigure& figure);
 
-// Fills the masses.
+// Fills in the masses.
 void weigh(const RiggedFigure& figure, std::vector<BoneBody>& bodies);
 
 // The lowest point of the shapes, in the bone's frame.

@@ -1,13 +1,13 @@
-// One tree of bones, parents first, from the trees that a file has.
+// Joins the trees of a file into one tree of bones, parents first.
 #pragma once
 
 #include "import/figure.h"
 
 namespace contort {
 
-// Feet that hang on no leg are hung on the nearest one of their side, and other trees on the root, which is that of the
-// most points. A root that owns no points and carries a single bone is a handle, and taken out. Each guess is noted.
-// The figure has a bone.
+// Attaches feet without a leg to the nearest leg of their side, and other trees to the root, which is that of the
+// most points. A root that owns no points and carries a single bone is a handle and is removed. Each guess is noted.
+// The figure must have a bone.
 void make_one_tree(RiggedFigure& figure);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Contacts that no motion of a character could do without: proposals for its file's `allowed_pairs`.
+// Finds contacts that no motion of a character can avoid, as proposals for its file's `allowed_pairs`.
 #pragma once
 
 #include <map>
@@ -17,13 +17,13 @@ struct OwnContacts {
   int left_out = 0;  // more than a character may list
 };
 
-// Pairs of colliders that overlap at rest, and those that do in a tenth of the poses of the model's own clips. `joints`
-// gives the character's joint for a node's label, the root's too.
+// Returns the pairs of colliders that overlap at rest, or in a tenth of the poses of the model's own clips. `joints`
+// gives the character's joint for a node's label, including the root's.
 OwnContacts find_contacts(const Character& character, const Asset& asset,
                           const std::map<std::string, std::string>& joints);
 
-// Pairs of colliders that are judged and overlap at rest, and those that do in 95 % of poses that are spread over the
-// ranges of all joints, as MoveIt's setup assistant samples them (moveit.picknik.ai). Equal poses for equal characters.
+// Returns the judged pairs of colliders that overlap at rest, or in 95 % of poses that are spread over the ranges of
+// all joints, as MoveIt's setup assistant samples them (moveit.picknik.ai). Equal characters give equal poses.
 OwnContacts propose_contacts(const Character& character, int poses);
 
 }  // namespace contort

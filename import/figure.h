@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// The meaning of words in a joint's name; what it is in the end, its place among the others decides.
+// The meaning of the words in a joint's name. The final role also depends on its place among the others.
 enum class BoneFamily : std::uint8_t {
   unknown,
   hips,
@@ -90,7 +90,7 @@ struct ImportOptions {
 inline const Bone& bone_at(const RiggedFigure& figure, int index) {
   return figure.bones[static_cast<std::size_t>(index)];
 }
-// Children of a bone, in order.
+// Returns the children of a bone, in order.
 std::vector<int> children_of(const RiggedFigure& figure, int bone);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Capsules around the vertices of a bone.
+// Fits capsules around the vertices of a bone.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct FittedBox {
 // along `bone`.
 FittedBox fit_box(const std::vector<Vec3>& points, const Vec3& bone);
 
-// One to four capsules that fill what the points enclose: two after another where it is long, side by side where it is
-// flat. None thinner than `least_radius_m`.
+// Returns one to four capsules that fill the volume of the points: one after another if it is long, side by side if
+// it is flat. None is thinner than `least_radius_m`.
 std::vector<Capsule> fit_capsules(const std::vector<Vec3>& points, const Vec3& bone, double least_radius_m);
 
 // The unit eigenvectors of a symmetric matrix, in the order of falling eigenvalues (Jacobi's method).
@@ -33,7 +33,7 @@ Eigen3 eigen_of(const Mat3& symmetric);
 double volume_m3(const Capsule& capsule);
 double volume_m3(const Box& box);
 
-// A solid of that mass.
+// Returns the inertia of a solid of that mass.
 BodyInertia inertia_of(const Capsule& capsule, double mass_kg);
 BodyInertia inertia_of(const Box& box, double mass_kg);
 

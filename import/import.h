@@ -1,4 +1,4 @@
-// A rigged model becomes a character: the stages in order, and the files that come of it (docs/import.md).
+// Makes a character from a rigged model: the stages in order, and the files that they write (docs/import.md).
 #pragma once
 
 #include "import/contacts.h"
@@ -19,13 +19,13 @@ struct Imported {
   std::vector<ImportFile> files;  // the report is the last one
 };
 
-// Codes import.*, and those of build_character, should a model be too odd for it.
+// Codes import.*, and those of build_character if the model gives no valid character.
 Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& options);
 
-// A file's name to a legal one: "Knight" of "models/Knight.glb".
+// Makes a legal name from a file's path, such as "Knight" from "models/Knight.glb".
 std::string name_of_file(const std::string& path);
 
-// IMPORT.md's text.
+// Returns the text of the report, NAME.import.md.
 std::string write_report(const Imported& imported, const std::string& name);
 
 std::string_view source_name(LimitSource source);

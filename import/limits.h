@@ -1,5 +1,5 @@
-// The way in which each bone turns, and how far: the kind of its joint, axes, ranges. From the table of people, from
-// what the model's own clips do, or from nothing at all.
+// Determines how each bone turns and how far: the kind of its joint, axes, ranges. The values come from a table for
+// humans, from the model's own clips, or from defaults.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace contort {
 
-// Rotations of every bone against its parent bone, from rest, in the figure's axes, in poses of the model's own clips.
+// The rotations of every bone relative to its parent bone, from rest, in the figure's axes, in poses of the model's
+// own clips.
 struct ClipPoses {
   int pose_count = 0;
   std::vector<std::vector<Quat>> turns;  // by bone, by pose
@@ -16,8 +17,7 @@ struct ClipPoses {
 
 ClipPoses sample_clips(const Asset& asset, const RiggedFigure& figure);
 
-// The same figure, or its clips, seen in a mirror in the plane x = 0: right limbs become left ones, as parts are
-// authored.
+// Returns the figure, or its clips, mirrored in the plane x = 0: right limbs become left ones, as parts are authored.
 RiggedFigure mirrored(RiggedFigure figure);
 ClipPoses mirrored(ClipPoses poses);
 
@@ -40,14 +40,14 @@ struct BoneJoint {
   bool leaves_table = false;  // some pose of the clips is out of the table's range
 };
 
-// The joint of a bone of the left side or the middle; others are seen in the mirror.
+// The joint of a bone of the left side or the middle; mirror the figure for others.
 BoneJoint joint_of(const RiggedFigure& figure, int bone, const std::vector<Quat>& poses);
 
-// The same poses as the joints can take them: what a hinge or an ankle cannot follow of its bone's turn, the bones that
-// hang on it have to make up for.
+// Returns the poses as far as the joints can follow them: the rotation of a bone that a hinge or an ankle cannot
+// follow is passed on to the bones attached to it.
 ClipPoses followed(const RiggedFigure& figure, const ClipPoses& poses);
 
-// Whether the bone is a foot that stands on the ground at rest.
+// Returns true if the bone is a foot that stands on the ground at rest.
 bool is_sole_bone(const RiggedFigure& figure, int bone);
 
 }  // namespace contort

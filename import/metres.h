@@ -1,4 +1,4 @@
-// From a model's units and heading to metres, facing +Z.
+// Converts a model from its units and heading to metres, facing +Z.
 #pragma once
 
 #include "import/figure.h"
@@ -7,9 +7,9 @@
 
 namespace contort {
 
-// Scales the figure as the options say, or by a guess, turns it by quarters until its left is on +X, and puts places
-// relative to its root and points relative to their bones. `box` has all vertices, in the file's units. Codes
-// import.flat, import.too_large.
+// Scales the figure by the options or by a guess, and turns it in steps of 90 degrees until its left is on +X. Makes
+// positions relative to its root, and points relative to their bones. `box` has all vertices, in the file's units.
+// Codes import.flat, import.too_large.
 Result<Done> to_metres(RiggedFigure& figure, const ModelBox& box, const ImportOptions& options);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Reads the meaning of joints' names.
+// Finds the meaning of joints' names.
 #pragma once
 
 #include <set>
@@ -10,7 +10,8 @@
 
 namespace contort {
 
-// "mixamorig:LeftForeArm" to {"mixamorig", "left", "fore", "arm"}; ASCII only, everything else separates.
+// Splits a name into words: "mixamorig:LeftForeArm" gives {"mixamorig", "left", "fore", "arm"}. Only ASCII letters
+// form words; everything else separates.
 std::vector<std::string> words_of(std::string_view name);
 
 struct NameSense {
@@ -21,13 +22,13 @@ struct NameSense {
 
 NameSense sense_of(std::string_view name);
 
-// The same of a bone in VRM's list, "leftUpperArm"; unknown for what VRM does not have.
+// Returns the meaning of a bone in VRM's list, such as "leftUpperArm"; unknown for other names.
 NameSense sense_of_vrm(std::string_view bone);
 
-// A legal name, [a-z0-9_]{1,32}, from any bytes; `fallback` where nothing is left.
+// Makes a legal name, [a-z0-9_]{1,32}, from any bytes; `fallback` if nothing remains.
 std::string legal_name(std::string_view any, std::string_view fallback);
 
-// The name, or "<name>_2", "<name>_3" where it is taken already; remembers it.
+// Returns the name, or "<name>_2", "<name>_3" if it is taken already, and adds it to `taken`.
 std::string claim_name(const std::string& name, std::set<std::string>& taken);
 
 }  // namespace contort

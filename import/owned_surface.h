@@ -1,4 +1,4 @@
-// The surface of one skeleton, shared out among the nodes that move it.
+// Divides the surface of one skeleton among the nodes that move it.
 #pragma once
 
 #include <limits>
@@ -19,14 +19,14 @@ struct ModelBox {
   Vec3 size() const { return high - low; }
 };
 
-// In the file's units, where the rest pose puts it.
+// The surface in the file's units, in the rest pose.
 struct OwnedSurface {
   std::vector<std::vector<Vec3>> points;  // by node, those that hang on it most
   ModelBox box;                           // of all vertices
   int vertex_count = 0;
 };
 
-// `skeletons`: by skin the skeleton that it belongs to. Codes import.too_large, import.no_vertices.
+// `skeletons` has the skeleton of each skin. Codes import.too_large, import.no_vertices.
 Result<OwnedSurface> surface_of(const SkinnedAsset& asset, const std::vector<int>& skeletons, int skeleton,
                                 const std::vector<Mat4>& world);
 

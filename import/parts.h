@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// One part to be: bones of one limb, the first of which docks at the carrier.
+// The plan of one part: bones of one limb, the first of which docks at the carrier.
 struct PartPlan {
   std::string slot;  // "arm_left"
   std::string kind;  // "arm"
@@ -20,7 +20,7 @@ struct PartPlan {
   std::vector<int> bones;
 };
 
-// Code import.too_many_parts.
+// Cuts the figure into parts. Code import.too_many_parts.
 Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
 
 // The decisions about a bone, for the report.

@@ -1,4 +1,4 @@
-// From the file's nodes and skins to a figure's bones.
+// Reads a figure's bones from the nodes and skins of a file.
 #pragma once
 
 #include "import/figure.h"
@@ -6,7 +6,7 @@
 
 namespace contort {
 
-// Families, sides and names are filled too; roles are not. Codes import.no_skin, .no_vertices, .unknown_skin,
+// Also fills in families, sides and names, but not roles. Codes import.no_skin, .no_vertices, .unknown_skin,
 // .too_many_joints, .flat, .too_large.
 Result<RiggedFigure> read_figure(const SkinnedAsset& asset, const ImportOptions& options);
 

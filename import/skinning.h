@@ -1,4 +1,4 @@
-// Vertices where the rest pose of the file puts them.
+// Places vertices in the rest pose of the file.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace contort {
 
-// world_from_node at rest, in the file's units.
+// Returns world_from_node of all nodes at rest, in the file's units.
 std::vector<Mat4> world_of(const Asset& asset);
 
-// The vertices of one mesh where the rest pose puts them, and the node that each hangs on most; -1 for none.
+// The vertices of one mesh in the rest pose, and for each the node of greatest weight; -1 for none.
 struct PlacedMesh {
   std::vector<Vec3> positions;
   std::vector<int> owners;
@@ -18,8 +18,8 @@ struct PlacedMesh {
 
 PlacedMesh place(const SkinnedAsset& asset, const SkinnedMesh& mesh, const std::vector<Mat4>& world);
 
-// Points spread evenly over the triangles, with the node that each hangs on most: what fits should see, however finely
-// or coarsely a part is drawn. One for every `quantum` of area.
+// A point spread evenly over the triangles, one for every `quantum` of area, with the node of greatest weight. Shapes
+// are fitted to these points, so that fine and coarse meshes give the same result.
 struct SurfacePoint {
   Vec3 position{0.0};
   int owner = -1;
@@ -28,7 +28,7 @@ std::vector<SurfacePoint> spread_points(const SkinnedAsset& asset, const Skinned
                                         double quantum);
 double area_of(const SkinnedMesh& mesh, const PlacedMesh& placed);
 
-// The mesh that is drawn of each bone: the triangles that it owns, in its own frame. By bone.
+// Returns the mesh of each bone: the triangles that it owns, in its own frame.
 std::vector<TriangleMesh> bone_meshes(const SkinnedAsset& asset, const RiggedFigure& figure);
 
 }  // namespace contort

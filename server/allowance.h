@@ -1,5 +1,4 @@
-// The share of something that each client may use: so much per second on average, and more after a pause (a bucket of
-// tokens).
+// Limits how much each client may use: an amount per second on average, and more after a pause (a token bucket).
 #pragma once
 
 #include <map>
@@ -14,13 +13,13 @@ class Allowance {
  public:
   Allowance(double per_s, double at_once) : per_s_(per_s), at_once_(at_once) {}
 
-  // The amount that `client` has left now. It is below zero where the client spent more than it had, as the cost of
-  // some things is known afterwards.
+  // The amount that `client` has left now. It is negative if the client spent more than it had, because some costs
+  // are known only afterwards.
   double left(const std::string& client, Time now);
   void spend(const std::string& client, double amount, Time now);
-  // Spends it if there is as much.
+  // Spends the amount if it is available; returns false if not.
   bool take(const std::string& client, double amount, Time now);
-  // Until something is left.
+  // The seconds until something is left.
   double wait_s(const std::string& client, Time now);
 
  private:

@@ -1,4 +1,4 @@
-// The server without its sockets: a request in, an answer out. server/routes.h has the table of calls.
+// The server without its sockets: it takes a request and returns an answer. server/routes.h has the table of calls.
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,7 @@ struct AppConfig {
   std::function<std::string()> today;  // for what gates
 };
 
-// News for everybody who listens, as counters: a listener compares them with those that it saw last.
+// Counters of changes, for all listeners: a listener compares them with the values that it saw last.
 class News {
  public:
   struct Seen {
@@ -43,7 +43,7 @@ class News {
   void job(const Job& job);
   void close();
 
-  // Waits for up to a second.
+  // Returns the changes since `seen`; waits up to a second for one.
   std::vector<Event> since(Seen& seen);
   std::string revision() const;
   bool closed() const;
@@ -62,27 +62,27 @@ class App {
   App(AppConfig config, Engine& engine);
   ~App();
 
-  // Everything from the guard to the answer. Never throws, nor do the two that it is made of.
+  // Handles a request completely, from the guard to the answer. Neither this nor the next two functions throw.
   Answer answer(const Request& request);
-  // Looks at a request of which the body has not been read: why it need not be, or nothing where it may go on.
+  // Checks a request before its body is read. Returns the refusal, or nothing if the request may continue.
   std::optional<Answer> refuse(const Request& head);
   // Answers a request that was not refused.
   Answer perform(const Request& request);
 
-  // Once a second or so: idle sessions end, and what others did to the corpus is told and reported.
+  // Call this about once a second. It ends idle sessions, and reports changes that other programs made to the corpus.
   void tick();
-  // Streams end, new calls are refused; what runs is finished by the caller's threads.
+  // Ends streams and refuses new calls. The caller's threads finish the running calls.
   void close();
   bool closed() const { return closed_; }
 
-  // For handlers.
+  // The following functions are for handlers.
   const AppConfig& config() const { return config_; }
   Engine& engine() { return engine_; }
   const Limits& limits() const { return engine_.limits(); }
   Sessions& sessions() { return sessions_; }
   Jobs& jobs() { return jobs_; }
   News& news() { return news_; }
-  // Code corpus.none without one; guard.read_only.
+  // Returns the corpus for a change. Code corpus.none if there is none; guard.read_only.
   Result<const Triage*> corpus() const;
   Result<const Triage*> writable_corpus() const;
   Result<std::string> library_folder(const std::string& id) const;  // code library.not_found; "" for ""

@@ -1,5 +1,5 @@
-// One connection, as the HTTP library reads and writes it. What is read has bounds in bytes and in time, whatever the
-// library asks for: no more than the head and the body of one request, and nothing from somebody who is too slow.
+// One connection, as the HTTP library reads and writes it. Reading is limited in bytes and in time, whatever the
+// library asks for: no more than the head and the body of one request, and nothing from a client that is too slow.
 #pragma once
 
 #include <httplib.h>
@@ -12,8 +12,8 @@
 
 namespace contort::server {
 
-// The times that the server waits for a client. A body or an answer may stand still for `rest_s` and needs
-// `bytes_per_s` on average after that; the time that the server itself takes does not count.
+// The times that the server waits for a client. A body or an answer may pause for `rest_s`, and needs `bytes_per_s`
+// on average after that. The server's own time does not count.
 struct Patience {
   double next_request_s = 10.0;
   double head_s = 5.0;  // from its first byte on
@@ -24,19 +24,19 @@ struct Patience {
 
 class Connection final : public httplib::Stream {
  public:
-  // The socket stays the caller's. `most_chunked` bounds bodies that do not say how long they are.
+  // The caller keeps the socket and closes it. `most_chunked` limits bodies that do not declare their length.
   Connection(int socket, Connections::Seat& seat, std::size_t most_chunked, const Patience& patience = {});
 
-  // The head of the next request; what the library then reads is this head and its body. Code connection.over where
-  // nobody asks any more, call.too_slow, and those of read_head.
+  // Reads the head of the next request; the library then reads this head and its body. Code connection.over if the
+  // client sends no more requests, call.too_slow, and those of read_head.
   Result<Head> next_request();
 
-  // Whether the body has not been read to its end, so that the next request cannot be found.
+  // Returns true if the body has not been read to its end, so that the next request cannot be found.
   bool has_unread() const { return is_chunked_ || body_left_ > 0; }
-  // Writes an answer past the library.
+  // Writes an answer without the library.
   void refuse(const Issue& issue);
-  // Tells the client that nothing more comes, and throws away what it still sends. Else the kernel would answer these
-  // bytes with a reset, and a client that is still sending would not see the answer.
+  // Tells the client that nothing more follows, and discards what it still sends. Otherwise the kernel would reply to
+  // these bytes with a reset, and a client that is still sending would not see the answer.
   void linger();
 
   bool is_readable() const override;
@@ -71,7 +71,7 @@ class Connection final : public httplib::Stream {
 // Refuses a connection for which there is no seat. Takes at most a fifth of a second.
 void turn_away(int socket, const Issue& issue);
 
-// "127.0.0.1", the other end of a connection; "" where it has gone.
+// The address of the other end of a connection, such as "127.0.0.1"; "" if it is closed.
 std::string client_of(int socket);
 
 }  // namespace contort::server

@@ -1,5 +1,5 @@
-// The open connections. Nobody can keep others out by being slow: where there is no room, a connection that makes the
-// server wait is closed in favour of the newer one.
+// The open connections. A slow client cannot keep others out: if there is no room, a connection that makes the server
+// wait is closed in favour of the newer one.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace contort::server {
 
 class Connections {
  public:
-  // A place of one connection, until it goes.
+  // The place of one connection, until it is destroyed.
   class Seat {
    public:
     Seat(Connections& all, int socket, std::string client);
@@ -21,9 +21,10 @@ class Connections {
     Seat(const Seat&) = delete;
     Seat& operator=(const Seat&) = delete;
 
-    // From here on the server waits for the next request. `false`: the server ends, so there is none to be waited for.
+    // The server begins to wait for the next request. Returns false if the server is ending, so that there is none to
+    // wait for.
     bool waits_for_request(Time since);
-    // The server waits for the rest of a request, or for an answer to be taken.
+    // The server begins to wait for the rest of a request, or for the client to receive an answer.
     void waits_for_rest(Time since);
     void works();
 
@@ -33,20 +34,20 @@ class Connections {
     Connections& all_;
     int socket_;
     std::string client_;
-    // These two with the mutex held. A new connection has sent no request yet, so it waits from the beginning: its
-    // thread may come late to say so.
+    // The mutex guards these two. A new connection has sent no request yet, so it counts as waiting from the
+    // beginning; its thread may say so late.
     Doing doing_ = Doing::waiting_for_request;
     Time since_ = now();
   };
 
   Connections(int most, int most_of_client) : most_(most), most_of_client_(most_of_client) {}
 
-  // The socket stays the caller's, who closes it after the seat has gone. Of a client with as many as it may have, the
-  // one for which the server has waited longest is shut down; in a full server, the one of the client that has most.
-  // Codes limit.connections, full.connections: they are all at work.
+  // The caller keeps the socket, and closes it after the seat is destroyed. If a client has as many connections as
+  // allowed, the one for which the server has waited longest is shut down; if the server is full, one of the client
+  // that has most. Codes limit.connections, full.connections, if all of them are at work.
   Result<std::unique_ptr<Seat>> enter(int socket, const std::string& client);
 
-  // Shuts down those that wait for a request, now and from now on.
+  // Shuts down the connections that wait for a request, now and in the future.
   void close();
 
  private:

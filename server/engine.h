@@ -49,7 +49,7 @@ class Engine {
   // urgent, where nothing is left (what can wait is a part of something that was begun).
   Worked run(const Task& task, const std::string& client, Urgency urgency = Urgency::now);
 
-  // For work elsewhere. Code limit.cpu.
+  // For work outside of the workers. Code limit.cpu.
   Result<Done> may_work(const std::string& client);
   void spend(const std::string& client, double cpu_s);
   double wait_s(const std::string& client);  // until there is something left

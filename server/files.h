@@ -13,7 +13,8 @@ namespace contort::server {
 // relative. Code call.not_found, whatever the reason: who asks learns nothing of what else there is.
 Result<std::string> read_below(const std::string& folder, const std::string& path);
 
-// The same file, to be read piece by piece: however slowly somebody takes it, it is not in memory meanwhile.
+// A plain file that is read piece by piece, so that it is never in memory as a whole, however slowly a client
+// receives it.
 class PlainFile {
  public:
   PlainFile() = default;
@@ -22,7 +23,7 @@ class PlainFile {
   PlainFile& operator=(const PlainFile&) = delete;
 
   std::size_t left() const { return left_; }
-  // The next bytes; "" at its end.
+  // Returns the next bytes; "" at the end.
   std::string read(std::size_t most);
 
  private:
@@ -32,7 +33,7 @@ class PlainFile {
 };
 Result<std::shared_ptr<PlainFile>> open_below(const std::string& folder, const std::string& path);
 
-// By the ending; application/octet-stream for those that are not known.
+// Returns the media type by the file's extension; application/octet-stream for unknown ones.
 std::string type_of(const std::string& path);
 
 }  // namespace contort::server

@@ -1,4 +1,4 @@
-// Decides who may call. Every request passes here before anything else looks at it.
+// Decides whether a request is allowed. Every request passes here first.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ struct GuardConfig {
   std::string token;               // "": none is needed
 };
 
-// Looks at the head of a request only, so that no body is read for somebody who may not call. Codes guard.host,
-// guard.origin, guard.token, call.content_type, call.content_encoding, call.too_long. A name of elsewhere that resolves
-// to this machine (DNS rebinding) fails by its Host; a page of elsewhere by its Origin or by its type of content.
+// Checks the head of a request only, so that no body is read for a client that may not call. Codes guard.host,
+// guard.origin, guard.token, call.content_type, call.content_encoding, call.too_long. A foreign name that resolves to
+// this machine (DNS rebinding) fails by its Host; a foreign page fails by its Origin or by its content type.
 Result<Done> admit(const Request& request, const GuardConfig& config);
 
-// The address is this machine's own.
+// Returns true if the address is this machine's own.
 bool is_loopback(const std::string& host);
 
 }  // namespace contort::server

@@ -1,5 +1,5 @@
-// The head of a request, as bytes. It is looked at before the HTTP library sees it, because the library takes heads of
-// any size, and reads some of them otherwise than the machines in front of it do.
+// Reads the head of a request, as bytes. It is checked before the HTTP library sees it, because the library accepts
+// heads of any size, and interprets some of them differently from proxies in front of it.
 #pragma once
 
 #include <string>
@@ -21,12 +21,12 @@ struct Head {
   bool has_body() const { return is_chunked || body_bytes > 0; }
 };
 
-// `text` goes from the request line to the empty line, both included. Refused is everything of which two readers could
-// think differently where the request ends: lines without CR, folded lines, control characters, spaces before a colon,
-// lengths that are no number, a length beside chunks, and headers that are given twice although one of them would be
-// ignored. Ranges are taken out, because the library makes an answer of any number of them, each as long as the file.
-// So is every compression but gzip, because the library would choose Brotli, which takes a second of the CPU for 1 MB.
-// Codes call.bad_request, call.long_head.
+// `text` contains the request line up to and including the empty line. The function refuses everything that two
+// readers could interpret as different ends of the request: lines without CR, folded lines, control characters,
+// spaces before a colon, invalid lengths, a length together with chunks, and repeated headers of which one would be
+// ignored. It removes ranges, because the library answers any number of them, each as long as the file. It also
+// removes every compression except gzip, because the library would choose Brotli, which takes a second of CPU time
+// for 1 MB. Codes call.bad_request, call.long_head.
 Result<Head> read_head(std::string_view text);
 
 }  // namespace contort::server

@@ -1,4 +1,4 @@
-// The server's sockets: HTTP/1.1 by cpp-httplib, one thread for each connection.
+// The server's sockets: HTTP/1.1 with cpp-httplib, one thread for each connection.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct HttpConfig {
   std::size_t most_body = 1 << 20;
 };
 
-// The functions that answer. `refuse` sees a request before its body is read; if it gives an answer, that is sent and
-// the body is never read.
+// The functions that answer requests. `refuse` gets a request before its body is read; if it returns an answer, the
+// answer is sent and the body is never read.
 struct Service {
   std::function<std::optional<Answer>(const Request& head)> refuse;
   std::function<Answer(const Request&)> answer;
@@ -30,9 +30,9 @@ class Http {
   explicit Http(const HttpConfig& config);
   ~Http();
 
-  // The port. Code serve.no_port where it cannot be had.
+  // Opens the port and returns it. Code serve.no_port if that fails.
   Result<int> bind();
-  // Answers until stop(), from another thread; then waits for what is being answered.
+  // Answers requests until another thread calls stop(); then waits for the running ones.
   void run(Service service);
   void stop();  // run() was called, or is about to be; returns when it is over
 

@@ -1,4 +1,4 @@
-// Work that takes seconds or minutes, one piece after another: reports, shrinking, replays.
+// Runs work that takes seconds or minutes, one job after another: reports, shrinking, replays.
 #pragma once
 
 #include <condition_variable>
@@ -30,30 +30,31 @@ struct Job {
   double cpu_s = 0.0;  // of the programs that it ran
 };
 
-// {job, kind, bucket, state, seconds, cpu_s, text, result}
+// Prints a job as {job, kind, bucket, state, seconds, cpu_s, text, result}.
 std::string print_job(const Job& job);
 
 class Jobs {
  public:
-  // The state of a job while it works: whether it is still wanted, and where it says what it took.
+  // The state of a job while it works: whether it is still wanted, and how much time it has used.
   struct Running {
     std::function<bool()> stop;
     double cpu_s = 0.0;
   };
-  // Its sentence and JSON, or why it failed.
+  // The job's sentence and JSON, or the reason of its failure.
   struct Outcome {
     std::string text;
     std::string result;
   };
   using Work = std::function<Result<Outcome>(Running&)>;
 
-  // `most_waiting` at the most. `changed` is called from the jobs' thread.
+  // At most `most_waiting` jobs may wait. `changed` is called from the jobs' thread.
   Jobs(int most_waiting, std::function<void(const Job&)> changed);
   ~Jobs();  // what runs is stopped
 
-  // Its id. One of the same kind about the same that still waits is that one. Code full.jobs.
+  // Adds a job and returns its id. If a job of the same kind for the same object still waits, its id is returned
+  // instead. Code full.jobs.
   Result<std::string> add(const std::string& kind, const std::string& about, const std::string& client, Work work);
-  // Code job.not_found: of those that have ended the last hundred are remembered.
+  // Finds a job. Code job.not_found; only the last hundred ended jobs are kept.
   Result<Job> find(const std::string& id) const;
   int waiting() const;
 

@@ -1,4 +1,4 @@
-// A motion as a session has it, the take that it belongs to, and the clock by which it is shown.
+// A motion of a session, the take that it belongs to, and the clock by which it is shown.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,13 @@ using Time = std::chrono::steady_clock::time_point;
 inline Time now() { return std::chrono::steady_clock::now(); }
 inline double seconds_since(Time since) { return std::chrono::duration<double>(now() - since).count(); }
 
-// Frames that go by while it plays.
+// Counts the frames that pass while it plays.
 class PlayClock {
  public:
   void set(int frame, bool playing, Time now) { frame_ = frame, playing_ = playing, since_ = now, ++version_; }
   bool playing() const { return playing_; }
   std::int64_t version() const { return version_; }  // another one after each call of set
-  // Without an end; 0 is the first frame.
+  // The present frame; 0 is the first, and there is no last one.
   int frame(double rate_hz, Time now) const;
 
  private:
@@ -44,11 +44,11 @@ struct Played {
   std::string spans;  // fields of the event, without take, revision and mode
 
   int frame_bytes() const { return joint_count * kJointBytes; }
-  // `count` frames at the most, as they are sent; "" beyond the end.
+  // Returns at most `count` compact frames, in the form that is sent; "" beyond the end.
   std::string frames_from(int from, int count) const;
-  // The first frame in which two motions of one take differ, in bits of what is sent.
+  // Returns the first frame in which the sent data of two motions of one take differ in any bit.
   int first_difference(const Played& other) const;
-  // The place of the root in the world; a whole rotation, unless the motion is not finite.
+  // The transform of the root in the world, with a unit rotation unless the motion has NaN or infinite values.
   Rigid root(int frame) const;
 };
 

@@ -1,4 +1,4 @@
-// A call and its answer, without sockets: what tests use, and what server/http.cpp fills from the wire.
+// A call and its answer, without sockets. Tests use them directly; server/http.cpp fills them from the connection.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ struct Request {
   std::string parameter(const std::string& name) const;
 };
 
-// The next piece of a stream, "" for none within about a second; sets `more` to false at its end.
+// Returns the next piece of a stream, or "" if there is none within about a second; sets `more` to false at its end.
 using Pieces = std::function<std::string(bool& more)>;
 
 struct Answer {
@@ -34,15 +34,15 @@ struct Answer {
   Pieces pieces;  // where it is not empty, the body is a stream
 };
 
-// The status that a code stands for; docs/server.md.
+// The HTTP status of a code; see docs/server.md.
 int status_of(const Issue& issue);
 Answer refusal(const Issue& issue);
 
-// Those of the answer and those that all answers have: what a browser may do with them. A page that may do more says so
-// in a Content-Security-Policy of its own.
+// Returns the headers of the answer and those that all answers have, which restrict what a browser may do. A page
+// that may do more says so in its own Content-Security-Policy.
 std::vector<std::pair<std::string, std::string>> headers_of(const Answer& answer);
 
-// An answer as it is sent where the HTTP library is not asked; the connection ends with it.
+// Prints an answer as it is sent without the HTTP library; the connection ends with it.
 std::string print_answer(const Answer& answer);
 
 }  // namespace contort::server

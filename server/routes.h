@@ -1,4 +1,4 @@
-// The table of calls: what dispatches them, and what the OpenAPI document is made from. Adding a call is a row here, a
+// The table of calls. It dispatches them, and the OpenAPI document is made from it. A new call is a row here, a
 // handler and a test.
 #pragma once
 
@@ -32,14 +32,14 @@ struct Route {
 
 std::span<const Route> routes();
 
-// Why a request to this address goes no further, or which methods it takes; nothing where it may go on. Codes
-// call.not_found, call.wrong_method, call.too_large.
+// Returns the refusal of a request by its address, or the methods that the address accepts; nothing if the request
+// may continue. Codes call.not_found, call.wrong_method, call.too_large.
 std::optional<Answer> refuse_route(const App& app, const Request& request, std::size_t body_bytes);
 
-// Refuses for the same reasons.
+// Calls the handler of a request; refuses for the same reasons.
 Answer dispatch(App& app, const Request& request);
 
-// OpenAPI 3.1, JSON.
+// Returns the OpenAPI 3.1 document as JSON.
 std::string openapi(std::string_view version);
 
 // Handlers, by the file that they are in.

@@ -1,5 +1,5 @@
-// A folder for the files of one run of the server. It goes with the run; of a run that was killed, the next run takes
-// it away.
+// A folder for the files of one run of the server. It is removed when the run ends; the next run removes the folder
+// of a run that was killed.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@ namespace contort::server {
 
 class Scratch {
  public:
-  // A new folder in `parent`, that of this machine for such files where it is "". First removes those that runs of the
-  // same user left there and nobody has any more. Made after processes were forked: what they inherit would keep the
-  // folder of a run that has ended. Code file.unwritable.
+  // Makes a new folder in `parent`, or in the machine's folder for temporary files if that is "". First removes
+  // folders of ended runs of the same user. Call it after forking: a forked process would inherit the lock and keep
+  // the folder of an ended run. Code file.unwritable.
   static Result<std::unique_ptr<Scratch>> make(std::string parent = "");
   ~Scratch();
   Scratch(const Scratch&) = delete;

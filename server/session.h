@@ -1,5 +1,5 @@
-// A terminal's session: a spec that grows, the motions that it makes, and a clock (docs/server.md). Safe from any
-// thread: one mutex guards what is shown, and workers run while nobody holds it.
+// A client's session: a spec that grows, its motions, and a clock (docs/server.md). It can be used from any thread:
+// one mutex guards the shown state, and workers run while nobody holds it.
 #pragma once
 
 #include <condition_variable>
@@ -30,15 +30,15 @@ struct SessionDesc {
 
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  // Codes of Worker::run.
+  // Opens a session. Codes of Worker::run.
   static Result<std::shared_ptr<Session>> open(const SessionDesc& desc, Engine& engine);
 
-  // An edit of the spec that takes effect in the frame after the present one. The motion is there when this returns;
-  // where it is refused nothing has changed.
+  // Applies an edit of the spec that takes effect in the frame after the present one. The motion is generated when
+  // this returns; if it is refused, nothing has changed.
   using Edit = std::function<Result<Spec>(const Spec&, const Moment&)>;
   Result<Done> command(const Edit& edit);
 
-  // Another character, surroundings, loads or modes: a new take, where the figure stands.
+  // Changes character, surroundings, loads or modes: begins a new take where the figure stands.
   using Change = std::function<Result<Done>(Spec&, std::vector<Mode>&)>;
   Result<Done> change(const Change& change);
 
@@ -48,15 +48,16 @@ class Session : public std::enable_shared_from_this<Session> {
 
   std::string state() const;  // JSON
   std::string model() const;  // JSON
-  // `count` compact frames at the most; "" beyond the end or for a mode that is not played.
+  // Returns at most `count` compact frames; "" beyond the end or for a mode that is not played.
   std::string frames(Mode mode, int from, int count) const;
-  // The spec of this take or the one before in a mode; nothing for others.
+  // Returns the spec of this take or the previous one in a mode; nothing for other takes or modes.
   std::optional<Spec> spec_of(int take, Mode mode) const;
   int take() const;
   std::vector<Mode> modes() const;
   const SessionDesc& desc() const { return desc_; }
 
-  // The events that a stream must send now, in order; waits for some until `until`. Ends takes whose time is up.
+  // Returns the events that a stream must send now, in order; waits for some until `until`. Ends takes whose time is
+  // up.
   std::vector<Event> events(StreamState& stream, Time until);
 
   void touch();
@@ -70,7 +71,7 @@ class Session : public std::enable_shared_from_this<Session> {
   Session(const SessionDesc& desc, Engine& engine)
       : desc_(desc), engine_(engine), maker_(engine, desc.client, desc.library) {}
 
-  // The spec of what is shown has changed: streams are woken and it is judged soon. With mutex_ held.
+  // Call after the shown spec has changed: wakes the streams, and has the spec judged soon. With mutex_ held.
   void tell();
   void judge_soon();
   void judge();

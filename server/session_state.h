@@ -1,5 +1,5 @@
-// The state that a session shows: its take, the clock by which that is shown, the takes before and after it, and what
-// was judged. Plain values without threads, locks or workers; times are arguments. A Session guards one.
+// The state that a session shows: its take, the take's clock, the previous and the next take, and the checks'
+// results. It consists of plain values without threads, locks or workers; times are arguments. A Session guards it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace contort::server {
 
-// The character with what is around it, as TaskKind::model prints it.
+// The character with its surroundings, as TaskKind::model prints it.
 struct PlayedModel {
   std::string json;
   Quat rest = kNoRotation;  // the root's rotation in the rest pose
@@ -27,10 +27,10 @@ struct Judged {
 
 class SessionState {
  public:
-  // Begins the first take or the one after the present one, in its frame 0. `modes` is not empty, and the take was
-  // played in each of them; the first one is whose figure goes on in the next take.
+  // Begins the first take, or the one after the present one, in its frame 0. `modes` is not empty, and the take was
+  // played in each of them. The figure of the first mode continues in the next take.
   void begin_take(PlayedTake take, std::vector<Mode> modes, Time now);
-  // Another spec of the same take in the same modes; the clock goes on.
+  // Replaces the take by another spec of the same take in the same modes; the clock continues.
   void amend_take(PlayedTake take);
   void set_model(PlayedModel model);
 
@@ -40,9 +40,9 @@ class SessionState {
   const std::string& model() const { return model_.json; }
   int model_number() const { return model_number_; }
   std::int64_t revision() const { return revision_; }  // of the take's spec; never falls
-  // The first frame of a mode that is not as it was in that revision of this take; `unchanged` where there is none.
+  // Returns the first frame of a mode that differs from that revision of this take; `unchanged` if there is none.
   int first_change(Mode mode, std::int64_t since, int unchanged) const;
-  // The spec of this take or the one before in a mode that it was played in; nothing for others.
+  // Returns the spec of this take or the previous one in a mode in which it was played; nothing for others.
   std::optional<Spec> spec_of(int take, Mode mode) const;
   std::size_t bytes() const;  // of all frames and the model
 
@@ -54,16 +54,15 @@ class SessionState {
   int last_frame() const { return main().frame_count - 1; }
   bool has_ended(Time now) const;
 
-  // The take's spec with nothing to do, for a figure that stands where this one does in `frame`; where that place is
-  // not finite, where the take started.
+  // Returns the take's spec without actions, for a figure that stands where this one does in `frame`; if that
+  // position is not finite, where the take started.
   Spec standing_spec(int frame) const;
 
-  // The take after this one is made before the clock needs it. It follows one revision; an edit makes it worthless.
+  // The next take is made before the clock needs it. It continues one revision; an edit makes it useless.
   bool needs_next(Time now) const;  // The end is near, and nobody has tried to make it.
   bool has_tried_next() const { return next_for_ == revision_; }
   void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // nothing: it cannot be made
-  // Begins the take after this one. Where there is none the clock stops in the last frame; who plays again has it tried
-  // again.
+  // Begins the next take. If there is none, the clock stops in the last frame; playing again tries again to make it.
   void roll(Time now);
 
   void set_judged(Mode mode, Judged judged) { judged_[mode] = std::move(judged); }
@@ -97,7 +96,7 @@ class SessionState {
   std::int64_t problem_number_ = 0;
 };
 
-// The state of a session of this name as JSON (docs/server.md).
+// Prints the state of a session of this name as JSON (docs/server.md).
 std::string print_state(const SessionState& shown, const std::string& session, double cpu_s, Time now);
 
 }  // namespace contort::server

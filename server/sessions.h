@@ -1,4 +1,4 @@
-// All sessions by their ids, within the limits.
+// Holds all sessions by their ids, and keeps their limits.
 #pragma once
 
 #include <map>
@@ -14,15 +14,15 @@ class Sessions {
  public:
   explicit Sessions(Engine& engine) : engine_(engine) {}
 
-  // Ids are drawn at random: nobody guesses another one's. Codes limit.sessions, full.sessions, and those of
+  // Opens a session with a random id, which cannot be guessed. Codes limit.sessions, full.sessions, and those of
   // Session::open.
   Result<std::shared_ptr<Session>> open(SessionDesc desc);
 
-  // Code session.not_found.
+  // Finds a session. Code session.not_found.
   Result<std::shared_ptr<Session>> find(const std::string& id) const;
   Result<Done> close(const std::string& id);
 
-  // Those that nobody has used for a while; all of them at the end.
+  // Ends sessions that were not used for some time; all of them at the end.
   void sweep(Time now);
   void close_all();
 
@@ -30,7 +30,7 @@ class Sessions {
   std::size_t bytes() const;
   double cpu_s() const;  // of all that ever were
 
-  // A stream is open for as long as somebody holds this. Codes limit.streams, full.streams.
+  // Counts a stream as open for as long as the result is held. Codes limit.streams, full.streams.
   Result<std::shared_ptr<void>> count_stream(const std::string& client);
   int streams() const;
 

@@ -1,4 +1,4 @@
-// The events that a stream of a session sends: those that bring a listener from what it knows to what is shown now.
+// Computes the events that update a listener of a session from the state that it knows to the present one.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace contort::server {
 
-// The part that a stream has sent so far.
+// The state that a stream has sent so far.
 struct StreamState {
   struct Frames {
     int first = 0;
@@ -25,15 +25,14 @@ struct StreamState {
   Time clock_sent{};
 };
 
-// "event: <name>\ndata: <data>\n\n"
+// An event, sent as "event: <name>\ndata: <data>\n\n".
 struct Event {
   std::string name;
   std::string data;
 };
 std::string print_event(const Event& event);
 
-// In the order in which they are to be sent; none where the listener knows everything. `stream` is as if they were
-// sent.
+// Returns the events in sending order; none if the listener is up to date. `stream` is updated as if they were sent.
 std::vector<Event> events_of(const SessionState& shown, StreamState& stream, Time now);
 
 }  // namespace contort::server

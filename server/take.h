@@ -1,5 +1,6 @@
-// Commands of a terminal as edits of a spec. Plain functions: a spec, and where its motion stands, in; a spec out. An
-// edit at a frame changes no frame before it, but for what dynamic control foresees (docs/server.md).
+// Turns a client's commands into edits of a spec. The functions are pure: they take a spec and the position of its
+// motion, and return a spec. An edit at a frame changes no earlier frame, except what dynamic control foresees
+// (docs/server.md).
 #pragma once
 
 #include <span>
@@ -11,13 +12,13 @@
 
 namespace contort::server {
 
-// The moment up to which a motion has been shown, and what ran until then.
+// The moment up to which a motion has been shown, and the queue until then.
 struct Moment {
   int frame = 0;  // the last one that was shown
   std::span<const QueueSpan> queue;
 };
 
-// A sequence that enters the queue in the next frame. Code take.full: a spec holds 64 interrupts.
+// Adds a sequence that enters the queue in the next frame. Code take.full: a spec has at most 64 interrupts.
 Result<Spec> with_sequence(const Spec& spec, const SequenceDesc& sequence, Enter enter, bool resume, const Moment& now);
 
 struct AimCommand {
@@ -29,8 +30,8 @@ struct AimCommand {
   int blend_frames = 12;       // in and out
 };
 
-// Aims in the next frame: beside what runs, as a further clip of that sequence, so that a walk goes on; by itself where
-// nothing runs, or where what runs is stretched. Code take.full.
+// Aims in the next frame. The aim becomes a further clip of the running sequence, so that a walk continues; it
+// becomes a sequence of its own if nothing runs or the running sequence is stretched. Code take.full.
 Result<Spec> with_aim(const Spec& spec, const AimCommand& aim, const Moment& now);
 
 struct PushCommand {
@@ -40,11 +41,11 @@ struct PushCommand {
   Vec3 impulse_N_s{0.0};  // in the world
 };
 
-// Strikes in the next frame. Code take.full.
+// Adds an impact in the next frame. Code take.full.
 Result<Spec> with_push(const Spec& spec, const PushCommand& push, const Moment& now);
 
-// The same character in the same surroundings with nothing to do, where `root` stands and as it faces;
-// `rest` is the root's rotation in the character's rest pose.
+// Returns a spec without actions for the same character in the same surroundings, with the position and heading of
+// `root`. `rest` is the root's rotation in the character's rest pose.
 Spec next_take(const Spec& spec, const Rigid& root, const Quat& rest);
 
 }  // namespace contort::server

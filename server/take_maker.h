@@ -1,4 +1,4 @@
-// Has workers make what a session shows, and adds up what they took. Safe from any thread.
+// Lets workers make the data that a session shows, and adds up their CPU time. Can be used from any thread.
 #pragma once
 
 #include <atomic>
@@ -15,10 +15,11 @@ class TakeMaker {
   // `library`: folder of a registered library; "" for none.
   TakeMaker(Engine& engine, std::string client, std::string library);
 
-  // The spec in each of the modes. Codes of Engine::run; take.too_long where a motion has more bytes than the limit.
+  // Plays the spec in each of the modes. Codes of Engine::run; take.too_long if a motion has more bytes than the
+  // limit.
   Result<PlayedTake> take(int number, const Spec& spec, const std::vector<Mode>& modes);
   Result<PlayedModel> model(const Spec& spec);
-  // Fields of the event that says what checks find.
+  // Returns the fields of the event with the checks' results.
   Result<std::string> judged(const Spec& spec, Mode mode);
 
   double cpu_s() const { return cpu_s_; }

@@ -1,4 +1,4 @@
-// The corpus, as a server lets people work on it.
+// The operations on a corpus that a server offers to people.
 #pragma once
 
 #include <functional>
@@ -12,29 +12,31 @@ namespace contort::server {
 
 class Triage {
  public:
-  // `program` is how contort is called, with the options that all its commands take; `scratch` is a folder for files
-  // that pass, made when it is needed.
+  // `program` is the command line of contort with the options that all commands accept. `scratch` is a folder for
+  // temporary files, made when it is needed.
   Triage(std::string folder, std::vector<std::string> program, std::string scratch)
       : folder_(std::move(folder)), program_(std::move(program)), scratch_(std::move(scratch)) {}
 
   const std::string& folder() const { return folder_; }
 
-  // JSON; `today` for what gates. Buckets are found by the names of their folders. Codes corpus.*.
+  // Returns the buckets as JSON; `today` decides which of them gate. Buckets are found by the names of their folders.
+  // Codes corpus.*.
   Result<std::string> list(const std::string& today) const;
   Result<std::string> show(const std::string& bucket, const std::string& today) const;
 
-  // Returns the bucket as it is afterwards, as JSON; it is on the disk by then. Codes bucket.*, file.unwritable.
+  // Changes a bucket and returns its new state as JSON, after it is on disk. Codes bucket.*, file.unwritable.
   Result<std::string> change(const std::string& bucket, const Corpus::Change& change, const std::string& today) const;
 
-  // A case that a session showed: {bucket, is_new}.
+  // Stores a case that a session showed. Returns {bucket, is_new}.
   Result<std::string> keep(const Case& shown) const;
 
   Result<Jobs::Work> replay_work(const std::string& bucket) const;
-  // Also stores what comes out of it; a bucket that held only what a session showed, as it was, goes.
+  // Returns work that shrinks a bucket's case and stores the result. It removes a bucket that contained only the
+  // unshrunk case of a session.
   Result<Jobs::Work> shrink_work(const std::string& bucket) const;
   Jobs::Work report_work(const std::string& into) const;
 
-  // Changes whenever a bucket does.
+  // Returns a text that changes whenever a bucket changes.
   std::string revision() const;
 
  private:

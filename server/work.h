@@ -1,5 +1,5 @@
-// The work of worker processes: everything that generates. A task says all that is needed, so any worker can do any
-// task, and do it again.
+// The tasks of worker processes, which do all generating. A task contains all its input, so any worker can do any
+// task, and repeat it.
 #pragma once
 
 #include <memory>
@@ -32,14 +32,14 @@ struct Task {
   bool operator==(const Task&) const = default;
 };
 
-// A JSON text, and bytes for what is no text: frames of play, the .glb of model_file.
+// A JSON text, and bytes for binary data: frames of play, the .glb of model_file.
 struct Reply {
   std::string head;
   std::string bytes;
   bool operator==(const Reply&) const = default;
 };
 
-// {code, pointer, text}: how every error looks.
+// Prints an error as {code, pointer, text}, the form of every error.
 std::string print_issue(const Issue& issue);
 
 std::string print_task(const Task& task);
@@ -55,10 +55,10 @@ Result<Reply> parse_reply(const std::string& text);
 // docs/server.md has their fields and what a compact frame is.
 class Worker {
  public:
-  // `tool` goes into cases.
+  // `tool` is written into cases.
   Worker(Generator& generator, CheckSettings settings, std::string tool);
 
-  // Codes of the generator, with pointers into the spec; take.too_long, case.no_such_finding.
+  // Runs a task. Codes of the generator, with pointers into the spec; take.too_long, case.no_such_finding.
   Result<Reply> run(const Task& task);
 
  private:
@@ -77,7 +77,7 @@ class Worker {
   Result<Generator*> generator_of(const Task& task);
 };
 
-// Bytes of a compact frame, for each joint.
+// The size of a compact frame in bytes, for each joint.
 inline constexpr int kJointBytes = 28;
 
 }  // namespace contort::server
