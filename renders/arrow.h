@@ -1,4 +1,4 @@
-// Arrows, as triangles.
+// Makes arrows from triangles.
 #pragma once
 
 #include "model/character/shape.h"
@@ -6,10 +6,11 @@
 
 namespace contort {
 
-// From the origin along +Y, with its point at `length_m` > 0: a shaft with a cone on it. Short ones are thinner.
+// Returns an arrow from the origin along +Y, with its point at `length_m` > 0: a shaft with a cone on it. Short
+// arrows are thinner.
 Triangles arrow_triangles(double length_m);
 
-// world_from_mesh of such an arrow from a point along a unit vector.
+// Returns world_from_mesh of such an arrow, from a point along a unit vector.
 Rigid arrow_place(const Vec3& from_m, const Vec3& along);
 
 }  // namespace contort

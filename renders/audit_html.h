@@ -25,7 +25,7 @@ struct AuditPage {
   std::vector<AuditPageRow> rows;
 };
 
-// One file without scripts, which opens from anywhere. Rows of a character stand together, the worst first.
+// Returns a page without scripts, in one file. Rows of a character are together, the worst first.
 std::string audit_html(const AuditPage& page);
 
 }  // namespace contort

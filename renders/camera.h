@@ -24,16 +24,16 @@ struct View {
   double elevation_rad = 0.0;
 };
 
-// Unit, from what is looked at.
+// Returns the unit vector from the target towards the camera.
 Vec3 towards_eye(const View& view);
 
-// The nearest camera in this direction that has all points in its picture, with a margin. `aspect` is width / height.
-// Without points: two metres around the origin.
+// Returns the nearest camera in this direction that has all points in its picture, with a margin. `aspect` is width /
+// height. Without points it shows two metres around the origin.
 Camera frame_points(std::span<const Vec3> points, const View& view, double aspect);
 
-// One camera for all frames of a strip: it stands still, or it moves along with the figure where a camera that stands
-// still would draw the figure in some frame less than three quarters as large. `points` are what has to be in the
-// picture of each frame, `anchors` the places on the ground that the figure is at.
+// The camera of all frames of a strip. It stands still, unless the figure would then be less than three quarters as
+// large in some frame; in that case it moves along with the figure. `points` must be in the picture of each frame;
+// `anchors` are the positions of the figure on the ground.
 struct StripCamera {
   Camera camera;
   bool follows = false;  // true: it stands as far from a frame's anchor as `camera` from the origin.
@@ -44,7 +44,7 @@ StripCamera frame_strip(std::span<const std::vector<Vec3>> points, std::span<con
 
 Camera moved(Camera camera, const Vec3& by_m);
 
-// From an azimuth, and as far above as all views of ours.
+// Returns the view from an azimuth, at the common elevation.
 View view_from(double azimuth_rad);
 
 // 12 azimuths, 30 degrees apart, in order of preference: from the front left corner outward.

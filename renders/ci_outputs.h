@@ -1,5 +1,5 @@
-// The report for machines that build: the same rows as the page's, as they are read by build servers and code hosts.
-// Equal models give equal texts. What gates is a failure or an error there, and nothing else is.
+// Writes the report for build servers and code hosts, from the same rows as the page. Equal models give equal texts.
+// Only gating rows are failures or errors.
 #pragma once
 
 #include <string>
@@ -9,25 +9,24 @@
 
 namespace contort {
 
-// JUnit: a test case for each bucket; those that were fixed once are in a suite "regressions", the others in "buckets".
-// Known failures are skipped, with the reason.
+// JUnit: a test case for each bucket. Buckets that were fixed once are in a suite "regressions", the others in
+// "buckets". Known failures are skipped, with the reason.
 std::string junit_xml(const ReportModel& model);
 
-// SARIF 2.1.0: a result for each bucket that is not fixed. Code hosts refuse long logs, so what comes after 5,000
-// results is a note.
+// SARIF 2.1.0: a result for each bucket that is not fixed. Code hosts refuse long logs, so results above 5,000 become
+// one note.
 inline constexpr std::size_t kMostSarifResults = 5000;
 std::string sarif_json(const ReportModel& model);
 
-// GitHub workflow commands, one for each failure that gates. More than 10 would not be shown: the last line counts the
-// rest.
+// GitHub workflow commands, one for each gating failure. GitHub shows only 10, so the last line counts the rest.
 inline constexpr std::size_t kMostAnnotations = 10;
 std::vector<std::string> github_annotations(const ReportModel& model);
 
-// Markdown: the verdict, a table of what gates, and how many are known.
+// Markdown: the verdict, a table of gating failures, and the number of known ones.
 inline constexpr std::size_t kMostMarkdownRows = 100;
 std::string markdown_summary(const ReportModel& model);
 
-// Rows that gate, then the others, each in the order of the model.
+// Returns the gating rows, then the others, each in the order of the model.
 std::vector<const ReportRow*> gating_first(const ReportModel& model);
 
 }  // namespace contort

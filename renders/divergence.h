@@ -1,4 +1,4 @@
-// Finds where two motions part: what can be seen of them, joint by joint, in frames of the same number.
+// Finds the frames in which two motions visibly differ, joint by joint, in frames of the same number.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace contort {
 
 inline constexpr double kSamePlace_m = 0.001;
 
-// Joints are compared by name: the place of a joint, and of the points that span the colliders on it, by which a hand
-// that only turns is found too. Two places that are not finite are the same.
+// The differences of two motions. Joints are compared by name: the position of a joint, and of the points that span
+// its colliders, so that a hand that only turns is found too. Two positions that are not finite are equal.
 struct Divergence {
   struct At {
     int frame = -1;
@@ -37,14 +37,14 @@ struct Performance {
   const Motion& motion;  // of this character
 };
 
-// `tolerance_m` >= 0: what is no farther apart is the same. Code: compare.other_rate, where frames of one number are at
-// different times.
+// Compares two motions. Positions no farther apart than `tolerance_m` >= 0 are equal. Code compare.other_rate if the
+// frame rates differ.
 Result<Divergence> find_divergence(const Performance& a, const Performance& b, double tolerance_m);
 
-// One line for people: "first difference at frame 37 (0.617 s): arm_left/elbow is 12.3 mm apart; …".
+// Returns one line for people, such as "first difference at frame 37 (0.617 s): arm_left/elbow is 12.3 mm apart; …".
 std::string divergence_text(const Divergence& divergence, double tolerance_m, double rate_hz);
 
-// The same as a JSON object, with null for what is not there.
+// Returns the differences as a JSON object, with null for missing values.
 std::string divergence_json(const Divergence& divergence, double tolerance_m, double rate_hz);
 
 }  // namespace contort

@@ -25,10 +25,10 @@ struct DrawInstance {
   bool on_top = false;  // With `mark`: nothing hides it; of several the later one is above.
 };
 
-// Positions beyond this are as good as not finite: nothing could be seen, and floats would lose centimetres.
+// Positions beyond this are treated as not finite: nothing would be visible, and floats would lose centimetres.
 inline constexpr double kWorldReach_m = 1e4;
 
-// The things around the figure. They do not count for framing, and none of them hides the figure.
+// The things around the figure. They do not count for framing, and they never hide the figure.
 struct Scenery {
   std::vector<DrawInstance> ground;  // Empty: a level plane.
   double level_m = 0.0;              // The height of that plane.
@@ -56,19 +56,20 @@ struct Figure {
   std::vector<FigurePiece> pieces;
 };
 
-// Mesh pieces with their colours; what is highlighted is red and all else pale, because a character may be red itself.
-// Added to them: the highlighted colliders, where the mesh has another shape than what was judged, and a small sphere
-// at each highlighted joint. Of a figure that wears a skin, which is not here, the mesh of attached objects alone.
+// Returns mesh pieces with their colours. Highlighted pieces are red and all others pale, because a character may be
+// red itself. Also adds the highlighted colliders if the mesh has another shape than the judged one, and a small
+// sphere at each highlighted joint. If the figure wears a skin, which is not here, only the meshes of attached
+// objects are included.
 Figure make_figure(const Character& character, const Highlight& highlight, bool wears_skin = false);
 
 // The colour of a skin's piece in this highlight group.
 Vec3 skin_color(int group, bool any_highlight);
 
-// Around it, as wires: the shape of every collider, which is what checks judge.
+// Adds the shape of every collider, which is what checks judge, as wires around the figure.
 inline constexpr Vec3 kWireColor{0.0, 0.16, 0.75};
 void add_wires(const Character& character, Figure& figure);
 
-// The diagonal of the box around the figure's colliders at rest; 1 where there are none.
+// Returns the diagonal of the box around the figure's colliders at rest; 1 if there are none.
 double figure_size_m(const Character& character);
 
 enum class Look {
@@ -77,17 +78,17 @@ enum class Look {
   ghost,  // grey and translucent, without highlight
 };
 
-// Appends one instance; one without a finite place is left out, and the list not complete.
+// Appends one instance. An instance without a finite transform is left out, and the list is then not complete.
 void add_instance(DrawList& list, const DrawInstance& instance);
 
-// The colour with which a piece of this colour and group is drawn.
+// Returns the colour in which a piece of this colour and group is drawn.
 Vec3 color_in(Look look, const Vec3& color, int highlight);
 
 // Appends the figure in the pose `world` (world_from_joint, one per joint).
 void add_figure(DrawList& list, const Figure& figure, std::span<const Rigid> world, Look look = Look::solid);
 
-// Corners of the boxes around all instances, for framing, without the scenery; highlighted joints' markers and
-// translucent pieces too.
+// Returns the corners of the boxes around all instances, for framing, without the scenery; markers of highlighted
+// joints and translucent pieces are included.
 std::vector<Vec3> outline(const DrawList& list, std::span<const Triangles> meshes);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// The ground's shape as triangles. A pure function of the environment and a region.
+// Makes the ground's shape as triangles. A pure function of the environment and a region.
 #pragma once
 
 #include "model/character/shape.h"
@@ -11,16 +11,16 @@ struct GroundRegion {  // A rectangle in world x and z.
   double high_x_m = 1.0, high_z_m = 1.0;
 };
 
-// Whatever a spec says; a height field is sampled more coarsely to keep it.
+// A limit for every spec; a height field is sampled more coarsely to keep it.
 inline constexpr int kMostGroundTriangles = 50'000;
 
-// In world coordinates; normals point up, those of risers against the direction of climbing.
+// The ground in world coordinates. Normals point up, those of risers against the direction of climbing.
 struct GroundMesh {
   Triangles surface;  // Without what is in `nosings`.
   Triangles nosings;  // The front edges of treads, a hand's width or less: they show a step seen from its upper side.
 };
 
-// Covers the region at least.
+// Returns a mesh that covers at least the region.
 GroundMesh ground_mesh(const Environment& environment, const GroundRegion& region);
 
 }  // namespace contort

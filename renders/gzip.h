@@ -1,4 +1,4 @@
-// Smaller bytes, by zlib; browsers take them apart by themselves (DecompressionStream).
+// Compresses bytes with zlib; browsers decompress them (DecompressionStream).
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// In the format of gzip (RFC 1952), without a time: equal bytes give equal bytes.
+// Returns the bytes in gzip format (RFC 1952), without a time: equal bytes give equal bytes.
 std::vector<std::byte> gzipped(std::span<const std::byte> bytes);
 
 }  // namespace contort

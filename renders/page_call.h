@@ -1,5 +1,5 @@
-// Data for the page in a file beside it. Browsers let a page from a disk load scripts and nothing else, so such a file
-// is a script that calls a function of the page with a name and the data.
+// Writes data for the page to a file beside it. Browsers let a page that is opened from a disk load only scripts, so
+// the file is a script that calls a function of the page with a name and the data.
 #pragma once
 
 #include <string>
@@ -7,14 +7,15 @@
 
 namespace contort {
 
-// JSON without signs that could end a script element or begin a comment in it.
+// Returns JSON without characters that could end a script element or begin a comment in it.
 std::string without_markup(std::string_view json);
 
-// `stamp`: a word that says what the file was made of, for who would make it again; "" for none.
+// Returns the script. `stamp` is a word that says what the file was made of, so that an unchanged file need not be
+// made again; "" for none.
 std::string page_call(std::string_view function, std::string_view name, const std::string& data,
                       std::string_view stamp = "");
 
-// And back; "" where the text is no such file.
+// Returns the data, or the stamp, of such a script; "" if the text is no such file.
 std::string data_of_page_call(std::string_view function, std::string_view name, std::string_view script);
 std::string stamp_of_page_call(std::string_view script);
 

@@ -1,4 +1,4 @@
-// The range of a joint around it, where a joint left its range.
+// Draws the range of a joint around a joint that left it.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ namespace contort {
 inline constexpr double kLeastRange_m = 0.08;  // radius of what is drawn, by the length of the limb
 inline constexpr double kMostRange_m = 0.35;
 
-// For a hinge, draws the sector that the limb may turn through, green and translucent, and in red what it has turned
-// beyond that. Of a ball, the cone of its swing. Nothing of other joints, nor where a place is not finite. `world`:
+// Draws, for a hinge, the sector in which the limb may turn, green and translucent, and in red the angle beyond it;
+// for a ball joint, the cone of its swing. Draws nothing for other joints, or if a transform is not finite. `world`:
 // world_from_joint; `row`: the posture's coordinates.
 void add_range_mark(const Character& character, int joint, std::span<const Rigid> world, std::span<const double> row,
                     DrawList& list, std::vector<Triangles>& meshes);

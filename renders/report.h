@@ -14,7 +14,7 @@
 
 namespace contort {
 
-// A bucket of failures. Texts are hostile: names come from other people's files.
+// A bucket of failures. Its texts are untrusted: names come from other people's files.
 struct ReportRow {
   std::string family;   // rows of one family share a card
   std::string check;    // "self_collision"
@@ -61,20 +61,22 @@ struct ReportModel {
   std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often; 0: never
 };
 
-// For a page that has everything inside: its files by their paths from it ("viewer/viewer.js", "strips/x.png"), and of
-// each case and strip the data alone, as "cases/<key>.json" and "strips/x.json".
+// The files of a page that contains everything, by their paths from it ("viewer/viewer.js", "strips/x.png"), and the
+// data of each case and strip, as "cases/<key>.json" and "strips/x.json".
 using PageFiles = std::map<std::string, std::string>;
 
-// Equal models give equal pages. Families that gate come first; else the order of the rows is kept. A page that has
-// everything inside has all rows; else the last of some hundred buckets are left to the other files of report_pages.
+// Returns the page. Equal models give equal pages. Gating families come first; otherwise the order of the rows is
+// kept. A page that contains everything has all rows; otherwise rows for which there is no room are left to the other
+// files of report_pages.
 std::string report_html(const ReportModel& model, const PageFiles& inside = {});
-// Files by their paths: index.html, below a megabyte, and where that has not all rows, more.html (a plain list of the
-// others) and rows/part-1.js and so on (the same for page.js, which puts them into the page).
+// Returns files by their paths: index.html, below a megabyte, and, if that does not have all rows, more.html (a plain
+// list of the others) and rows/part-1.js and so on (the same rows for page.js, which adds them to the page).
 PageFiles report_pages(const ReportModel& model);
 std::string report_json(const ReportModel& model);
 
-// report_pages and report.json in `folder`, which is made if need be. What an earlier, larger report had besides goes.
-// Codes: file.unwritable; file.outside where one of the folders of a report is a link that leads out of it.
+// Writes report_pages() and report.json to `folder`, which is made if it does not exist. Removes further files of an
+// earlier, larger report. Codes: file.unwritable; file.outside if one of the folders of a report is a link that leads
+// out of it.
 Result<Done> write_report(const ReportModel& model, const std::string& folder);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// Cards of the report's list: what is said about a family of failures, as markup. The page holds as many as fit; what
-// is told of the rest (renders/report_rest.h) comes from here too.
+// Makes the cards of the report's list, one for each family of failures, as markup. The page has as many as fit; the
+// rows of the others (renders/report_rest.h) are made here too.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ struct FamilyCard {
   bool gating() const;
 };
 
-// Those that gate come first; else in the order of the model.
+// Returns the cards, gating ones first, otherwise in the order of the model.
 std::vector<FamilyCard> cards_of(const ReportModel& model);
 
-// The limits of a page. Most of a page's bytes would be in rows that nobody reads: after the first 80 buckets they
-// have no picture before they are opened, and specs are left to the viewer.
+// The limits of a page. Most of a page's bytes would be in rows that nobody reads. After the first 80 buckets, rows
+// show no picture until they are opened, and the viewer shows their specs.
 struct Room {
   std::size_t buckets = 80;      // that may still be shown with everything
   std::size_t spec_bytes = 0;    // that they may still write out
@@ -38,14 +38,14 @@ struct LateCard {
   bool begun = false;  // its head is on the page, and these rows belong to it
 };
 
-// The card with as many of its rows as fit; the others go into `late`. At least the first is there.
+// Returns the card with as many of its rows as fit, at least the first; the others go into `late`.
 std::string card_html(const FamilyCard& card, LateCard& late, Room& room, const PageFiles& inside);
 
-// The words that filters ask a card for, with spaces between, each once.
+// Returns the words by which filters find a card, separated by spaces, each once.
 std::string states_of(const FamilyCard& card);
 std::string phases_of(const FamilyCard& card);
 std::string parts_of(const ReportRow& row);  // "arm_left torso" of "human: arm_left/forearm ~ torso/chest"
-// Each state once, with whether it gates: what the chips say.
+// Returns each state once, and whether it gates: the texts of the chips.
 std::vector<std::pair<std::string, bool>> chips_of(const FamilyCard& card);
 std::string count_of(const FamilyCard& card);     // "1 280 cases, 2 buckets"
 std::string short_text(const ReportRow& row);     // "worst … at …, just after an interrupt; needs walk"

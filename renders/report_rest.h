@@ -1,5 +1,5 @@
-// The rows for which the report's first page has no room: as data that page.js puts into the page (docs/report.md), and
-// as a plain list for those who have no scripts.
+// Writes the rows for which the report's first page has no room: as data that page.js adds to the page
+// (docs/report.md), and as a plain list for browsers without scripts.
 #pragma once
 
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace contort {
 
-// The number of files that row_scripts gives.
+// Returns the number of files that row_scripts() makes.
 std::size_t row_script_count(const std::vector<LateCard>& late);
 
-// "rows/part-1.js" and so on, each a call of contortRows with some hundred rows.
+// Returns "rows/part-1.js" and so on, each a call of contortRows with some hundred rows.
 std::vector<std::pair<std::string, std::string>> row_scripts(const std::vector<LateCard>& late);
 
-// A page of its own, without scripts.
+// Returns the plain list as a page of its own, without scripts.
 std::string plain_list_html(const std::string& title, const std::vector<LateCard>& late, const std::string& css);
 
-// Removes what an earlier report has of these files and `pages` has not. Files that a report did not write stay.
+// Removes those of these files that an earlier report has and `pages` has not. Files that a report did not write
+// stay.
 void remove_old_rest(const std::string& folder, const PageFiles& pages);
 
 }  // namespace contort

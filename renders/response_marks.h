@@ -1,5 +1,5 @@
-// The effects of dynamics in a frame, as signs in its picture: arrows where control accelerates joints and where blows
-// struck, boxes for loads, the zero moment point (ZMP) on the area that supports the figure.
+// Draws the effects of dynamics in a frame: arrows where control accelerates joints and at impacts, boxes for loads,
+// and the zero moment point (ZMP) on the area that supports the figure.
 #pragma once
 
 #include <span>
@@ -36,23 +36,24 @@ struct ResponseFrame {
   std::span<const Rigid> world;  // world_from_joint
 };
 
-// The place at which a joint's turning is shown: the next joint's origin, or, where none or several follow, the body's
-// centre of mass. In the world. Bodies without mass between the axes of an anatomical joint hand on to the next one.
+// Returns the point, in the world, at which a joint's rotation is shown: the next joint's origin or, if none or
+// several follow, the body's centre of mass. Bodies without mass between the axes of an anatomical joint are skipped.
 Vec3 lever_point_m(const Character& character, std::span<const Rigid> world, int joint);
 
-// An arrow for each joint that control accelerates, from the lever point: where a hinge or ball turns it to, as long as
-// the angular acceleration is large, or along the travel of a prismatic joint. One from the root's origin for what it
-// does to the root, without its turning. None where the lever point lies on the axis.
+// Adds an arrow for each joint that control accelerates. It begins at the lever point and points where a hinge or
+// ball turns it to, with a length in proportion to the angular acceleration, or along the travel of a prismatic
+// joint. One arrow from the root's origin shows the root's linear acceleration. There is no arrow if the lever point
+// lies on the axis.
 void add_control_arrows(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
-// An arrow that ends where a blow struck.
+// Adds an arrow that ends at the point of an impact.
 void add_impact_arrows(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
-// While the figure stands: the area between its soles, and a ball at the ZMP; green while that is inside, else red.
+// Adds, while the figure stands, the area between its soles, and a ball at the ZMP: green inside the area, else red.
 // A ZMP that is far outside has no ball.
 void add_balance_marks(const ResponseFrame& of, DrawList& list, std::vector<Triangles>& meshes);
 
-// Boxes at their places; those with unknown names are left out.
+// Adds boxes for loads; loads with unknown names are left out.
 void add_loads(std::span<const LoadDesc> loads, const Character& character, std::span<const Rigid> world,
                DrawList& list, std::vector<Triangles>& meshes);
 

@@ -1,4 +1,4 @@
-// Pieces of what pages show of a motion, as JSON; docs/report.md has their fields. Included from .cpp files only.
+// Makes JSON pieces of a motion for pages; docs/report.md describes their fields. Included from .cpp files only.
 #pragma once
 
 #include <span>
@@ -12,18 +12,19 @@ namespace contort::scene {
 
 using json_fields::Json;
 
-// To a millionth, which is far below what can be seen; null for what no number in JSON can say.
+// Rounds to a millionth, far below what is visible; null for NaN and infinite values.
 Json number(double value);
 Json vector(const Vec3& v);
 
 Json colliders_json(const Character& character);
 Json highlight_json(const Character& character, const Highlight& highlight);
 
-// The ground around where the root goes, in the world.
+// Returns the ground around the path of the root, in world coordinates.
 Json ground_json(const Environment& environment, std::span<const Rigid> path);
 Json obstacles_json(const Environment& environment);
 
-// The events of a motion, over frames. Names of actions and interrupts are known where the generator says its intent.
+// Returns the events of a motion, over frames. Names of actions and interrupts are known only if the generator gives
+// its intent.
 Json spans_json(const Execution& execution);
 Json marks_json(const Execution& execution);
 Json balance_json(const Motion& motion);

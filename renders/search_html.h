@@ -1,4 +1,4 @@
-// The part of the page that says how far the search got.
+// Writes the part of the page about the progress of the search.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace contort {
 
-// "The last of 5 families was met after 900 of 2 000 cases. …": whether going on would show more. "" where nothing ran.
+// Returns sentences such as "The last of 5 families was met after 900 of 2 000 cases. …", which tell whether a longer
+// search would find more. "" if nothing ran.
 std::string outlook(const SearchProgress& search);
 
-// The same sentences, the curve of families over cases, and a row for each way of drawing. "" where nothing ran.
+// Returns these sentences, the curve of families over cases, and a row for each way of drawing. "" if nothing ran.
 std::string search_html(const SearchProgress& search);
 
 }  // namespace contort

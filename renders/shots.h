@@ -1,4 +1,4 @@
-// A motion as a picture of some of its frames shows it, all but the pixels. Nothing here knows of OpenGL.
+// Prepares the pictures of some frames of a motion, except the pixels. Nothing here knows OpenGL.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@
 
 namespace contort {
 
-// The motion to show. For one that dynamics moved: its target as a ghost, the figure itself pale, and signs of
-// what happened (renders/response_marks.h).
+// The motion to show. If dynamics changed it, its target is shown as a ghost, the figure itself is pale, and marks
+// show what happened (renders/response_marks.h).
 struct Story {
   const Character& character;
   const Motion& motion;                      // of this character
@@ -35,19 +35,19 @@ struct Shots {
   std::vector<Vec3> anchors;                // the place on the ground below the root: what a following camera follows
 };
 
-// Codes: render.no_frames, render.wrong_motion, render.bad_frame.
+// Checks the input. Codes: render.no_frames, render.wrong_motion, render.bad_frame.
 Result<Done> check_story(const Story& story, std::span<const int> frames);
 
-// Takes shots of frames that the motion has, without scenery.
+// Makes shots of existing frames of the motion, without scenery.
 Shots take_shots(const Story& story, std::span<const int> frames);
 
-// Adds the scenery, as far as a camera that frames all of these outlines sees it.
+// Adds the scenery that is visible to a camera that frames all of these outlines.
 void add_scenery(const Story& story, std::span<const std::vector<Vec3>> outlines, Shots& shots);
 
 Environment environment_of(const Story& story);
 
-// Keeps those views from which the story's angle is seen: where a hinge left its range, along its axis, in which the
-// sector of its range is not a line. All of them for everything else.
+// Keeps the views from which the story's angle is visible: if a hinge left its range, views along its axis, from
+// which the sector of its range is not a line. Otherwise it keeps all views.
 std::vector<View> views_of_angle(const Story& story, int frame, std::vector<View> views);
 
 }  // namespace contort

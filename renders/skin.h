@@ -1,4 +1,4 @@
-// The skin of an imported character: the triangles of its own model, moved by the joints that its vertices hang on.
+// The skin of an imported character: the triangles of its own model, moved by the joints of its vertices.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@
 
 namespace contort {
 
-// More are a scan, and would take longer to draw than the rest of a strip together.
+// The limit of triangles. A model with more is a scan, and would take longer to draw than the rest of a strip
+// together.
 inline constexpr std::size_t kMostSkinTriangles = 60'000;
 
 struct Skin {
@@ -30,7 +31,8 @@ struct Skin {
   std::vector<bool> moved;            // by joint: it owns a triangle
 };
 
-// Codes skin.*: no node of the model is the root, nothing hangs on the character's joints, too many triangles.
+// Binds a skin to a character. Codes skin.*: no node of the model is the root, no vertex follows the character's
+// joints, or there are too many triangles.
 Result<Skin> bind_skin(const SkinDesc& desc, const SkinnedAsset& asset, const Character& character);
 
 // Triangles of one group, around `origin_m`.
@@ -39,8 +41,8 @@ struct SkinPiece {
   Triangles triangles;
 };
 
-// In the pose `world` (world_from_joint). `group_of_joint` says in which piece what a joint owns is; triangles that
-// have no finite place near the origin are left out, and `complete` is false then.
+// A skin in the pose `world` (world_from_joint). `group_of_joint` says which piece has the triangles that a joint
+// owns. Triangles without a finite position near the origin are left out, and `complete` is then false.
 struct PosedSkin {
   Vec3 origin_m{0.0};
   std::vector<SkinPiece> pieces;  // by rising group, none of them empty
@@ -55,8 +57,8 @@ class Wardrobe {
   Wardrobe(Wardrobe&&) noexcept;
   ~Wardrobe();
 
-  // nullptr where no folder has one. Codes: those of parse_skin, bind_skin and read_gltf, file.unreadable, skin.outside
-  // where the model's file is a link to another folder.
+  // Returns the skin of a character, or nullptr if no folder has one. Codes: those of parse_skin, bind_skin and
+  // read_gltf, file.unreadable, and skin.outside if the model's file is a link to another folder.
   Result<std::shared_ptr<const Skin>> skin_of(const Character& character);
 
  private:

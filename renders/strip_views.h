@@ -1,4 +1,4 @@
-// From where the tiles of a film strip are seen, for a viewer that is to show the same picture.
+// Writes the cameras of a film strip's tiles, for a viewer that shows the same pictures.
 #pragma once
 
 #include <string>
@@ -15,10 +15,11 @@ struct StripTile {
   int x = 0, y = 0, width = 0, height = 0;  // of the picture without its caption, in the strip's pixels
 };
 
-// contort.strip/1 (docs/report.md): JSON in one line, safe inside of a <script>. All tiles have the same size.
+// Returns contort.strip/1 (docs/report.md): JSON in one line, safe inside of a <script>. All tiles have the same
+// size.
 std::string strip_views_json(const std::vector<StripTile>& tiles);
 
-// The same as a script beside the strip: "x.png" has "x.js". Code file.unwritable.
+// Writes it as a script beside the strip: "x.png" has "x.js". Code file.unwritable.
 Result<Done> write_strip_views(const std::string& png, const std::vector<StripTile>& tiles);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// The part of the page that says what the cases were made of, and what they never were.
+// Writes the part of the page that says what the cases contained, and what they never did.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace contort {
 
-// Actions by slot, priority and phase; pairs of them; characters, parts, grounds and the rest. "" where nothing ran.
+// Returns tables of actions by slot, priority and phase, of their pairs, and of characters, parts, grounds and the
+// rest. "" if nothing ran.
 std::string tested_html(const ReportModel& model);
 
-// Labels "pair …": how many are possible, and how many of these were drawn.
+// The number of possible labels "pair …", and the number of those that were drawn.
 struct PairCounts {
   std::int64_t possible = 0;
   std::int64_t drawn = 0;

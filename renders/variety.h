@@ -1,6 +1,6 @@
-// An order of failures in which the first few are as different from one another as can be: furthest point first
-// (Gonzalez 1985), as Chen et al., "Taming Compiler Fuzzers" (PLDI 2013), rank the finds of a fuzzer. Whoever looks at
-// ten rows has then seen ten kinds of failure, not ten of the kind that happens to be deepest.
+// Sorts failures so that the first few are as different from one another as possible: furthest point first (Gonzalez
+// 1985), as Chen et al., "Taming Compiler Fuzzers" (PLDI 2013), rank the failures of a fuzzer. A reader of ten rows
+// has then seen ten kinds of failure, not ten of the deepest kind.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// By what failures are alike. Without numbers, but for who is first among equals.
+// The traits by which failures are compared. Numbers only decide between equals.
 struct FailureTraits {
   std::string check;
   std::string subject;
@@ -27,13 +27,14 @@ struct FailureTraits {
 // sets of actions that share words are nearer than others.
 double distance(const FailureTraits& a, const FailureTraits& b);
 
-// Indices of `all`. The deepest comes first; each next one is furthest from its nearest before it, the deeper one of
-// equals, then by name. After `most` of them, as nobody reads on for variety, the rest by depth: all of it takes time
-// as most * all.size().
+// Returns indices of `all`. The deepest comes first; each next one is furthest from its nearest predecessor; among
+// equals the deeper one, then by name. After `most` of them the rest is sorted by depth, because sorting all takes
+// time in proportion to most * all.size().
 std::vector<std::size_t> furthest_first(std::span<const FailureTraits> all, std::size_t most);
 
-// Rows as the report shows them: families with a row that gates, then those with a new or open one, then the others;
-// within each of these groups families furthest first; within a family what gates, then by depth.
+// Sorts rows as the report shows them: families with a gating row, then those with a new or open one, then the
+// others. Within each of these groups families are sorted furthest first; within a family gating rows come first,
+// then by depth.
 void order_rows(std::vector<ReportRow>& rows);
 
 }  // namespace contort

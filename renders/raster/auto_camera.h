@@ -1,4 +1,5 @@
-// A camera that sees the fault. A fixed one had the offending forearm behind the body in three frames of eight.
+// Chooses a camera that shows the fault. A fixed camera had the offending forearm behind the body in three frames of
+// eight.
 #pragma once
 
 #include <optional>
@@ -13,13 +14,13 @@ struct ProbedView {
   int visible_pixels = 0;  // of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
 };
 
-// Looks at the frame from each of the views. Takes the first from which the least visible highlight group shows about
-// as well as from anywhere; a view past the scenery is better than one through it. Without highlight the same for the
-// whole figure, and where there is no scenery, the first of all.
+// Draws the frame from each of the views. Chooses the first view in which the least visible highlight group is about
+// as visible as in any other; views past the scenery are better than views through it. Without highlight it does the
+// same for the whole figure; without scenery too, it takes the first view.
 Result<ProbedView> best_view(Renderer& renderer, const DrawList& list, std::span<const Triangles> meshes,
                              std::span<const View> views);
 
-// For a picture of a frame, whose meshes are set: from the azimuth that is given, else the best of views_of.
+// Chooses the view for a picture of a frame, whose meshes are set: the given azimuth, or else the best of views_of().
 Result<ProbedView> choose_view(Renderer& renderer, const Story& story, const Shots& shots, std::size_t tile,
                                std::optional<double> azimuth_rad);
 

@@ -1,4 +1,4 @@
-// The sky behind a picture and the ground below its figures, each with programs of its own.
+// Draws the sky behind a picture and the ground below its figures, each with its own programs.
 #pragma once
 
 #include "model/core/result.h"
@@ -16,14 +16,14 @@ class Backdrop {
   Backdrop(const Backdrop&) = delete;
   Backdrop& operator=(const Backdrop&) = delete;
 
-  // With the context current, once. Code: render.shader.
+  // Call once, with the context current. Code: render.shader.
   Result<Done> create();
   void destroy();
 
   void draw_sky() const;
-  // The plane where no ground has a shape. Without `show`, its depth alone.
+  // Draws a level plane if the ground has no shape. Without `show` it draws only depth.
   void draw_level(const DrawList& list, const Eye& eye, bool show) const;
-  // Ground with a shape, translucent, with the shadows of the shadow map. Leaves the depth mask off.
+  // Draws ground that has a shape, translucent, with the shadows of the shadow map. Leaves the depth mask off.
   void draw_shaped(const DrawList& list, const Eye& eye) const;
 
  private:

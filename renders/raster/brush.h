@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// An instance may look otherwise than its colour says.
+// The appearance of an instance, which may differ from its own colour.
 struct Paint {
   float alpha = 1.0f;
   float rim = 1.0f;
@@ -24,7 +24,7 @@ class Brush {
   Brush(const Brush&) = delete;
   Brush& operator=(const Brush&) = delete;
 
-  // With the context current, once. Code: render.shader.
+  // Call once, with the context current. Code: render.shader.
   Result<Done> create();
   void destroy();
 
@@ -40,7 +40,7 @@ class Brush {
   }
 
  private:
-  // A program that draws triangles, and where its uniforms are.
+  // A program that draws triangles, and the locations of its uniforms.
   struct Program {
     unsigned id = 0;
     int place = -1, color = -1, rim = -1;

@@ -1,4 +1,4 @@
-// The camera as the shaders want it.
+// The camera in the form that shaders need.
 #pragma once
 
 #include <glm/mat4x4.hpp>

@@ -86,10 +86,11 @@ struct Gl {
 // Codes: render.no_opengl, render.old_opengl.
 Result<Gl> load_gl(GlBackend& backend);
 
-// "4.5 (Core Profile) Mesa 22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)": what pixels depend on.
+// Returns the version and driver on which pixels depend, such as "4.5 (Core Profile) Mesa 22.3.6 on llvmpipe (LLVM
+// 15.0.6, 256 bits)".
 std::string describe_gl(const Gl& gl);
 
-// A program from GLSL text. Code: render.shader, with the driver's log.
+// Makes a program from GLSL text. Code: render.shader, with the driver's log.
 Result<unsigned> make_program(const Gl& gl, const char* vertex_text, const char* fragment_text);
 
 }  // namespace contort

@@ -20,15 +20,15 @@ class GlBackend {
   virtual std::string name() const = 0;
 };
 
-// Software rendering by libOSMesa, OpenGL 3.3 core. Code: render.no_opengl, with the package to install.
+// Renders in software with libOSMesa, OpenGL 3.3 core. Code: render.no_opengl, with the package to install.
 Result<std::unique_ptr<GlBackend>> make_osmesa_backend();
-// The same by libEGL (EGL_MESA_platform_surfaceless), always with Mesa's software driver.
+// Renders with libEGL (EGL_MESA_platform_surfaceless), always with Mesa's software driver. The same code.
 Result<std::unique_ptr<GlBackend>> make_egl_backend();
 
 enum class GlSource { any, osmesa, egl };
 std::optional<GlSource> gl_source(std::string_view name);  // "auto", "osmesa", "egl"
 
-// The one asked for; any: OSMesa, else EGL. Code: render.no_opengl.
+// Makes the requested backend; `any` is OSMesa, else EGL. Code: render.no_opengl.
 Result<std::unique_ptr<GlBackend>> make_gl_backend(GlSource source);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Places and projections as OpenGL wants them: floats, around the camera's centre.
+// Makes transforms and projections for OpenGL: floats, relative to the camera's centre.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -10,10 +10,10 @@ namespace contort {
 
 glm::mat4 float_matrix(const Rigid& place, const Vec3& origin_m);
 
-// From the world around Camera::center_m; `aspect` is width / height.
+// Returns the matrix from world coordinates relative to Camera::center_m to clip space; `aspect` is width / height.
 glm::mat4 clip_matrix(const Camera& camera, double aspect);
 
-// Flattens along the light onto the plane y = height.
+// Returns the matrix that projects along the light onto the plane y = height.
 glm::mat4 shadow_matrix(const Vec3& to_light, double height);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Triangles of all meshes of a picture in one buffer of the GPU.
+// Holds the triangles of all meshes of a picture in one buffer of the GPU.
 #pragma once
 
 #include <span>
@@ -15,11 +15,11 @@ class MeshBuffer {
   MeshBuffer(const MeshBuffer&) = delete;
   MeshBuffer& operator=(const MeshBuffer&) = delete;
 
-  // With the context current, once.
+  // Call once, with the context current.
   void create();
   void destroy();
 
-  // The triangles that mesh numbers mean from now on.
+  // Sets the triangles to which mesh numbers refer from now on.
   void set(std::span<const Triangles> meshes);
   void bind() const;  // what draw() needs, until something else is bound
   void draw(int mesh) const;

@@ -32,17 +32,17 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Version and driver; pictures are the same, byte by byte, only where this is the same.
+  // Returns version and driver. Pictures are equal byte by byte only if these are equal.
   std::string description() const { return describe_gl(gl_); }
 
-  // The triangles that DrawInstance::mesh means from now on.
+  // Sets the triangles to which DrawInstance::mesh refers from now on.
   void set_meshes(std::span<const Triangles> meshes);
 
-  // Codes: render.bad_size, render.framebuffer, render.gl_error.
+  // Draws a picture. Codes: render.bad_size, render.framebuffer, render.gl_error.
   Result<Image> draw(const DrawList& list, const Camera& camera, int width, int height);
 
-  // Pixels, without anti-aliasing, in which each highlight group is seen and not hidden, by scenery neither; index =
-  // group, [0] is unused.
+  // Returns for each highlight group the number of pixels, without anti-aliasing, in which it is visible and not
+  // hidden, also not by scenery; index = group, [0] is unused.
   Result<std::vector<int>> count_visible(const DrawList& list, const Camera& camera, int width, int height);
 
  private:

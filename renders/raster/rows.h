@@ -1,4 +1,4 @@
-// The layout of several motions below one another; see RowsInput.
+// Lays out several motions below one another; see RowsInput.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace contort {
 
-// Codes: those of StripRenderer::render that are about its input.
+// Checks the input. Codes: those of StripRenderer::render about its input.
 Result<Done> check_rows(const RowsInput& input);
 
-// Appends to `warnings` why there is no text, if there is none.
+// Draws the rows. If text cannot be drawn, the reason is appended to `warnings`.
 Result<Image> draw_rows(Renderer& renderer, const RowsInput& input, std::vector<Issue>& warnings);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// The shadow that figures cast on uneven ground: how far from the light the nearest surface is, as a texture.
+// The shadow that figures cast on uneven ground: the distance from the light to the nearest surface, as a texture.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -15,7 +15,7 @@ class ShadowMap {
   ShadowMap(const ShadowMap&) = delete;
   ShadowMap& operator=(const ShadowMap&) = delete;
 
-  // Makes it the place that is drawn to, empty. Code: render.framebuffer.
+  // Clears it and makes it the target of drawing. Code: render.framebuffer.
   Result<Done> use();
   // Makes it the texture that shaders read.
   void bind() const;
@@ -29,8 +29,8 @@ class ShadowMap {
   unsigned texture_ = 0;
 };
 
-// From camera-centred world coordinates to a cube with sides from -1 to 1 around what the camera shows, seen from the
-// light. `to_light` is a unit vector.
+// Returns the matrix from camera-centred world coordinates to a cube with sides from -1 to 1 around the visible
+// scene, seen from the light. `to_light` is a unit vector.
 glm::mat4 light_matrix(const Camera& camera, double aspect, const Vec3& to_light);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// The layout of a film strip: header, tiles, captions.
+// Lays out a film strip: header, tiles, captions.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ class Sheet {
   int picture_height() const { return picture_height(input_); }
   static double picture_aspect(const StripInput& input);
 
-  // The next tile; `complete` false says so in its caption. Gives where its left upper corner is.
+  // Adds the next tile and returns its upper left corner. If `complete` is false, the caption says so.
   struct Corner {
     int x = 0, y = 0;
   };
   Corner add_tile(const Image& picture, int frame, bool complete);
 
-  // Why there is no text, if there is none.
+  // Returns the reason why there is no text, if there is none.
   const std::optional<Issue>& text_issue() const { return text_issue_; }
   Image image() && { return std::move(image_); }
 

@@ -1,4 +1,4 @@
-// Film strips: what a finding looks like, in one picture.
+// Draws film strips: a finding in one picture.
 #pragma once
 
 #include <memory>
@@ -43,7 +43,7 @@ struct StripInput {
   const Skin* skin = nullptr;                // Drawn instead of the parts' meshes.
 };
 
-// Several motions below one another: what one and the same action becomes under different conditions.
+// A row of several motions below one another, such as one action under different conditions.
 struct StripRow {
   Story story;
   std::string label;  // above the row, at its start
@@ -71,7 +71,7 @@ struct StripDone {
 // Draws many strips with one OpenGL context, which costs about as much as a strip. Belongs to one thread at a time.
 class StripRenderer {
  public:
-  // Code: render.no_opengl, and others of Renderer::create.
+  // Creates a renderer. Code: render.no_opengl, and others of Renderer::create.
   static Result<StripRenderer> create(GlSource source = GlSource::any);
   StripRenderer(StripRenderer&&) noexcept;
   ~StripRenderer();
@@ -83,10 +83,10 @@ class StripRenderer {
   // render.gl_error, file.unwritable.
   Result<StripDone> render(const StripInput& input, const std::string& png_path, const std::string& webp_path = "");
 
-  // The finding's worst frame alone, as a strip of one tile: a tile of a contact sheet. The same codes.
+  // Draws only the finding's worst frame, as a strip of one tile: a tile of a contact sheet. The codes of render().
   Result<Image> render_tile(const StripInput& input);
 
-  // Strips, a row for each motion without header and captions, and one camera for all of them.
+  // Draws strips, a row for each motion without header and captions, and one camera for all of them.
   Result<StripDone> render_rows(const RowsInput& input, const std::string& png_path);
 
   std::string description() const;  // OpenGL version and driver.
@@ -97,11 +97,11 @@ class StripRenderer {
   std::unique_ptr<State> state_;
 };
 
-// Pictures of one size beside and below one another, as one PNG. Codes: render.bad_size (none, or more than 1,000),
-// render.png, file.unwritable.
+// Writes pictures of one size beside and below one another, as one PNG. Codes: render.bad_size (none, or more than
+// 1,000), render.png, file.unwritable.
 Result<Done> write_sheet(std::span<const Image> tiles, int columns, const std::string& png_path);
 
-// The same as StripRenderer::render with a context of its own.
+// Calls StripRenderer::render with a context of its own.
 Result<StripDone> render_strip(const StripInput& input, const std::string& png_path);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// An off-screen picture with depth and stencil, and its way into memory.
+// An off-screen picture with depth and stencil that can be read back into memory.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ class Target {
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 
-  // Makes it the place that is drawn to, in this size. Codes: render.bad_size, render.framebuffer.
+  // Makes it the target of drawing, in this size. Codes: render.bad_size, render.framebuffer.
   Result<Done> use(int width, int height);
 
-  // RGBA, 4 bytes per pixel, rows from the bottom (as OpenGL has them).
+  // Returns RGBA, 4 bytes per pixel, rows from the bottom (as in OpenGL).
   const std::vector<std::uint8_t>& read();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// The program has to be in use. Without effect where it has no uniform of that name.
+// Sets a uniform of the program, which must be in use. No effect if it has no uniform of that name.
 void set_matrix(const Gl& gl, unsigned program, const char* name, const glm::mat4& matrix);
 void set_number(const Gl& gl, unsigned program, const char* name, double value);
 void set_vector(const Gl& gl, unsigned program, const char* name, const Vec3& v);

@@ -1,4 +1,4 @@
-// Moving pictures, by libwebp; OpenImageIO writes only still ones.
+// Writes animated pictures with libwebp; OpenImageIO writes only still ones.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace contort {
 
-// An animated WebP that goes on forever. Frames have the first one's size and are shown for so long each. Equal frames
-// give equal bytes with one version of libwebp. Code: render.webp.
+// Returns an animated WebP that loops forever. Frames have the first one's size, and each is shown for the given
+// time. Equal frames give equal bytes with one version of libwebp. Code: render.webp.
 Result<std::string> webp_bytes(std::span<const Image> frames, int milliseconds_per_frame);
 
 }  // namespace contort
