@@ -1,5 +1,6 @@
-// Generator: what is under test. It says what it offers (Manifest, Offers), and turns a Spec into an Execution. The
-// built-in one is generator/built_in.h. Search, checks, corpus, renders and server know this interface alone.
+// A Generator is the system under test. It says what it offers (Manifest, Offers), and turns a Spec into an
+// Execution. The built-in one is generator/built_in.h. Search, checks, corpus, renders and server know only this
+// interface.
 #pragma once
 
 #include <memory>
@@ -35,7 +36,7 @@ struct EventSource {
   bool operator==(const EventSource&) const = default;
 };
 
-// An action as one part of an assembled character can do it.
+// An action as one part of an assembled character can perform it.
 struct OfferedAction {
   std::string name;
   std::string help;
@@ -49,10 +50,10 @@ struct OfferedAction {
   bool operator==(const OfferedAction&) const = default;
 };
 
-// By part of the character; each list in the manifest's order.
+// The offered actions by part of the character; each list is in the manifest's order.
 using Offers = std::vector<std::vector<OfferedAction>>;
 
-// The features that specs may ask for. The fuzzer draws nothing else.
+// The features that specs may ask for. The fuzzer draws no others.
 struct Capabilities {
   bool interrupts = true;
   bool grounds = true;  // other than level
@@ -72,34 +73,35 @@ struct Admission {
   int most_frames = 1;  // >= 1; the motion may be shorter, as where an interrupt never fires
 };
 
-// Not safe to be used by two threads at once: `another` makes one for each.
+// One thread at a time may use a generator; `another` makes one for each thread.
 class Generator {
  public:
   virtual ~Generator() = default;
 
   virtual const Manifest& manifest() const = 0;
 
-  // The actions of a character's parts; it was built from the manifest's library. Valid until the next call.
+  // Returns the actions of a character's parts. The character was built from the manifest's library. Valid until the
+  // next call.
   virtual const Offers& offers(const Character& character) = 0;
 
-  // Refuses a spec with a code and a pointer into it, or says how long its motion can be.
+  // Refuses a spec with a code and a pointer into it, or returns how long its motion can be.
   virtual Result<Admission> admit(const Spec& spec) = 0;
 
-  // Overwrites `execution`, and reuses its memory. Refuses what `admit` refuses, and nothing else: trouble in a motion
-  // is for checks to find, NaN and infinite values too.
+  // Runs a spec. Overwrites `execution` and reuses its memory. It refuses only what `admit` refuses: faults in a
+  // motion, NaN and infinite values included, are for checks to find.
   virtual Result<Done> run(const Spec& spec, Execution& execution) = 0;
 
-  // An equal one, for another thread.
+  // Makes an equal generator for another thread.
   virtual std::unique_ptr<Generator> another() const = 0;
 
-  // An equal one with other descriptions, which must outlive it. Codes action.* where it cannot use them.
+  // Makes an equal generator with other descriptions, which must outlive it. Codes action.* if it cannot use them.
   virtual Result<std::unique_ptr<Generator>> with(const Library& library) const = 0;
 };
 
-// The offered action of that name; nullptr where the part has none.
+// Returns the offered action of that name; nullptr if the part has none.
 const OfferedAction* find_offer(const Offers& offers, int part, std::string_view name);
 
-// Runs into new memory.
+// Runs a spec into new memory.
 Result<Execution> execute(Generator& generator, const Spec& spec);
 
 }  // namespace contort

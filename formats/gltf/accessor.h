@@ -1,4 +1,4 @@
-// Numbers out of accessors: every format, offset, stride and length is checked before a byte is read.
+// Reads numbers from accessors. Every format, offset, stride and length is checked before a byte is read.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,18 @@ class AccessorReader {
  public:
   explicit AccessorReader(const tinygltf::Model& model) : model_(model) {}
 
-  // Elements of an accessor, and whether it has bytes of its own; without, it is all zeros. The index must be valid;
-  // anything else may be wrong with the accessor.
+  // Returns the number of elements of an accessor, and whether it has its own bytes; without, it is all zeros. The
+  // index must be valid; anything else may be wrong with the accessor.
   std::size_t count(int accessor) const;
   bool has_data(int accessor) const;
 
-  // The first `count` elements (at most all), component by component, all finite. 32-bit floats; where
+  // Reads the first `count` elements (at most all), component by component, all finite: 32-bit floats and, with
   // `normalized_integers`, also integers that stand for [-1, 1]. Codes gltf.bad_accessor, .bad_index, .truncated,
   // .not_finite, .too_large (see kMaxGltfNumbers).
   Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count, bool normalized_integers = false);
 
-  // All elements of unsigned integers that count something: indices of vertices, numbers of joints. Codes as above, and
-  // gltf.unsupported for sparse ones.
+  // Reads all elements as unsigned integers: indices of vertices, numbers of joints. Codes as above, and
+  // gltf.unsupported for sparse accessors.
   Result<std::vector<int>> read_indices(int accessor, ElementKind kind);
 
  private:

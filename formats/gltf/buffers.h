@@ -1,5 +1,5 @@
-// The bytes behind a document's buffers: the GLB's binary chunk, data: URIs, and files beside the asset. The only code
-// that opens a file because another file says so.
+// Loads the bytes of a document's buffers: the GLB's binary chunk, data: URIs, and files beside the asset. No other
+// code opens a file because another file says so.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ namespace contort {
 struct BufferSource {
   std::span<const std::byte> bin;  // The binary chunk of the GLB.
   bool has_bin = false;
-  // External files may lie here or below, after every symbolic link has been followed. "" allows none.
+  // The folder in or below which external files may lie, after every symbolic link has been followed. "" allows none.
   std::string folder;
 };
 
-// One entry per buffer, exactly byte_length long; empty for a buffer without data, which is an error only where
-// something reads from it. Codes gltf.bad_uri, gltf.missing_file, gltf.truncated, gltf.too_large.
+// Returns one entry for each buffer, exactly byte_length long. It is empty for a buffer without data, which is an
+// error only if something reads from it. Codes gltf.bad_uri, gltf.missing_file, gltf.truncated, gltf.too_large.
 Result<std::vector<std::vector<unsigned char>>> load_buffers(std::span<const BufferRef> buffers,
                                                              const BufferSource& source);
 

@@ -1,4 +1,4 @@
-// The outermost layer: bytes to JSON text and binary chunk. Trusts nothing.
+// The outermost layer: splits bytes into JSON text and binary chunk. It trusts nothing.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct GltfContainer {
 
 bool is_glb(std::span<const std::byte> bytes);
 
-// Views into `bytes`. Codes gltf.truncated, gltf.bad_header, gltf.bad_chunk, gltf.unsupported.
+// Returns views into `bytes`. Codes gltf.truncated, gltf.bad_header, gltf.bad_chunk, gltf.unsupported.
 Result<GltfContainer> split_glb(std::span<const std::byte> bytes);
 
 // Refuses JSON that would exhaust a parser's stack or memory, before any parser sees it. Codes gltf.too_deep,

@@ -1,5 +1,5 @@
-// From tinygltf's structs to ours: nodes first, then skins, then clips. The model has passed check_document, so that
-// its indices are valid, except where said.
+// Converts tinygltf's structs to ours: nodes first, then skins, then clips. The model has passed check_document, so
+// its indices are valid unless stated otherwise.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace contort {
 
-// A 4x4 matrix, column by column, as translation, rotation and scale; a mirroring one gets a negative x scale. False
-// where it is no such product: sheared, or a last row other than 0 0 0 1.
+// Splits a 4x4 matrix, column by column, into translation, rotation and scale; a mirroring matrix gets a negative x
+// scale. Returns false if it is no such product: sheared, or with a last row other than 0 0 0 1.
 bool decompose(std::span<const double> matrix, Trs& out);
 
 // Fills nodes and order. Codes gltf.bad_node, .not_unit, .two_parents, .cycle.

@@ -17,13 +17,14 @@
 
 namespace contort {
 
-// Buffers may be files in the folder of `path` or below it. Codes "gltf.*", with JSON pointers into the glTF document.
+// Reads a file. Buffers may be files in the folder of `path` or below it. Codes "gltf.*", with JSON pointers into the
+// glTF document.
 Result<Asset> read_gltf(const std::string& path);
 
-// A GLB in memory; all of its buffers must be inside. Reads no file.
+// Reads a GLB in memory; all of its buffers must be inside. Opens no file.
 Result<Asset> parse_glb(std::span<const std::byte> bytes);
 
-// The same with skinned meshes and VRM's names of bones, whose faults then are faults of the file too.
+// Reads a file with skinned meshes and VRM's names of bones. Faults in these are then faults of the file, too.
 Result<SkinnedAsset> read_skinned_gltf(const std::string& path);
 Result<SkinnedAsset> parse_skinned_glb(std::span<const std::byte> bytes);
 

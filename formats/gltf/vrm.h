@@ -1,4 +1,4 @@
-// VRM files are glTF with a list of which node is which bone of a person.
+// Reads the humanoid map of VRM files, which are glTF files that name the node of each bone of a person.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace contort {
 
-// Bones ("leftUpperArm") to nodes: extension VRMC_vrm of VRM 1, or VRM of version 0; empty without either. The text has
-// passed check_document. Codes gltf.wrong_type, .bad_index, .too_large.
+// Returns a map from bones ("leftUpperArm") to nodes: from the extension VRMC_vrm of VRM 1, or VRM of version 0;
+// empty without either. The text has passed check_document. Codes gltf.wrong_type, .bad_index, .too_large.
 Result<std::map<std::string, int>> read_humanoid(std::string_view json, std::size_t node_count);
 
 }  // namespace contort

@@ -28,7 +28,7 @@ struct GltfExtras {
 Result<std::vector<std::byte>> write_glb(const Character& character, const Motion& motion, const GltfExtras& extras,
                                          std::optional<int> only_part = {});
 
-// To a file, never half of one. Also code file.unwritable.
+// Writes the .glb to a file, never half of one. Also code file.unwritable.
 Result<Done> save_glb(const std::string& path, const Character& character, const Motion& motion,
                       const GltfExtras& extras, std::optional<int> only_part = {});
 

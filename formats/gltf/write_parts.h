@@ -21,10 +21,10 @@ int add_floats(tinygltf::Model& model, std::span<const float> values, std::size_
                int target = 0);
 int add_indices(tinygltf::Model& model, std::span<const std::uint32_t> indices);
 
-// Meshes with their materials, each on its joint's node. Nodes must be there.
+// Adds meshes with their materials, each to its joint's node. The nodes must exist.
 void add_meshes(tinygltf::Model& model, const Character& character);
 
-// The animation; of one part alone where it is given.
+// Adds the animation; if a part is given, of that part only.
 Result<Done> add_motion(tinygltf::Model& model, const Character& character, const Motion& motion,
                         std::optional<int> only_part);
 

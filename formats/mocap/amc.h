@@ -1,4 +1,4 @@
-// AMC (Acclaim motion capture): the numbers of a motion, for the degrees of freedom of an ASF skeleton.
+// Reads AMC (Acclaim motion capture): the numbers of a motion, for the degrees of freedom of an ASF skeleton.
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ namespace contort {
 Result<AmcMotion> read_amc(const std::string& path, const AsfSkeleton& skeleton);
 Result<AmcMotion> parse_amc(std::string_view text, const AsfSkeleton& skeleton);
 
-// As nodes and one clip, in the skeleton's unit of length. A node is where its bone begins; at rest nothing is turned,
-// and in motion a bone turns by C * R * C^-1, with C the bone's axis and R the product of its degrees of freedom. Bones
-// that stretch ("l") keep their length here. `rate_hz` > 0: an AMC file does not say it.
+// Converts a motion to nodes and one clip, in the skeleton's unit of length. A node is where its bone begins. At rest
+// nothing is turned; in motion a bone turns by C * R * C^-1, with C the bone's axis and R the product of its degrees
+// of freedom. Bones that stretch ("l") keep their length here. `rate_hz` > 0 is needed because an AMC file does not
+// state it.
 Asset to_asset(const AsfSkeleton& skeleton, const AmcMotion& motion, double rate_hz, const std::string& clip_name);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// No motion capture file may hold more. All limits are checked before memory is taken for them. The largest of the
-// files that the tests read has 2.1 MB, 142 nodes and 264 000 numbers.
+// The limits of a motion capture file. They are checked before memory is allocated. The largest of the files that the
+// tests read has 2.1 MB, 142 nodes and 264 000 numbers.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,13 @@ inline constexpr int kMaxMocapNodes = 16'384;
 inline constexpr int kMaxMocapDepth = 1024;  // Joints within joints. Nothing recurses; it only keeps poses affordable.
 inline constexpr std::size_t kMaxMocapNameBytes = 1024;
 inline constexpr std::int64_t kMaxMocapNumbers = std::int64_t{8} << 20;  // Frames times channels.
-// Frames times what is turned or moved. A key and its speed take up to 130 bytes, however few numbers it is made from.
+// The limit for frames times turned or moved joints. A key and its speed take up to 130 bytes, however few numbers it
+// is made from.
 inline constexpr std::int64_t kMaxMocapKeys = std::int64_t{3} << 20;
-// Degrees. A joint that turns 10 000 times is a fault of the file, and sines of large angles lose their digits.
+// The limit for angles, in degrees. A joint that turns 10 000 times is a fault of the file, and sines of large angles
+// lose their digits.
 inline constexpr double kMaxMocapAngle_deg = 3'600'000.0;
-// Lengths, in the file's unit: what is larger overflows as soon as it is squared.
+// The limit for lengths, in the file's unit: the square of a larger one overflows.
 inline constexpr double kMaxMocapLength = 1e100;
 inline constexpr double kMaxMocapDirection = 1e6;  // A bone's direction, by which its length is multiplied; mostly 1.
 

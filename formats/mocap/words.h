@@ -1,6 +1,7 @@
-// The words, numbers and lines of the text formats of motion capture. Locale-independent, never beyond the text.
+// Reads the words, numbers and lines of the text formats of motion capture. It does not depend on the locale, and
+// never reads beyond the text.
 //
-// The first fault stays: from then on there are no more words, so that loops end and callers ask ok() once.
+// The first fault stays: after it there are no more words, so that loops end and callers call ok() once.
 #pragma once
 
 #include <string>
@@ -39,7 +40,7 @@ class MocapWords {
   void fail(std::string_view code, std::string text);  // At the line of the last word that was taken.
   const Issue& issue() const { return issue_; }
 
-  // So far nothing is wrong and the next word is not the end of the text; for loops.
+  // Returns true if there was no fault and the next word is not the end of the text; for loops.
   bool has_more() { return !peek().empty(); }
   std::size_t bytes_left() const { return text_.size() - at_; }
 
@@ -55,13 +56,13 @@ class MocapWords {
   Issue issue_;
 };
 
-// Equal but for the case of ASCII letters.
+// Returns true if two words are equal, ignoring the case of ASCII letters.
 bool is_same_word(std::string_view a, std::string_view b);
 
-// For messages: in quotes, bounded, without control characters.
+// Returns a word for messages: in quotes, with limited length, without control characters.
 std::string quoted_word(std::string_view word);
 
-// The file's text, under the limits of limits.h. Codes <area>.unreadable, <area>.too_large, <area>.wrong_kind.
+// Reads the file's text, within the limits of limits.h. Codes <area>.unreadable, <area>.too_large, <area>.wrong_kind.
 Result<std::string> read_mocap_text(const std::string& path, const std::string& area);
 
 }  // namespace contort

@@ -54,7 +54,7 @@ struct AssetChannel {
   bool operator==(const AssetChannel&) const = default;
 };
 
-// Numbers in a row of AssetChannel::values.
+// Returns how many numbers a row of AssetChannel::values has.
 inline std::size_t row_size(ChannelPath path) { return path == ChannelPath::rotation ? 4 : 3; }
 
 struct AssetClip {

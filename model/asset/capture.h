@@ -1,5 +1,5 @@
-// Motion capture with declared limits, as ASF and AMC files have it: bones with degrees of freedom and, unlike other
-// formats, the limits that whoever made the skeleton declared for them.
+// Motion capture with declared limits, as in ASF and AMC files: bones with degrees of freedom and, unlike in other
+// formats, the limits that the maker of the skeleton declared for them.
 #pragma once
 
 #include <array>
@@ -32,7 +32,8 @@ struct AsfBone {
   Vec3 direction{0.0};      // From the bone's beginning to its end, in the global frame of the rest pose.
   double length = 0.0;      // In the file's unit; 0 for the root.
   Quat axis = kNoRotation;  // C: global_from_bone at rest. Degrees of freedom turn about the axes of this frame.
-  // In which order rotations are applied, 0 for x: {0, 1, 2} turns about x first, so that the product is Rz * Ry * Rx.
+  // The order in which rotations are applied, 0 for x: {0, 1, 2} turns about x first, so that the product is Rz * Ry
+  // * Rx.
   std::array<int, 3> turn_order = {0, 1, 2};
   std::vector<AsfDof> dofs;  // In the order of the AMC's numbers.
   bool operator==(const AsfBone&) const = default;

@@ -1,4 +1,4 @@
-// Names as files have them, and labels that tell nodes and clips apart.
+// Makes unique labels for nodes and clips from the names in a file.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace contort {
 
-// A name of its own for each: the name, or "<name>#<index>" where that is empty or stands more than once. Then none of
-// the equal names keeps it, so that a label never means another node than the name did.
+// Returns a unique label for each name: the name itself, or "<name>#<index>" if it is empty or occurs more than once.
+// In the second case none of the equal names keeps it, so that a label never means another node than the name did.
 std::vector<std::string> unique_labels(std::span<const std::string> names);
 
 }  // namespace contort

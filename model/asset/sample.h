@@ -1,4 +1,4 @@
-// Clips in time: values between keys, whole poses, and how fast joints turn.
+// Samples clips: values between keys, whole poses, and the speeds of joints.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,13 @@
 
 namespace contort {
 
-// The channel's value at a time; before the first key and after the last one, theirs. Linear rotations take the shorter
-// arc, splines are normalised, both by the glTF standard (appendix C). The channel must be a rotation, or none.
+// Returns the channel's value at a time; before the first key and after the last one, the value of that key. Linear
+// rotations take the shorter arc, and splines are normalised, both by the glTF standard (appendix C). The channel
+// must be a rotation, or none.
 Quat sample_rotation(const AssetChannel& channel, double t_s);
 Vec3 sample_vector(const AssetChannel& channel, double t_s);
 
-// parent_from_node of every node, in the asset's order of nodes: at rest, except where the clip moves it.
+// Returns parent_from_node of every node, in the asset's order of nodes: at rest, except where the clip moves it.
 std::vector<Trs> pose(const Asset& asset, const AssetClip& clip, double t_s);
 
 struct SpeedInterval {
@@ -25,15 +26,16 @@ struct SpeedInterval {
 struct ChannelSpeeds {
   int channel = 0;  // Index into the clip.
   int node = 0;
-  // One for each pair of neighbouring keys. For STEP channels, which jump, this is the speed of a joint that would use
-  // all the time between the keys.
+  // The speeds between each pair of neighbouring keys. For STEP channels, which jump, this is the speed of a joint
+  // that would use all the time between the keys.
   std::vector<SpeedInterval> between_keys;
-  // Splines may turn faster inside than the keys tell: eight parts of each interval. Empty for other interpolations.
+  // The speeds in eight parts of each interval, because splines may turn faster inside than between the keys. Empty
+  // for other interpolations.
   std::vector<SpeedInterval> within_keys;
   bool operator==(const ChannelSpeeds&) const = default;
 };
 
-// One entry per rotation channel, in the clip's order.
+// Returns one entry for each rotation channel, in the clip's order.
 std::vector<ChannelSpeeds> joint_speeds(const AssetClip& clip);
 
 }  // namespace contort

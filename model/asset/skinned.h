@@ -1,4 +1,4 @@
-// A rigged model with the skinned meshes that move with it: what an import makes a character of.
+// A rigged model with the skinned meshes that move with it: the input of an import.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Actions of a user's own, from files: key poses, and built-in rules with other values. What they mean is in
-// docs/own_actions.md; generator/actions makes Actions of them for the parts that they are for.
+// Descriptions of a user's own actions from files: key poses, variants of built-in actions, and scripts.
+// docs/own_actions.md explains them; generator/actions makes Actions of them for their parts.
 #pragma once
 
 #include <map>

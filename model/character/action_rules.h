@@ -1,5 +1,5 @@
-// The fields of an action file must satisfy these rules together, beyond the limits of each and as far as no part is
-// looked at.
+// Checks the rules that the fields of an action file must satisfy together, beyond the limits of each field, as far
+// as they do not depend on a part.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace contort {
 
-// Codes action.no_part, .no_rule, .two_rules, .bad_key, .bad_params, with pointers into the file.
+// Checks an action. Codes action.no_part, .no_rule, .two_rules, .bad_key, .bad_params, with pointers into the file.
 Result<Done> check_action(const ActionDesc& action);
 
-// The part or kind for which two actions of one name would both be meant; "" where there is none.
+// Returns the part or kind for which two actions of one name would conflict; "" if there is none.
 std::string clash(const ActionDesc& a, const ActionDesc& b);
 
 }  // namespace contort

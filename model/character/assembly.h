@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// A whole character has no more joints. Every pair of colliders is looked at: 523,776 at most.
+// The limits of a whole character. Every pair of colliders is examined: 523,776 at most.
 inline constexpr std::size_t kMaxCharacterJoints = 1024;
 inline constexpr std::size_t kMaxCharacterColliders = 1024;
 
@@ -35,7 +35,7 @@ void add_part(Assembly& assembly, const SlotDesc& slot, const PartDesc& part, co
 // Adds an attached object, fixed to a dock.
 void add_object(Assembly& assembly, const ObjectDesc& object, const Dock& dock);
 
-// The colliders of an assembly make bodies; the plan lists these and the pairs of them that are judged.
+// The bodies that the colliders of an assembly form, and the judged pairs of them.
 struct CollisionPlan {
   std::vector<Body> bodies;
   std::vector<AllowedPair> allowed;
@@ -50,10 +50,10 @@ std::vector<Body> group_colliders(Assembly& assembly);
 CollisionPlan plan_collisions(const Assembly& assembly, std::vector<Body> bodies,
                               const std::vector<AllowedPair>& by_user);
 
-// Over everything that can change a motion or a finding.
+// Returns a hash over everything that can change a motion or a finding.
 std::uint64_t hash_of(const Character& character);
 
-// -1 where there is none.
+// Returns the index of a socket; -1 if there is none.
 int find_socket(const Assembly& assembly, const std::string& name);
 
 }  // namespace contort

@@ -50,10 +50,10 @@ struct Joint {
   Mat3 inertia_kg_m2{0.0};     // about the centre of mass, axes of the joint's frame
 };
 
-// 1 for hinges and prismatic joints, 4 for balls, 0 for the root.
+// Returns the number of coordinates of a joint: 1 for hinges and prismatic joints, 4 for balls, 0 for the root.
 int coord_size(JointKind kind);
 
-// The rate of such a joint has so many numbers: 6 for the root, 3 for balls, else 1.
+// Returns the number of components of a joint's rate: 6 for the root, 3 for balls, else 1.
 int freedom_count(JointKind kind);
 
 struct Collider {
@@ -124,7 +124,7 @@ struct Part {
   std::vector<FacingChain> facing;
 };
 
-// Two colliders whose contact is no fault, and why.
+// Two colliders whose contact is no fault, and the reason.
 struct AllowedPair {
   int a = 0;  // collider indices, a < b
   int b = 0;
@@ -166,15 +166,15 @@ class Character {
   // World placement of the root at rest: upright at the origin with the lowest collider point at height 0.
   const Rigid& rest_root() const { return rest_root_; }
 
-  // Actions of files that are for one of the parts, in the library's order.
+  // The actions from files that apply to one of the parts, in the library's order.
   std::span<const ActionDesc> actions() const { return actions_; }
 
-  // As its description declares them; empty: dynamics finds groups from the parts.
+  // The control groups that its description declares. If empty, dynamics finds groups from the parts.
   std::span<const JointGroup> control_groups() const { return control_groups_; }
 
   std::span<const Region> regions() const { return regions_; }
 
-  // Over everything that can change a motion or a finding; cases store it.
+  // A hash over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
 
   int find_part(std::string_view slot) const;  // -1 where there is none; so are the next ones
@@ -204,10 +204,10 @@ class Character {
   std::uint64_t hash_ = 0;
 };
 
-// The part that carries this one; the root part for itself.
+// Returns the part that carries this one; the root part for itself.
 int carrier_of(const Character& character, int part);
 
-// Whether an action's file names the part or its kind.
+// Returns true if an action's file names the part or its kind.
 bool is_for(const ActionDesc& action, const Part& part);
 
 // Assembles a character. Codes character.unknown_character, .unknown_slot, .unknown_part, .wrong_kind, .unknown_socket,

@@ -1,4 +1,4 @@
-// Mass properties of rigid bodies, and how fixed bodies become one.
+// Mass properties of rigid bodies, and their combination when bodies are fixed to each other.
 #pragma once
 
 #include "model/core/math.h"
@@ -14,10 +14,10 @@ struct BodyInertia {
 
 BodyInertia principal_inertia(double mass_kg, const Vec3& center_m, const Vec3& moments_kg_m2);
 
-// The same body seen from frame a.
+// Returns the properties of the body in frame a.
 BodyInertia moved(const Rigid& a_from_b, const BodyInertia& body_b);
 
-// Two bodies of one frame, fixed to each other (parallel-axis theorem).
+// Returns the properties of two bodies of one frame that are fixed to each other (parallel-axis theorem).
 BodyInertia merged(const BodyInertia& first, const BodyInertia& second);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// All descriptions by name: the stock ones, which are compiled in, and those of a user's folder.
+// A library of all descriptions by name: the stock ones, which are compiled in, and those of a user's folders.
 #pragma once
 
 #include <map>
@@ -22,21 +22,22 @@ struct Library {
   std::map<std::string, std::shared_ptr<const Asset>> recordings;  // animations, by file name without ending
 };
 
-// `human`, `mech` and `quadruped`. Built once; always there, without any file.
+// Returns the library with `human`, `mech` and `quadruped`. It is built once and needs no files.
 const Library& stock_library();
 
-// Adds every *.json of `folder` (parts, objects, characters, actions, told apart by their "format") to `into`. A name that
-// is there already is an error: a file never silently changes what a stored case means. Only an action may have the name
-// of another, for other parts. Whether parts can do it is for check_actions (generator/actions) to say.
+// Adds every *.json of `folder` (parts, objects, characters, actions, recognised by their "format") to `into`. A name
+// that exists already is an error: a file never changes the meaning of a stored case. Only an action may have the
+// name of another, for other parts. check_actions (generator/actions) tells whether the parts can perform it.
 Result<Done> load_folder(const std::string& folder, Library& into);
 
-// One description from JSON text; codes "part.*", "object.*", "character.*", "action.*", "json.*".
+// Reads one description from JSON text. Codes "part.*", "object.*", "character.*", "action.*", "json.*".
 Result<PartDesc> parse_part(std::string_view json);
 Result<ObjectDesc> parse_object(std::string_view json);
 Result<CharacterDesc> parse_character(std::string_view json);
 Result<ActionDesc> parse_action(std::string_view json);
 
-// Indented text: sorted keys, defaults left out, shortest numbers that read back to the same bits.
+// Prints a description as indented text: sorted keys, defaults left out, shortest numbers that read back to the same
+// bits.
 std::string print_part(const PartDesc& part);
 std::string print_object(const ObjectDesc& object);
 std::string print_character(const CharacterDesc& character);

@@ -1,4 +1,4 @@
-// The surface of a convex hull: corners, flat faces and edges, found once when something is built.
+// The surface of a convex hull: corners, flat faces and edges, computed once when something is built.
 #pragma once
 
 #include <array>
@@ -34,11 +34,12 @@ struct Polyhedron {
   bool operator==(const Polyhedron&) const = default;
 };
 
-// Points that lie within a face or an edge, or inside, are no corners. Without faces where the points span no solid:
-// fewer than four, in one plane, or so nearly that doubles cannot tell. At most kMaxHullPoints points.
+// Returns the hull of the points. Points within a face or an edge, or inside, are no corners. It has no faces if the
+// points span no solid: fewer than four, in one plane, or so nearly in one plane that doubles cannot tell. At most
+// kMaxHullPoints points.
 Polyhedron convex_polyhedron(std::span<const Vec3> points_m);
 
-// Why the points cannot be a ConvexHull; "" where they can.
+// Returns the reason why the points cannot be a ConvexHull; "" if they can.
 std::string hull_fault(std::span<const Vec3> points_m);
 
 Polyhedron moved(const Rigid& to_from_own, Polyhedron solid);

@@ -1,4 +1,4 @@
-// Solid shapes: what collides and what is drawn.
+// Solid shapes, for collisions and for drawing.
 #pragma once
 
 #include <variant>
@@ -47,7 +47,7 @@ using MeshShape = std::variant<Sphere, Capsule, Box, ConvexHull, TriangleMesh>;
 ColliderShape mirrored(const ColliderShape& shape);
 MeshShape mirrored(const MeshShape& shape);
 
-// The same shape, to be drawn.
+// Returns the same shape for drawing.
 MeshShape as_mesh(const ColliderShape& shape);
 
 // The shape's triangles, flat shaded: three consecutive entries are one triangle, with its outward normal each.

@@ -1,5 +1,5 @@
-// A character may wear the model that it was imported from, as this says: skins/NAME.json beside the files of character
-// NAME, and the model next to it. Only pictures read it; a figure without it is drawn as its parts say.
+// The description of a character's skin: the model that it was imported from. It is skins/NAME.json beside the files
+// of character NAME, with the model next to it. Only pictures read it; a figure without it is drawn from its parts.
 #pragma once
 
 #include <map>
@@ -19,7 +19,8 @@ struct SkinDesc {
   bool operator==(const SkinDesc&) const = default;
 };
 
-// {"format": "contort.skin/1", "model": "knight.glb", "joints": {"Hips": "root", …}}. Codes json.*, skin.*.
+// Parses a text such as {"format": "contort.skin/1", "model": "knight.glb", "joints": {"Hips": "root", …}}. Codes
+// json.*, skin.*.
 Result<SkinDesc> parse_skin(std::string_view text);
 
 std::string print_skin(const SkinDesc& skin);

@@ -1,5 +1,6 @@
-// Lane one of three for trouble: a mistake of ours. Bad input is an Issue (result.h); a fault in the animation is a
-// Finding (checks). Asserts are alive in every build preset except `release`, where the expression is not evaluated.
+// CONTORT_ASSERT is for mistakes of our own code, one of three kinds of errors. Bad input is an Issue (result.h); a
+// fault in the animation is a Finding (checks). Asserts are active in every build preset except `release`, in which
+// the expression is not evaluated.
 #pragma once
 
 #ifdef CONTORT_ASSERTS

@@ -1,4 +1,4 @@
-// Bytes as text (RFC 4648, section 4), for data inside of JSON.
+// Encodes bytes as text (RFC 4648, section 4), for data inside of JSON.
 #pragma once
 
 #include <cstddef>

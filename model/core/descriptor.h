@@ -1,4 +1,4 @@
-// A file descriptor that is closed when its owner is done with it, and all bytes written through one.
+// A file descriptor that is closed when its owner is destroyed, and a function that writes all bytes to one.
 #pragma once
 
 #include <string_view>
@@ -19,14 +19,14 @@ class Descriptor {
   // Hands the descriptor over to the caller, who closes it.
   int release();
 
-  // False where the system reports an error of an earlier write only now; errno says which.
+  // Returns false if the system reports an error of an earlier write only now; errno has the reason.
   bool close();
 
  private:
   int number_;
 };
 
-// Writes all bytes, however many calls that takes. False where that fails; errno says why.
+// Writes all bytes, with as many calls as needed. Returns false if that fails; errno has the reason.
 bool write_all(int descriptor, std::string_view bytes);
 
 }  // namespace contort

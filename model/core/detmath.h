@@ -17,7 +17,7 @@ struct SinCos {
 // |error| <= 5e-16 for |x| <= 1e4 rad. Beyond 1e9 rad, and for infinities and NaN, both are NaN: an angle that
 // large is a fault to be found, not to be folded quietly.
 SinCos sincos(double x_rad);
-// The same of each angle, bit for bit, in less time.
+// Computes sincos of each angle, with the same bits and in less time.
 void sincos(std::span<const double> x_rad, std::span<SinCos> out);
 double sin(double x_rad);
 double cos(double x_rad);

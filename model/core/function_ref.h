@@ -9,7 +9,7 @@ namespace contort {
 template <class Signature>
 class FunctionRef;
 
-// The function must outlive the reference: pass a lambda that has a name, or one that is made in the same call.
+// The function must outlive the reference: pass a named lambda, or one that is made in the same call.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -25,12 +25,12 @@ class Hash64 {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
-// 16 lower-case hex digits, and back. from_hex answers false where the text is anything else.
+// Converts a hash to 16 lower-case hex digits, and back. from_hex returns false for any other text.
 std::string to_hex(std::uint64_t value);
 bool from_hex(std::string_view text, std::uint64_t& value);
 
-// Name of a text by its content: 32 hex digits of XXH3 128 (xxhash). Not cryptographic: it names files, it proves
-// nothing about who wrote them.
+// Returns the name of a text by its content: 32 hex digits of XXH3 128 (xxhash). It is not cryptographic: it names
+// files, and proves nothing about who wrote them.
 std::string content_id(std::string_view text);
 
 }  // namespace contort

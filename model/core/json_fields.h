@@ -50,7 +50,7 @@ struct Rule {
   bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none
 };
 
-// The place where the reader stands, and the first thing that it could not accept.
+// The reader's present position in the document, and the first value that it could not accept.
 class ReadContext {
  public:
   explicit ReadContext(std::string_view area) : area_(area) {}
@@ -66,15 +66,15 @@ class ReadContext {
   Issue issue_;
 };
 
-// JSON text to a tree: size, depth and number of values bounded, duplicate keys refused. Codes json.syntax, .too_large,
-// .too_deep, .duplicate_key.
+// Parses JSON text to a tree. Size, depth and number of values are limited, and duplicate keys are refused. Codes
+// json.syntax, .too_large, .too_deep, .duplicate_key.
 Result<Json> parse_document(std::string_view text);
 
 // Shared by the visitors; the .cpp holds them once instead of in every template.
 std::string kind_of(const Json& value);       // "a text", "a number" … for messages
 std::string quoted(const std::string& text);  // for messages: bounded, without control characters
 std::string shortest(double value);           // as JSON writes it
-// On one line; bytes that are not UTF-8 become the replacement character.
+// Returns the value on one line; bytes that are not UTF-8 become the replacement character.
 std::string compact_text(const Json& value);
 bool read_number(const Json& in, const Rule& rule, double& out, ReadContext& context);
 bool read_integer(const Json& in, const Rule& rule, int& out, ReadContext& context);
@@ -196,7 +196,7 @@ struct Codec<std::vector<T>> {
   }
 };
 
-// Keys are what is written as a text.
+// A map; its keys are types that are written as text.
 template <class K, class T>
 struct Codec<std::map<K, T>> {
   static void read(const Json& in, const Rule& r, std::map<K, T>& out, ReadContext& c) {
@@ -366,7 +366,7 @@ struct Codec<std::variant<Ts...>> {
 
 // ---- whole documents
 
-// Fields that the text does not have are as in `value`.
+// Reads a document; fields that the text does not have keep their values in `value`.
 template <class S>
 Result<S> read_document(std::string_view text, std::string_view area, S value = {}) {
   const Result<Json> tree = parse_document(text);
@@ -377,13 +377,13 @@ Result<S> read_document(std::string_view text, std::string_view area, S value = 
   return value;
 }
 
-// Canonical text: keys sorted by byte, no spaces, shortest numbers that read back to the same bits.
+// Prints canonical text: keys sorted by byte, no spaces, shortest numbers that read back to the same bits.
 template <class S>
 std::string write_canonical(const S& value) {
   return Codec<S>::write(value, Rule{}).dump();
 }
 
-// The same value for people: indented.
+// Prints the value for people: indented.
 template <class S>
 std::string write_pretty(const S& value) {
   return Codec<S>::write(value, Rule{}).dump(2) + "\n";

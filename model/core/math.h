@@ -1,5 +1,5 @@
-// The vocabulary of space. Metres and radians; right-handed, +Y up, +Z forward, +X to the character's left (glTF).
-// A name such as `world_from_hand` maps hand coordinates to world coordinates, so that products read as a chain:
+// The types for space. Metres and radians; right-handed, +Y up, +Z forward, +X to the character's left (glTF). A name
+// such as `world_from_hand` maps hand coordinates to world coordinates, so that products read as a chain:
 // world_from_hand = world_from_arm * arm_from_hand.
 #pragma once
 
@@ -42,7 +42,7 @@ inline double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 // A rotation in a row of coordinates: w, x, y, z.
 inline Quat quat_at(const double* q) { return {q[0], q[1], q[2], q[3]}; }
 
-// The unit vector along v, or `fallback` where v is too short to have a direction (length below 1e-12).
+// Returns the unit vector along v, or `fallback` if v is too short to have a direction (length below 1e-12).
 Vec3 unit_or(const Vec3& v, const Vec3& fallback);
 
 // Any unit vector at a right angle to the unit vector u; a continuous choice almost everywhere.
@@ -65,23 +65,24 @@ double angle_towards(const Vec3& axis, const Vec3& v, const Vec3& direction);
 // perpendicular when they are opposite.
 Quat shortest_arc(const Vec3& from, const Vec3& to);
 
-// From 0 to 1 with neither speed nor acceleration at its ends, as hands go from place to place (Flash and Hogan, The
-// coordination of arm movements, J. Neurosci. 5, 1985); u in [0, 1].
+// Rises from 0 to 1 with no speed and no acceleration at both ends, as hands move from place to place (Flash and
+// Hogan, The coordination of arm movements, J. Neurosci. 5, 1985); u in [0, 1].
 inline double minimum_jerk(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
 
 // Spherical interpolation along the shorter arc; t in [0, 1].
 Quat slerp_short(const Quat& a, const Quat& b, double t);
 
-// The nearest multiple of 1 / steps_per_unit. By division, so that the result is the double that prints shortest.
+// Returns the nearest multiple of 1 / steps_per_unit. It divides, so that the result is the double that prints
+// shortest.
 inline double on_lattice(double value, double steps_per_unit) {
   return std::floor(value * steps_per_unit + 0.5) / steps_per_unit + 0.0;  // -0 becomes 0
 }
 
-// The same angle in [-pi, pi).
+// Returns the angle wrapped to [-pi, pi).
 inline double wrap_angle(double angle) { return angle - 2.0 * kPi * std::floor((angle + kPi) / (2.0 * kPi)); }
 
-// Reflection in the plane x = 0 (left and right change places). Rotations and axes are axial vectors: they keep x and
-// turn y and z over.
+// Reflects in the plane x = 0 (left and right change places). Rotations and axes are axial vectors: they keep x and
+// negate y and z.
 inline Vec3 mirror_point(const Vec3& p) { return {-p.x, p.y, p.z}; }
 inline Vec3 mirror_axis(const Vec3& a) { return {a.x, -a.y, -a.z}; }
 inline Quat mirror_rotation(const Quat& q) { return Quat(q.w, q.x, -q.y, -q.z); }

@@ -1,4 +1,5 @@
-// Folders that a user names for a program to fill: none that holds somebody's other files is filled by mistake.
+// Checks folders that a user names for a program to fill, so that no folder with somebody's other files is filled by
+// mistake.
 #pragma once
 
 #include <string>
@@ -7,8 +8,9 @@
 
 namespace contort {
 
-// Code folder.other_files where the folder holds files, hidden ones aside, and `is_ours` says that they are not of the
-// kind that is to be added to: `kind` is that kind, "a corpus". A new folder and an empty one are fine.
+// Code folder.other_files if the folder has files other than hidden ones, and `is_ours` is false, which means that
+// they are not of the kind that may be added to. `kind` names that kind, such as "a corpus". A new or empty folder is
+// accepted.
 Result<Done> check_own_folder(const std::string& folder, bool is_ours, const std::string& kind);
 
 }  // namespace contort

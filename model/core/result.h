@@ -1,5 +1,5 @@
-// Lane two of three for trouble: bad input (a file, a flag, a spec). Never an abort, never an exception across a
-// header.
+// Result is for bad input (a file, a flag, a spec), one of three kinds of errors (assert.h). Bad input never aborts,
+// and never throws across a header.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// Why an input was refused.
+// The reason why an input was refused.
 struct Issue {
   std::string code;     // "spec.unknown_action": stable, lower case, area first. Scripts and tests use it.
   std::string pointer;  // JSON pointer (RFC 6901) into the input, "/sequences/0/clips/1"; "" is the whole input.

@@ -28,24 +28,24 @@ struct Solid {
 Solid solid_of(const ColliderShape& shape);
 Solid solid_of(const Collider& collider);  // in the frame of its joint
 Solid moved(const Rigid& to_from_own, const Solid& solid);
-// The same into `placed`, a copy of `solid` that was moved before: only what moves is written.
+// Moves `placed`, which is an already moved copy of `solid`; writes only the fields that change.
 void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 
 // The extent of a solid from its centre along the unit vector n.
 double extent_along(const Solid& solid, const Vec3& n);
 
-// The gap from a to b along the unit vector n: no more than their signed distance, whatever n.
+// Returns the gap from a to b along the unit vector n. It is never greater than their signed distance.
 double gap_along(const Solid& a, const Solid& b, const Vec3& n);
 
-// The direction in which b must move to get away from a fastest, about: of their nearest points, or of the shortest way
-// out. For bounds, which any direction gives.
+// Returns the approximate direction in which b must move to get away from a fastest: that of their nearest points, or
+// of the shortest way out. For bounds, for which any direction is valid.
 Vec3 way_out(const Solid& a, const Solid& b);
 
-// Signed distance in metres. Where it is greater than `band_m`, any number in (band_m, true distance] may come back
-// instead: far apart is far apart. NaN coordinates give NaN.
+// Returns the signed distance in metres. If it is greater than `band_m`, the result may be any number in (band_m,
+// true distance]. NaN coordinates give NaN.
 double signed_distance(const Solid& a, const Solid& b, double band_m);
 
-// The same, with the way_out where it costs nothing, and 0 where it would: of hulls, of what has no place, and of round
+// Also returns the way_out if it costs nothing, and 0 if it would: for hulls, for NaN coordinates, and for round
 // solids whose cores cross. Beyond the band it is any direction along which they are that far apart.
 double signed_distance(const Solid& a, const Solid& b, double band_m, Vec3& way);
 

@@ -1,5 +1,5 @@
-// Signed distances of spheres and capsules, several pairs in each instruction. What is found is bit for bit what
-// signed_distance finds: the lanes do its operations in its order, and none is fused.
+// Measures signed distances of spheres and capsules, several pairs in each instruction. The result has the same bits
+// as signed_distance: the lanes do its operations in its order, and none is fused.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ struct RoundKernel {
   void (*measure)(const Solid* solids, std::span<const ColliderPair> pairs, double* distances_m);
 };
 
-// Those that this machine can run, the fastest last.
+// The kernels that this machine can run, the fastest last.
 std::span<const RoundKernel> round_kernels();
 
 // signed_distance of each pair of `solids`, whose cores are points and segments, without a band.

@@ -1,4 +1,4 @@
-// Distance of two segments, which capsules and the edges of polyhedra share.
+// Computes the distance of two segments, for capsules and the edges of polyhedra.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ inline ClosestOnSegments closest_on_segments(const Segment& a, const Segment& b)
   return {s, t};
 }
 
-// From the point of b that is nearest to a to the one of a.
+// Returns the vector from the point of b that is nearest to a, to the point of a that is nearest to b.
 inline Vec3 between_segments(const Segment& a, const Segment& b) {
   const ClosestOnSegments at = closest_on_segments(a, b);
   return (a.center - b.center) + at.s * a.axis - at.t * b.axis;

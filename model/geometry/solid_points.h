@@ -1,5 +1,5 @@
-// The points that span a solid's core: what of it is lowest, or farthest in any direction, is one of them plus its
-// radius.
+// Returns the points that span a solid's core. The lowest point of a solid, or its farthest in any direction, is one
+// of them plus the radius.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// One for a point, two for a segment, eight for a box, the corners of a hull.
+// Returns one point for a point, two for a segment, eight for a box, and the corners of a hull.
 std::vector<Vec3> core_points(const Solid& solid);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Execution: what a generator made of a request, and all that a check may see of it.
+// An Execution is the result of a generator for a request, and all that a check may see of it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// An execution may know less than all of the root's path.
+// How much of the root's path an execution knows.
 enum class RootPath : std::uint8_t {
   told,         // all of it
   on_the_spot,  // how high it is; the figure walks without getting anywhere, as clips do that an engine moves

@@ -1,5 +1,5 @@
-// Intent: what was in force when, as the generator itself says it. Checks of promises read this and nothing else of the
-// generator; where there is no intent, they cannot judge.
+// The Intent says what the generator meant, and when. Checks of a generator's promises read it and nothing else of
+// the generator; without an intent they cannot judge.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,8 @@ struct IntendedAction {
   bool operator==(const IntendedAction&) const = default;
 };
 
-// Whether this is a span of this action: an IntendedAction, or a generator's plan of one, with the same four indices.
+// Returns true if this is a span of this action: an IntendedAction, or a generator's plan of one, with the same four
+// indices.
 template <class Action>
 bool is_of(const ActionSpan& span, const Action& action) {
   return span.sequence == action.sequence && span.clip == action.clip && span.action == action.action &&
@@ -54,7 +55,7 @@ struct IntendedSequence {
   bool operator==(const IntendedSequence&) const = default;
 };
 
-// In these frames a point of the figure was to be at another point.
+// A goal: the frames in which a point of the figure was to be at another point.
 struct Goal {
   int first_frame = 0;
   int last_frame = -1;     // inclusive
@@ -65,8 +66,8 @@ struct Goal {
   bool operator==(const Goal&) const = default;
 };
 
-// In these frames a hand takes hold of an object, holds it, or lets go of it: a hand that closes round a thing overlaps
-// it, as rigid bodies have them.
+// A grasp: the frames in which a hand takes hold of an object, holds it, or lets go of it. Rigid fingers that close
+// around an object overlap it.
 struct Grasp {
   int first_frame = 0;
   int last_frame = -1;  // inclusive

@@ -1,4 +1,4 @@
-// Forward kinematics: from coordinates to world transforms.
+// Forward kinematics: computes world transforms from coordinates.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ Rigid joint_motion(const Joint& joint, std::span<const double> row);
 void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
                         std::span<Rigid> world);
 
-// All joints; world[0] = root.
+// Computes the transforms of all joints; world[0] = root.
 void forward_kinematics(const Character& character, const Rigid& root, std::span<const double> row,
                         std::span<Rigid> world);
 

@@ -1,5 +1,5 @@
-// Legs: what stands on the ground. Found by structure, not by name: a part with a reach chain is a leg if it, or a part
-// that hangs on it, has a socket called "sole" (on the ground at rest, +Y up, +Z to the toes).
+// Finds legs by structure, not by name: a part with a reach chain is a leg if it, or a part attached to it, has a
+// socket called "sole" (on the ground at rest, +Y up, +Z to the toes).
 #pragma once
 
 #include <array>
@@ -30,10 +30,10 @@ struct Leg {
   int side = 0;  // 0 left, 1 right
 };
 
-// The socket on which a leg stands, its own or that of a part that hangs on it; -1 where there is none.
+// Returns the socket on which a leg stands, its own or that of a part attached to it; -1 if there is none.
 int find_sole(const Character& character, int leg_part);
 
-// In the order of slots. Legs whose feet are within 10 cm of each other along +Z are one row.
+// Returns the legs in the order of slots. Legs whose feet are within 10 cm of each other along +Z are one row.
 std::vector<Leg> find_legs(const Character& character);
 
 }  // namespace contort

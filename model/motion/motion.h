@@ -1,4 +1,4 @@
-// Motion: what the generator makes of a Spec, frame by frame. A value; flat arrays, row = frame.
+// A Motion is the generator's result for a Spec, frame by frame. It is a value with flat arrays; a row is a frame.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace contort {
 
-// One posture: all coordinates (see Character) and where the root is.
+// One posture: all coordinates (see Character) and the root's transform.
 struct Posture {
   std::vector<double> coords;
   Rigid root;  // world_from_root
   bool operator==(const Posture&) const = default;
 };
 
-// In which frames an action had its layer of a part. Sequences of interrupts are numbered after those of the spec's
-// queue.
+// The frames in which an action controlled its layer of a part. Sequences of interrupts are numbered after those of
+// the spec's queue.
 struct ActionSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
@@ -29,7 +29,7 @@ struct ActionSpan {
   bool operator==(const ActionSpan&) const = default;
 };
 
-// In which frames a sequence ran. In frame f it stood at its own frame first_content + f - first_frame.
+// The frames in which a sequence ran. In frame f it was at its own frame first_content + f - first_frame.
 struct QueueSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive: the frame in which it ended or was cut
@@ -38,7 +38,8 @@ struct QueueSpan {
   bool operator==(const QueueSpan&) const = default;
 };
 
-// In which frames an aim was fully in force: come in, not fading, and nothing else on the parts that it moves.
+// The frames in which an aim was fully in force: blended in, not fading out, with nothing else on the parts that it
+// moves.
 struct AimSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
@@ -65,7 +66,7 @@ struct Stance {
   bool operator==(const Stance&) const = default;
 };
 
-// A blow that struck.
+// An impact that occurred.
 struct ImpactMark {
   int frame = 0;
   int joint = 0;
@@ -109,14 +110,15 @@ struct Motion {
   bool operator==(const Motion&) const = default;
 };
 
-// Hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
+// Returns a hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
 // (docs/determinism.md).
 std::uint64_t motion_hash(const Motion& motion);
 
-// Running hash after each frame, 16 bits each: frame f of two motions differs first where these do.
+// Returns a running hash after each frame, 16 bits each: two motions first differ in the frame in which these do.
 std::vector<std::uint16_t> motion_trace(const Motion& motion);
 
-// First frame at which the traces differ, or -1. Lengths that differ count as a difference at the shorter one's end.
+// Returns the first frame at which the traces differ, or -1. Different lengths count as a difference at the end of
+// the shorter one.
 int first_difference(const Motion& a, const Motion& b);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// Forward kinematics of whole motions, several frames in each instruction. The bits are those of forward_kinematics:
-// the lanes do its operations in its order, and none is fused.
+// Forward kinematics of whole motions, several frames in each instruction. The result has the same bits as
+// forward_kinematics: the lanes do its operations in its order, and none is fused.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace contort {
 // Places frames, several at a time, by the instructions that it is named after.
 struct PlacingKernel {
   const char* name;  // "any" or "AVX2"
-  // As many of the first frames as it can do; says how many. `world` is frame * joint_count + joint.
+  // Places as many of the first frames as it can, and returns how many. `world` is frame * joint_count + joint.
   std::size_t (*place)(const Character& character, const Motion& motion, Rigid* world);
 };
 
-// Those that this machine can run, the fastest last.
+// The kernels that this machine can run, the fastest last.
 std::span<const PlacingKernel> placing_kernels();
 
-// world_from_joint of all joints in all frames: frame * joint_count + joint.
+// Computes world_from_joint of all joints in all frames: frame * joint_count + joint.
 void place_frames(const Character& character, const Motion& motion, std::vector<Rigid>& world,
                   const PlacingKernel& kernel = placing_kernels().back());
 

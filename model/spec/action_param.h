@@ -1,4 +1,4 @@
-// Parameters of actions, as a generator declares them: what a spec may say, what the fuzzer draws, what people read.
+// Parameters of actions, as a generator declares them, for specs, for the fuzzer and for people.
 #pragma once
 
 #include <string>

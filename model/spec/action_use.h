@@ -1,4 +1,4 @@
-// One use of an action: what a spec says about it. Plain values.
+// One use of an action in a spec. Plain values.
 #pragma once
 
 #include <map>

@@ -21,13 +21,13 @@ struct ClipDesc {
   bool operator==(const ClipDesc&) const = default;
 };
 
-// The end of its last action, in frames of its content.
+// Returns the end of the clip's last action, in frames of its content.
 double natural_length(const ClipDesc& clip);
 
-// A natural length where a spec wants this many frames; 0 wants the natural length.
+// Returns the length for a spec that wants this many frames; 0 means the natural length.
 double stretched(double natural, int wanted_frames);
 
-// Frames of its sequence's content: natural or stretched, and at the clip's speed.
+// Returns the clip's length in frames of its sequence's content: natural or stretched, and at the clip's speed.
 double clip_length(const ClipDesc& clip);
 
 // Clips on one time line, stretched as a whole in the same way. Sequences wait in a queue: first in, first out.

@@ -1,4 +1,4 @@
-// The dynamics that a Spec asks for: how the motion is controlled, what is carried, what strikes.
+// The dynamics that a Spec asks for: the control mode, loads, and impacts.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ enum class Mode {
 };
 std::span<const std::string_view> mode_names();  // in the order of the enum
 
-// A box that a part carries and that its target motion does not know of.
+// A box that a part carries, and that the target motion does not know of.
 struct LoadDesc {
   std::string slot;
   std::string socket;           // of that slot's part
@@ -27,7 +27,7 @@ struct LoadDesc {
   bool operator==(const LoadDesc&) const = default;
 };
 
-// A blow: an impulse on a point of a part, in no time.
+// An impact: an instantaneous impulse on a point of a part.
 struct ImpactDesc {
   int frame = 0;  // before it moves on
   std::string slot;

@@ -1,5 +1,6 @@
-// Spec: the action specification, one value that says everything about one motion. It is what the fuzzer draws, what a
-// case stores, what a person writes by hand. Its JSON form, limits and schema come from the field lists in spec.cpp.
+// A Spec is the action specification: one value that says everything about one motion. The fuzzer draws it, a case
+// stores it, and a person can write it by hand. Its JSON form, limits and schema come from the field lists in
+// spec.cpp.
 #pragma once
 
 #include <map>
@@ -53,7 +54,7 @@ struct Spec {
 // Codes "spec.*" and "json.*" with pointers. parse_spec(print_spec(x)) == x for every x that it accepts.
 Result<Spec> parse_spec(std::string_view json);
 
-// Canonical text: sorted keys, no spaces, defaults left out, shortest numbers that read back to the same bits.
+// Prints canonical text: sorted keys, no spaces, defaults left out, shortest numbers that read back to the same bits.
 std::string print_spec(const Spec& spec);
 std::string pretty_spec(const Spec& spec);  // the same, indented for people
 

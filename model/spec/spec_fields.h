@@ -1,4 +1,4 @@
-// Field lists (json_fields.h) of what specs and their parts hold. Included from .cpp files only.
+// Field lists (json_fields.h) of specs and their parts. Included from .cpp files only.
 #pragma once
 
 #include "model/character/desc.h"

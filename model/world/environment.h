@@ -36,7 +36,7 @@ class Environment {
 
   // Distance to the ground is along its normal under the point, exact for planes and slopes.
   Surface nearest_ground(const Vec3& point_m) const;
-  // obstacle = -1 and an infinite distance where there are none.
+  // Returns obstacle = -1 and an infinite distance if there are no obstacles.
   Surface nearest_obstacle(const Vec3& point_m) const;
 
   // The parts of its description, in its own frame.
