@@ -50,8 +50,8 @@ class BetweenFrames {
   };
   // Bounds on the movement of a body's points relative to a joint that carries the body, between the two frames.
   struct Travel {
-    double path_m = 0.0;   // no longer
-    double curve_m = 0.0;  // second derivative, no greater
+    double path_m = 0.0;   // upper bound of the path
+    double curve_m = 0.0;  // upper bound of the second derivative
   };
   struct Places {  // of two bodies, as seen from the joint that carries both
     Rigid a, b;

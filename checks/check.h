@@ -23,11 +23,11 @@ namespace contort {
 // reports that it could not judge.
 enum class Needs : std::uint8_t {
   motion,            // nothing else
-  height,            // how high the root is above the ground
-  path,              // where the root goes in the world
-  intent,            // what the generator says that it meant
+  height,            // the height of the root above the ground
+  path,              // the path of the root in the world
+  intent,            // the generator's intent
   kinematic_intent,  // the same, and that dynamics did not move the figure away from it
-  response,          // what dynamics recorded
+  response,          // the data that dynamics recorded
   clip,              // instead of all that, a clip as it is in its file
 };
 
@@ -41,7 +41,7 @@ struct CheckInput {
       world;  // world_from_joint, frame-major: frame * joint_count + joint; may be empty, see CheckDef
   const CheckSettings& settings;
   const Environment& environment;
-  const Intent* intent = nullptr;  // what the generator says that it meant; null where it says nothing
+  const Intent* intent = nullptr;  // the generator's intent; null if it gives none
   RootPath path = RootPath::told;
 
   std::span<const Rigid> world_at(int frame) const {
@@ -61,7 +61,7 @@ struct CheckDef {
   double resolution;      // margins down to -resolution are rounding, not violations
   bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it
   Needs needs;
-  std::string_view nothing;  // what is missing where what it needs is there and it still judged nothing
+  std::string_view nothing;  // the reason if its needs are met and it still judged nothing
   std::string_view help;
   // The judged subjects, numbered from 0. Checks of clips have no such subjects and measure nothing.
   int (*subject_count)(const Character&);

@@ -78,7 +78,7 @@ class Clearances {
   std::span<const Rigid> placed_at_;
   std::vector<Solid> world_;  // colliders of the bodies that were needed in this frame
   std::vector<char> placed_;
-  std::vector<ColliderPair> round_;  // what is near in this frame
+  std::vector<ColliderPair> round_;  // round pairs that are near in this frame
   std::vector<double> round_m_;      // their signed distances
 };
 

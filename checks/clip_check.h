@@ -21,7 +21,7 @@ struct ClipInput {
 // Frames of these findings are numbers of keys.
 struct ClipCheckResult {
   int subjects = 0;          // that were judged
-  std::string_view why_not;  // where there are none
+  std::string_view why_not;  // the reason if it judged nothing
   std::vector<Finding> findings;
 };
 

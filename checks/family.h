@@ -14,7 +14,7 @@ struct Family {
   std::string subject;    // "arm_left/elbow max"; of a crash the signal
 
   bool operator==(const Family&) const = default;
-  std::strong_ordering operator<=>(const Family& other) const;  // as the texts of both compare
+  std::strong_ordering operator<=>(const Family& other) const;  // the order of their texts
   bool empty() const { return *this == Family{}; }              // no family
 };
 

@@ -11,7 +11,7 @@
 
 namespace contort {
 
-inline constexpr double kSeam_rad = 1.0 * kRadPerDeg;  // nobody sees it
+inline constexpr double kSeam_rad = 1.0 * kRadPerDeg;  // invisible to people
 inline constexpr double kSeamFactor = 2.0;
 
 // One finding for each node whose seam is wider, in the order of channels; frames are the number of the last key. Rules

@@ -38,10 +38,10 @@ struct Bucket {
   BucketState state = BucketState::fresh;
   BucketState was = BucketState::fresh;  // before it was flaky or invalid; meaningless in other states
   std::string owner;                     // open, quarantined: who looks after it
-  std::string ticket;                    // where that is written down
+  std::string ticket;                    // where the work on it is tracked
   std::string reason;                    // quarantined: why it may fail
   std::string expires;                   // quarantined: the last day, YYYY-MM-DD
-  std::string note;                      // what people say about it
+  std::string note;                      // a note by people
   std::vector<std::string> passed_in;    // builds in which it was gone, one after the other, since it failed last
   int streak = 0;                        // quarantined: replays in a row that passed; flaky: that were steady
   int changes = 0;                // of all this since the bucket is there; of two copies the one with more counts

@@ -14,7 +14,7 @@ struct CorpusFault {
   std::string path;    // below the corpus' folder
   std::string code;    // temporary, missing_case, wrong_name, wrong_folder, unknown_file, unreadable, bad_name, outside
   std::string text;    // what is wrong
-  std::string mended;  // what was done about it; "" where nothing was
+  std::string mended;  // the repair; "" if there was none
   bool operator==(const CorpusFault&) const = default;
 };
 

@@ -10,9 +10,9 @@ namespace contort {
 
 // The outcome of a replay of all cases of a bucket.
 enum class Shown {
-  fails,     // one of them at least still fails in the bucket's family
-  gone,      // none does
-  unsteady,  // two runs of one of them differed
+  fails,     // at least one case still fails in the bucket's family
+  gone,      // no case does
+  unsteady,  // two runs of one case differed
   refused,   // the specs no longer build
 };
 

@@ -75,7 +75,7 @@ struct RiggedFigure {
   bool is_humanoid = false;   // two arms and two legs of two bones, spine upright
   bool is_quadruped = false;  // four legs on the ground
   int vertex_count = 0;
-  std::vector<std::string> notes;  // what was guessed, for the report
+  std::vector<std::string> notes;  // guesses, for the report
 };
 
 struct ImportOptions {

@@ -41,7 +41,7 @@ struct ReportRow {
   std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
   std::string meaning;    // of the check, in a sentence; may be ""
-  std::string note;       // what people know about it: "ana, ticket 12"
+  std::string note;       // the knowledge of people: "ana, ticket 12"
   std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known
   std::vector<std::string> actions;  // of the minimal spec
   double depth = 0.0;                // of the failure, comparable between checks
@@ -58,7 +58,7 @@ struct ReportModel {
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
   SearchProgress search;            // of all runs together
-  std::vector<std::pair<std::string, std::int64_t>> tested;  // what the cases were made of, and how often; 0: never
+  std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
 };
 
 // The files of a page that contains everything, by their paths from it ("viewer/viewer.js", "strips/x.png"), and the

@@ -21,7 +21,7 @@ struct Skin {
   struct Influence {
     int joint = 0;  // of the character
     double weight = 0.0;
-    Vec3 point_m{0.0};  // where the joint's own part of the vertex is, in the joint's frame
+    Vec3 point_m{0.0};  // the vertex in the joint's frame
   };
   std::vector<Influence> influences;  // of all vertices, in their order
   std::vector<int> first;             // of vertex i: influences [first[i], first[i + 1])

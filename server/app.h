@@ -28,7 +28,7 @@ struct AppConfig {
   std::string pages;                   // folder of play.html and what it loads
   std::string scratch;                 // folder for registered libraries and for files that pass
   std::string catalogue;               // JSON: what there is; docs/server.md
-  std::vector<std::string> program;    // how contort is called
+  std::vector<std::string> program;    // the command line of contort
   std::function<std::string()> today;  // for what gates
 };
 
@@ -82,12 +82,12 @@ class App {
   Sessions& sessions() { return sessions_; }
   Jobs& jobs() { return jobs_; }
   News& news() { return news_; }
-  // Returns the corpus for a change. Code corpus.none if there is none; guard.read_only.
+  // Return the corpus, the second one for a change. Codes corpus.none without a corpus, guard.read_only.
   Result<const Triage*> corpus() const;
   Result<const Triage*> writable_corpus() const;
   Result<std::string> library_folder(const std::string& id) const;  // code library.not_found; "" for ""
   Result<std::string> register_library(const std::map<std::string, std::string>& files);
-  Issue forget_library(const std::string& id, Issue why);  // what turned out not to fit; `why`, about the body
+  Issue forget_library(const std::string& id, Issue why);  // removes an unfit library; returns `why`
   Result<std::string> make_report();                       // the job
   std::string metrics() const;
   // A stream for one client; see Sessions::count_stream.

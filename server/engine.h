@@ -25,8 +25,8 @@ struct Limits {
   double cpu_minutes_at_once = 5;  // of these, after a pause
   int spec_bytes = 256 << 10;      // of a call's body
   int library_bytes = 1 << 20;
-  double take_s = 10.0;        // how long a take is: each command makes all of it anew
-  double most_s = 60.0;        // and may become, by what is queued
+  double take_s = 10.0;        // length of a take: each command generates all of it again
+  double most_s = 60.0;        // its greatest length, if more is queued
   int frame_bytes = 64 << 20;  // of one motion
   double idle_s = 600.0;       // after which a session that nobody uses ends
   int jobs = 16;               // that wait
@@ -52,7 +52,7 @@ class Engine {
   // For work outside of the workers. Code limit.cpu.
   Result<Done> may_work(const std::string& client);
   void spend(const std::string& client, double cpu_s);
-  double wait_s(const std::string& client);  // until there is something left
+  double wait_s(const std::string& client);  // seconds until something is left
 
   // Calls `work` soon, in another thread; equal keys that still wait are one.
   void later(const std::string& key, std::function<void()> work);

@@ -21,11 +21,11 @@ struct Job {
   std::string id;
   std::string kind;    // report, shrink, replay
   std::string about;   // a bucket; ""
-  std::string client;  // who wants it; "": the server itself
+  std::string client;  // the client that asked for it; "": the server itself
   JobState state = JobState::queued;
   std::string text;    // a sentence for people
   std::string result;  // JSON; "" while there is none
-  Time since{};        // when it began to run
+  Time since{};        // the time at which it began to run
   double seconds = 0.0;
   double cpu_s = 0.0;  // of the programs that it ran
 };
@@ -49,7 +49,7 @@ class Jobs {
 
   // At most `most_waiting` jobs may wait. `changed` is called from the jobs' thread.
   Jobs(int most_waiting, std::function<void(const Job&)> changed);
-  ~Jobs();  // what runs is stopped
+  ~Jobs();  // stops the running job
 
   // Adds a job and returns its id. If a job of the same kind for the same object still waits, its id is returned
   // instead. Code full.jobs.

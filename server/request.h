@@ -31,7 +31,7 @@ struct Answer {
   std::string type = "application/json";
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
-  Pieces pieces;  // where it is not empty, the body is a stream
+  Pieces pieces;  // if it is not empty, the body is a stream
 };
 
 // The HTTP status of a code; see docs/server.md.

@@ -14,7 +14,7 @@ namespace contort::server {
 
 struct Call {
   const Request& request;
-  std::map<std::string, std::string> ids;  // what stands for {names} in the pattern
+  std::map<std::string, std::string> ids;  // the values of {names} in the pattern
   const std::string& id(const std::string& name) const { return ids.at(name); }
 };
 

@@ -15,7 +15,7 @@ namespace contort {
 // How much of the root's path an execution knows.
 enum class RootPath : std::uint8_t {
   told,         // all of it
-  on_the_spot,  // how high it is; the figure walks without getting anywhere, as clips do that an engine moves
+  on_the_spot,  // only its height; the figure walks on the spot, as in clips that an engine moves
   unknown,      // nothing: it stays where it is at rest
 };
 

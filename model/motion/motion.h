@@ -90,7 +90,7 @@ struct Response {
 struct Motion {
   double rate_hz = 60.0;
   int frame_count = 0;
-  int first_frame = 0;         // those before it lead up to the level that was asked for: not judged, not shown
+  int first_frame = 0;         // earlier frames only lead up to the requested level: they are not judged or shown
   int coord_count = 0;         // doubles in a row, see Character
   std::vector<double> coords;  // frame_count * coord_count
   std::vector<Rigid> root;     // frame_count: world_from_root

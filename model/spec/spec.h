@@ -20,8 +20,8 @@ namespace contort {
 struct StartDesc {
   Vec3 position_m{0.0};      // its height is the ground's there
   double heading_deg = 0.0;  // about +Y; 0 faces +Z
-  double ahead_m = 0.0;      // how far the hips stand before where the feet have them: legs lean from the ankles
-  double lower_m = 0.0;      // how much lower than on stretched legs they stay: knees that are never straight
+  double ahead_m = 0.0;      // distance of the hips in front of their place over the feet: legs lean from the ankles
+  double lower_m = 0.0;      // distance of the hips below their height on stretched legs: knees stay bent
   bool operator==(const StartDesc&) const = default;
 };
 
