@@ -1,7 +1,6 @@
-// Settings of the checks, as a file has them: limits that are moved or switched off, and findings that somebody has
-// agreed to live with for a time. A moved limit is how the check judges; a waiver judges nothing: the check runs as
-// ever, and the waiver hides what it found, until its day has come or until it hides nothing any more. Both are
-// reported.
+// Settings of the checks, as a file has them: limits that are moved or switched off, and waivers of findings that
+// somebody has accepted for a time. A moved limit changes how the check judges. A waiver does not: the check runs as
+// usual, and the waiver hides its findings until the waiver's last day. Both are reported.
 //
 //   {"format": "contort.settings/1",
 //    "limits": [{"check": "joint_range", "subject": "arm_*/elbow max", "tolerance": 0.05, "reason": "soft stop"}],

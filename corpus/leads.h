@@ -1,12 +1,12 @@
-// A failure on its way into a bucket, as case files that can be replayed:
+// A lead is a failure that is not in a bucket yet, as case files that can be replayed:
 //
-//   DIR/leads/<run>/<family12>-<index>.json       as it was drawn; written as soon as it is wanted
-//                   <family12>-<index>-min.json   what it was shrunk to
-//                   <family12>-<index>-worst.json the deepest that shows the same
-//                   <family12>-<index>-orig.json  as it was drawn, if the minimal one is named by another family of it
+//   DIR/leads/<run>/<family12>-<index>.json       the drawn case; written as soon as it is wanted
+//                   <family12>-<index>-min.json   the case that it was shrunk to
+//                   <family12>-<index>-worst.json the deepest case with the same failure
+//                   <family12>-<index>-orig.json  the drawn case, if the minimal case is named by another family of it
 //
-// So a kill loses nothing, and a shard can hand over what it found. A failure that was met while another was shrunk is
-// a lead of its own, which goes the way of that other; the hash in its name is over both families.
+// Leads make sure that a kill loses nothing, and that a shard can hand over its failures. A failure that was found while
+// another one was shrunk is a lead of its own and is treated like that one; the hash in its name is over both families.
 #pragma once
 
 #include <optional>

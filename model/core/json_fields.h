@@ -1,4 +1,5 @@
-// The one door to JSON. A struct states its fields once, as a list of member pointers with limits and help:
+// All JSON is read and written through this header. A struct states its fields once, as a list of member pointers with
+// limits and help:
 //
 //   template <class V> void fields(V& v, const Clip*) {
 //     v.field("speed", &Clip::speed, {.low = 0.1, .high = 10}, "Progress speed; 2 plays twice as fast.");
