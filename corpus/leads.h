@@ -3,7 +3,7 @@
 //   DIR/leads/<run>/<family12>-<index>.json       the drawn case; written as soon as it is wanted
 //                   <family12>-<index>-min.json   the case that it was shrunk to
 //                   <family12>-<index>-worst.json the deepest case with the same failure
-//                   <family12>-<index>-orig.json  the drawn case, if the minimal case is named by another family of it
+//                   <family12>-<index>-orig.json  the drawn case, if another of its families names the minimal case
 //
 // Leads make sure that a kill loses nothing, and that a shard can hand over its failures. A failure that was found while
 // another one was shrunk is a lead of its own and is treated like that one; the hash in its name is over both families.

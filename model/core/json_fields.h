@@ -1,5 +1,4 @@
-// All JSON is read and written through this header. A struct states its fields once, as a list of member pointers with
-// limits and help:
+// All JSON goes through this header. A struct states its fields once, as member pointers with limits and help:
 //
 //   template <class V> void fields(V& v, const Clip*) {
 //     v.field("speed", &Clip::speed, {.low = 0.1, .high = 10}, "Progress speed; 2 plays twice as fast.");
