@@ -5,7 +5,7 @@
 //                   <family12>-<index>-worst.json the deepest case with the same failure
 //                   <family12>-<index>-orig.json  the drawn case, if another of its families names the minimal case
 //
-// Leads make sure that a kill loses nothing, and that a shard can hand over its failures. A failure that was found while
+// Leads make sure that a kill loses nothing, and that a shard can hand over failures. A failure that was found while
 // another one was shrunk is a lead of its own and is treated like that one; the hash in its name is over both families.
 #pragma once
 
