@@ -145,7 +145,9 @@ bool LimbKeeper::has_room_on_the_way(const Limb& limb) {
     for (const int p : limb.parts)
       blend_part(character, at(p), s_.past.before, s_.postures.shown, share, s_.between);
     for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, world);
-    return s_.rules.room().room_m(at(limb.parts.back()), world) >= -kTooNear_m;
+    LimbRoom& room = s_.rules.room();
+    const std::size_t part = at(limb.parts.back());
+    return (share < 1.0 ? room.apart_m(part, world) : room.room_m(part, world)) >= -kTooNear_m;
   });
 }
 
@@ -169,11 +171,7 @@ void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {
     case Clearance::Kept::elsewhere: break;
   }
   shift(limb, Shift::held_off);
-  for (const int p : limb.parts)
-    if (was_lifted)
-      s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
-    else
-      s_.path.correct(at(p), s_.postures.shown.coords);
+  for (const int p : limb.parts) s_.path.correct(at(p), s_.postures.shown.coords);
 }
 
 

@@ -209,7 +209,7 @@ const std::string& LimbRoom::kind_of(int limb) const {
   return character_->parts()[at(limbs_[at(limb)].parts.front())].kind;
 }
 
-double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
+double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world) {
   const int limb = limb_of_[part];
   double least = kRoomBand_m;
   for (const int p : pairs_[at(limb)]) {
@@ -217,6 +217,12 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
       least = std::min(least, distance_m(p, limb, world) - safe_m_[at(p)]);
   }
+  return least;
+}
+
+double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
+  const int limb = limb_of_[part];
+  double least = apart_m(part, world);
   for (const int b : bodies_[at(limb)]) {
     const Rigid& world_from_body = world[at(character_->bodies()[at(b)].joint)];
     least = std::min(least, over_ground_m(b, world_from_body, *environment_) - safe_over_ground_m_[at(b)]);

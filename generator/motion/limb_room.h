@@ -62,6 +62,8 @@ class LimbRoom {
   // too near, and at most 0.08. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
   // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world);
+  // The same between bodies of the figure alone, without the ground, obstacles and feet.
+  double apart_m(std::size_t part, std::span<const Rigid> world);
 
   // The same where all joints are as in `world`, with a hand that holds an object; without the ground and feet.
   double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);

@@ -64,7 +64,7 @@ TEST_F(CountedCases, AgainstABaseCountOnlyWhatChanged) {
   state_.record.against.emplace();
   const auto add_compared = [&](std::int64_t index, const Comparison& comparison) {
     RoundCase one{{index}};
-    one.report = EvaluateReport{true, 60, "0123456789abcdef", {}, {hip_, knee_}, {}, {}, comparison};
+    one.report = EvaluateReport{true, false, 60, "0123456789abcdef", {}, {hip_, knee_}, {}, {}, comparison};
     return statistics_.add(one);
   };
   const std::vector<SettleTask> wanted = {{{1}, knee_, 0, "0123456789abcdef", false, true, "bb"}};
@@ -81,6 +81,7 @@ TEST_F(CountedCases, AgainstABaseCountOnlyWhatChanged) {
 }
 
 TEST_F(CountedCases, AgainstABaseTeachTheirIslandAllThatFailed) {
+  config_.draw.profile.staged = false;
   std::int64_t index = 0;
   while (group_of(index) != group_of_target(knee_)) ++index;
   RoundCase one{{index}};
@@ -91,6 +92,7 @@ TEST_F(CountedCases, AgainstABaseTeachTheirIslandAllThatFailed) {
 }
 
 TEST_F(CountedCases, TeachTheirIsland) {
+  config_.draw.profile.staged = false;
   RoundCase one{{8}};
   one.report = EvaluateReport{};
   one.report->near = {{knee_, 0.5}};
