@@ -62,7 +62,7 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   int& held_off = s_.held_off[at(limb.parts.back())];
   const HeldObject held = held_by(playback, at(limb.parts.front()));
   s_.rules.room().hold(at(limb.parts.back()), held);
-  if (use != LegUse::lands) s_.landing[at(limb.parts.back())] = 0;
+  if (use != LegUse::lands) s_.landing[at(limb.parts.back())] = 0.0;
   const bool lands = use == LegUse::lands && land(limb);
   if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
@@ -108,12 +108,24 @@ void LimbKeeper::place(const Leg& leg, const Posture& posture) {
   for (const int j : leg.joints) forward_kinematics(*stage_.character, posture.coords, j, j + 1, s_.rules.world());
 }
 
+// The way of a foot in the last frame, as a share of the way that is left to where it lands.
+double LimbKeeper::share_of_last_step(const Leg& leg, const Rigid& there) {
+  const Character& character = *stage_.character;
+  place(leg, s_.past.earlier);
+  const Vec3 earlier_m = world_from_socket(character, s_.rules.world(), leg.sole).p_m;
+  place(leg, s_.past.before);
+  const Vec3 before_m = world_from_socket(character, s_.rules.world(), leg.sole).p_m;
+  const double left_m = length(there.p_m - before_m);
+  return left_m > 0.0 ? length(before_m - earlier_m) / left_m : 0.0;
+}
+
 // Nothing moves the limb any more: its feet go to where its base posture has them, faster from frame to frame at first.
 // False for a limb without feet of its own, and where there is no room.
 bool LimbKeeper::land(const Limb& limb) {
   constexpr double kFaster = 0.04, kFastest = 0.25;  // of the way that is left, in a frame
-  int& landing = s_.landing[at(limb.parts.back())];
-  const double share = std::min(kFastest, kFaster * ++landing);
+  double& share = s_.landing[at(limb.parts.back())];
+  const bool begins = share == 0.0;
+  share = std::min(kFastest, share + kFaster);
   bool has_feet = false, is_there = true;
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
   for (const int i : limb.legs) {
@@ -121,6 +133,7 @@ bool LimbKeeper::land(const Limb& limb) {
     if (!limb.is_its_own(leg)) continue;
     place(leg, s_.postures.base);
     const Rigid there = world_from_socket(*stage_.character, s_.rules.world(), leg.sole);
+    if (begins) share = std::clamp(share_of_last_step(leg, there), share, kFastest);
     place(leg, s_.past.before);
     for (const int p : {leg.part, leg.foot_part})
       copy_part(*stage_.character, at(p), s_.past.before, s_.postures.shown);

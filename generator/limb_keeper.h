@@ -26,6 +26,7 @@ class LimbKeeper {
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
   void place(const Leg& leg, const Posture& posture);
+  double share_of_last_step(const Leg& leg, const Rigid& there);
   bool land(const Limb& limb);
   bool has_room_on_the_way(const Limb& limb);
   void arrive(const Limb& limb);

@@ -106,8 +106,10 @@ MarginFold folded(const Stage& stage, const Motion& motion, bool all) {
 // A pair that nobody looked at changes nothing: neither findings, nor how near any pair ever came.
 TEST_P(ClearancesOf, WhatSelfCollisionLeavesOutChangesNothing) {
   int episodes = 0;
-  for (int i = 0; i < 60; ++i) {
-    const Stage stage = *build_stage(draw_spec({{GetParam()}}, stock_generator(), 5, i), stock_library());
+  DrawConfig config{{GetParam()}};
+  config.profile.wild_poses = true;  // many collisions
+  for (int i = 0; i < 160; ++i) {
+    const Stage stage = *build_stage(draw_spec(config, stock_generator(), 5, i), stock_library());
     const Motion motion = generate(stage);
     const MarginFold some = folded(stage, motion, false), all = folded(stage, motion, true);
     ASSERT_EQ(some.smallest().size(), all.smallest().size());

@@ -237,7 +237,8 @@ TEST_F(Commands, JsonIsAllThatIsPrintedWithAReportToo) {
 TEST_F(Commands, FuzzTakesTheStockCharactersAndPrintsCommandsThatWork) {
   const std::string corpus = folder_ / "corpus";
   const Ran found = contort_program(
-      {"fuzz", "--corpus", corpus, "--cases", "3", "--shrink-evaluations", "0", "--shrinks-per-family", "1"});
+      {"fuzz", "--profile", "stress", "--corpus", corpus, "--cases", "3", "--shrink-evaluations", "0",
+       "--shrinks-per-family", "1"});
   EXPECT_EQ(found.code, 1) << found.err;
   EXPECT_TRUE(has_result(found, "findings=")) << found.out;
   const std::string command = "contort replay ";

@@ -14,7 +14,7 @@ namespace {
 class CrowdedCases : public ::testing::Test {
  protected:
   Ran fuzz(const std::string& corpus, int shrinks_per_case, int evaluations = 60, int seed = 12) const {
-    return contort_program({"fuzz", "--profile", "smoke", "--character", "human", "--seed", std::to_string(seed), "--cases", "2",
+    return contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", std::to_string(seed), "--cases", "2",
                             "--shrink-evaluations", std::to_string(evaluations), "--shrinks-per-case",
                             std::to_string(shrinks_per_case), "--corpus", corpus});
   }

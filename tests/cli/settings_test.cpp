@@ -58,7 +58,7 @@ TEST_F(SettingsOfCommands, WhatIsWaivedIsInTheJson) {
 // A fault that somebody agreed to live with is not mended.
 TEST_F(SettingsOfCommands, ReplayDoesNotTakeAWaivedFailureForMended) {
   const std::string corpus = folder_ / "corpus";
-  const Ran found = contort_program({"fuzz", "--cases", "1", "--seed", "7", "--character", "human", "--corpus", corpus,
+  const Ran found = contort_program({"fuzz", "--profile", "stress", "--cases", "1", "--seed", "7", "--character", "human", "--corpus", corpus,
                                      "--shrinks-per-family", "1", "--shrink-evaluations", "0"});
   ASSERT_EQ(found.code, 1) << found.out << found.err;
   std::string waivers;
