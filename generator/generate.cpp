@@ -47,7 +47,6 @@ class Generation {
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
     s_.held_off.assign(character_.parts().size(), 0);
-    s_.landing.assign(character_.parts().size(), 0.0);
     s_.free_arm.assign(character_.parts().size(), 0);
     for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
       s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);

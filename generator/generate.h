@@ -54,7 +54,6 @@ struct GenerateScratch {
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
-  std::vector<double> landing;     // by the same: the share of its way that it goes in a frame; 0 while it does not land
   Posture wanted;                  // of a limb that lands
   Posture between;                 // on its way
   int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere

@@ -62,7 +62,6 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   int& held_off = s_.held_off[at(limb.parts.back())];
   const HeldObject held = held_by(playback, at(limb.parts.front()));
   s_.rules.room().hold(at(limb.parts.back()), held);
-  if (use != LegUse::lands) s_.landing[at(limb.parts.back())] = 0.0;
   const bool lands = use == LegUse::lands && land(limb);
   if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
@@ -108,46 +107,45 @@ void LimbKeeper::place(const Leg& leg, const Posture& posture) {
   for (const int j : leg.joints) forward_kinematics(*stage_.character, posture.coords, j, j + 1, s_.rules.world());
 }
 
-// The way of a foot in the last frame, as a share of the way that is left to where it lands.
-double LimbKeeper::share_of_last_step(const Leg& leg, const Rigid& there) {
-  const Character& character = *stage_.character;
-  place(leg, s_.past.earlier);
-  const Vec3 earlier_m = world_from_socket(character, s_.rules.world(), leg.sole).p_m;
-  place(leg, s_.past.before);
-  const Vec3 before_m = world_from_socket(character, s_.rules.world(), leg.sole).p_m;
-  const double left_m = length(there.p_m - before_m);
-  return left_m > 0.0 ? length(before_m - earlier_m) / left_m : 0.0;
+// Nothing moves the limb any more: its feet go to where its base posture has them, by the greatest share of that way in
+// which joints move smoothly and bodies have room. False for a limb without feet of its own, and where no share does.
+bool LimbKeeper::land(const Limb& limb) {
+  constexpr std::array kShares = {0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.02};
+  const bool has_feet = std::ranges::any_of(limb.legs, [&](int i) { return limb.is_its_own(stage_.legs[at(i)]); });
+  if (!has_feet) return false;
+  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
+  for (const double share : kShares) {
+    const bool is_there = step_to_base(limb, share);
+    if (!is_smooth(limb) || !has_room_on_the_way(limb)) continue;
+    if (is_there) return arrive(limb), true;
+    shift(limb, Shift::lifted);
+    for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+    return true;
+  }
+  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
+  return false;
 }
 
-// Nothing moves the limb any more: its feet go to where its base posture has them, faster from frame to frame at first.
-// False for a limb without feet of its own, and where there is no room.
-bool LimbKeeper::land(const Limb& limb) {
-  constexpr double kFaster = 0.04, kFastest = 0.25;  // of the way that is left, in a frame
-  double& share = s_.landing[at(limb.parts.back())];
-  const bool begins = share == 0.0;
-  share = std::min(kFastest, share + kFaster);
-  bool has_feet = false, is_there = true;
-  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
+// From the frame before; true where all feet of the limb have arrived.
+bool LimbKeeper::step_to_base(const Limb& limb, double share) {
+  bool is_there = true;
   for (const int i : limb.legs) {
     const Leg& leg = stage_.legs[at(i)];
     if (!limb.is_its_own(leg)) continue;
     place(leg, s_.postures.base);
     const Rigid there = world_from_socket(*stage_.character, s_.rules.world(), leg.sole);
-    if (begins) share = std::clamp(share_of_last_step(leg, there), share, kFastest);
     place(leg, s_.past.before);
     for (const int p : {leg.part, leg.foot_part})
       copy_part(*stage_.character, at(p), s_.past.before, s_.postures.shown);
     is_there = s_.rules.feet().land(at(i), there, share, s_.rules.world(), s_.postures.shown.coords) && is_there;
-    has_feet = true;
   }
-  if (!has_feet || !has_room_on_the_way(limb)) {
-    for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
-    return false;
-  }
-  if (is_there) return arrive(limb), true;
-  shift(limb, Shift::lifted);
-  for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
-  return true;
+  return is_there;
+}
+
+bool LimbKeeper::is_smooth(const Limb& limb) const {
+  return std::ranges::all_of(limb.joints, [&](int j) {
+    return moves_smoothly(stage_.character->joint(j), s_.past, s_.postures.shown);
+  });
 }
 
 // From where the limb was in the frame before to where it is shown now.

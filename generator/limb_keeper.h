@@ -26,8 +26,9 @@ class LimbKeeper {
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
   void place(const Leg& leg, const Posture& posture);
-  double share_of_last_step(const Leg& leg, const Rigid& there);
   bool land(const Limb& limb);
+  bool step_to_base(const Limb& limb, double share);
+  bool is_smooth(const Limb& limb) const;
   bool has_room_on_the_way(const Limb& limb);
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);

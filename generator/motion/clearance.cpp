@@ -29,6 +29,25 @@ constexpr double kMore_m = 1e-5;  // rounding must not choose
 
 }  // namespace
 
+namespace {
+
+Vec3 way_between(const Joint& joint, const Posture& from, const Posture& to) {
+  return joint_way_vector(joint, from.coords.data() + joint.coord, to.coords.data() + joint.coord);
+}
+
+// Whether the joint's speed changes slowly enough.
+bool keeps_pace(const Joint& joint, const Past& past, const Posture& shown) {
+  const Vec3 step = way_between(joint, past.before, shown), last = way_between(joint, past.earlier, past.before);
+  return length(step - last) <= joint.max_speed * past.frame_s * past.frame_s / kRise_s;
+}
+
+}  // namespace
+
+bool moves_smoothly(const Joint& joint, const Past& past, const Posture& shown) {
+  return length(way_between(joint, past.before, shown)) <= kLifted * joint.max_speed * past.frame_s &&
+         keeps_pace(joint, past, shown);
+}
+
 struct Clearance::Case {
   const Character& character;
   LimbRoom& room;
@@ -88,12 +107,7 @@ struct Clearance::Case {
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
   bool is_smooth() const {
-    return all_joints([&](int j) {
-      const Joint& joint = character.joint(j);
-      const double *earlier = past.earlier.coords.data(), *before = past.before.coords.data();
-      const Vec3 last = joint_way_vector(joint, earlier + joint.coord, before + joint.coord);
-      return length(step_of(j) - last) <= greatest_step(j) * past.frame_s / kRise_s;
-    });
+    return all_joints([&](int j) { return keeps_pace(character.joint(j), past, shown); });
   }
   // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {
@@ -118,10 +132,7 @@ struct Clearance::Case {
     place();
     return is_clear_there;
   }
-  Vec3 step_of(int j) const {
-    const Joint& joint = character.joint(j);
-    return joint_way_vector(joint, past.before.coords.data() + joint.coord, shown.coords.data() + joint.coord);
-  }
+  Vec3 step_of(int j) const { return way_between(character.joint(j), past.before, shown); }
   double greatest_step(int j) const { return character.joint(j).max_speed * past.frame_s; }
   bool is_clear() { return room_m() >= enough_m && is_clear_between(); }
 

@@ -16,6 +16,10 @@ struct Past {
   double frame_s = 0.0;
 };
 
+// Whether a joint gets from the frame before to its place in `shown` slowly enough for a leg whose foot is lifted, and
+// without a sudden change of its speed.
+bool moves_smoothly(const Joint& joint, const Past& past, const Posture& shown);
+
 class Clearance {
  public:
   // The character and the room must outlive this object; the room is begun.
