@@ -12,7 +12,7 @@ namespace contort::cli {
 struct TotalsRequest {
   bool json = false;
   std::string corpus;
-  std::string report;  // folder of the report; "": there is none
+  std::string report;  // folder of the report; empty if no report was asked for
   int shrinks_per_case = 4;
   const CheckSettings& settings;
   const std::vector<std::string>& library_folders;

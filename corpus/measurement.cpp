@@ -145,7 +145,7 @@ Issue bad_request(const std::string& name, const std::string& expected) {
   return {"measure.bad_request", "/" + name, "expected " + expected};
 }
 
-// What stands beside the spec of a request.
+// The fields of a request besides its spec.
 Result<Done> read_options(const Json& line, MeasureRequest& request) {
   for (const auto& [name, value] : line.items()) {
     if (name == "id" && value.is_number_integer())

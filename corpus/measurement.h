@@ -1,5 +1,5 @@
-// What a build shows for a spec, as numbers that two builds can be compared by, and the lines in which one build tells
-// another (docs/against.md, "Protocol").
+// A measurement: the numbers that a build produces for a spec, by which two builds are compared. The lines in which one
+// build sends them to another are described in docs/against.md, "Protocol".
 #pragma once
 
 #include <cstdint>

@@ -41,9 +41,9 @@ struct AgainstCounts {
   std::int64_t worse = 0;    // at least one fails in both, and much deeper here
   std::int64_t mended = 0;   // at least one fails there and passes here
   std::int64_t refused = 0;  // the base did not accept the spec, or ended badly
-  std::int64_t first_moved = -1;    // index of the first case that moved; -1: there is none
+  std::int64_t first_moved = -1;    // index of the first case that moved; -1 if no case did
   int first_moved_frame = -1;       // the first frame in which its motions differ
-  std::int64_t first_refused = -1;  // index of the first refused case; -1: there is none
+  std::int64_t first_refused = -1;  // index of the first refused case; -1 if none was refused
   std::string first_refusal;        // its reason
   bool operator==(const AgainstCounts&) const = default;
 };

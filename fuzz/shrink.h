@@ -31,7 +31,7 @@ struct ShrinkConfig {
   double depth_floor = 0.5;
   CheckSettings checks;  // those that found the failure
   Isolation isolation;   // for cases that end their process
-  BaseBuild* base = nullptr;   // candidates must count against this build, by `rules`; null: there is none
+  BaseBuild* base = nullptr;   // candidates must count against this build, by `rules`; null: candidates are not compared
   CompareRules rules;
   bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
   BeforeRun before_run;  // may be empty

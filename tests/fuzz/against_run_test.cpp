@@ -161,23 +161,13 @@ TEST_F(AgainstRuns, GoOnWhereTheBaseRefuses) {
     EXPECT_LT(read_case(corpus.folder_of(bucket) + "/" + bucket.orig)->spec.sequences.size(), 2U);
 }
 
-// The pendulum, which ends its process where a motion has many frames.
-class CrashingGenerator final : public Generator {
- public:
-  const Manifest& manifest() const override { return swing_.manifest(); }
-  const Offers& offers(const Character& character) override { return swing_.offers(character); }
-  Result<Admission> admit(const Spec& spec) override { return swing_.admit(spec); }
-  Result<Done> run(const Spec& spec, Execution& execution) override {
-    const Result<Done> done = swing_.run(spec, execution);
-    if (done && execution.motion.frame_count > 12) ::raise(SIGUSR1);
-    return done;
+// It ends its process if a motion has many frames.
+struct Crash {
+  void operator()(const Motion& motion) const {
+    if (motion.frame_count > 12) ::raise(SIGUSR1);
   }
-  std::unique_ptr<Generator> another() const override { return std::make_unique<CrashingGenerator>(); }
-  Result<std::unique_ptr<Generator>> with(const Library& library) const override { return swing_.with(library); }
-
- private:
-  SwingGenerator swing_;
 };
+using CrashingGenerator = ChangedSwing<Crash>;
 
 const Family kUserSignal{"crash", "pendulum", "SIGUSR1"};
 

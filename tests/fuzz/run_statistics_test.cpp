@@ -91,6 +91,18 @@ TEST_F(CountedCases, AgainstABaseTeachTheirIslandAllThatFailed) {
   EXPECT_EQ(state_.islands[static_cast<std::size_t>(island_of(index))].retired, std::vector<Family>{knee_});
 }
 
+// A staged run combines singles that are clean and whose requests were met.
+TEST_F(CountedCases, OfSinglesOnlyThoseThatAreCleanAndMetAreIngredients) {
+  const auto add_single = [&](std::int64_t index, bool built, bool unmet, std::vector<Family> broken) {
+    RoundCase one{{index}};
+    one.report = EvaluateReport{built, unmet, 60, "0123456789abcdef", {}, std::move(broken), {}, {}};
+    statistics_.add(one);
+  };
+  add_single(8, true, false, {}), add_single(9, true, true, {});
+  add_single(10, true, false, {knee_}), add_single(11, false, false, {});
+  EXPECT_EQ(state_.ingredients[static_cast<std::size_t>(island_of(8))].clean, std::vector<std::int64_t>{8});
+}
+
 TEST_F(CountedCases, TeachTheirIsland) {
   config_.draw.profile.staged = false;
   RoundCase one{{8}};

@@ -6,6 +6,7 @@
 #include "fuzz/compose.h"
 #include "fuzz/draw.h"
 #include "tests/character/stock.h"
+#include "tests/generator/scenes_of_one.h"
 #include "tests/stage_evaluator.h"
 
 namespace contort {
@@ -36,6 +37,18 @@ TEST(SensiblePoses, BringBackAHandThatWouldBeInTheChest) {
   const ActionUse use = made_sensible(human, "arm_left", into_chest);
   EXPECT_NE(use.params, into_chest);
   EXPECT_EQ(use.params.size(), 2U) << "no parameter is lost";
+  const auto collisions = [](const ActionUse& pose) {
+    Spec spec;
+    spec.character.name = "human";
+    spec.hold_frames = 20;
+    spec.sequences = {fixtures::sequence({pose})};
+    StageEvaluator evaluator;
+    return evaluator.run(*build_stage(spec, stock_library()), "self_collision").findings.size();
+  };
+  ActionUse as_drawn = use;
+  as_drawn.params = into_chest;
+  EXPECT_GT(collisions(as_drawn), 0U);
+  EXPECT_EQ(collisions(use), 0U);
 }
 
 TEST(SensiblePoses, PartsThatCarryASole) {

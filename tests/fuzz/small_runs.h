@@ -83,6 +83,17 @@ inline RunResult run_until(int questions, const RunConfig& config, const Corpus&
       config, generator(), corpus, [](const RunProgress&) {}, [&] { return ++asked > questions; });
 }
 
+// A run at once, and the same run stopped and resumed again and again: the same bytes. At least `least_stops`.
+inline void expect_resuming_changes_nothing(const TempFolder& folder, RunConfig config, int least_stops) {
+  const Corpus whole = create(folder / "whole"), broken = create(folder / "broken");
+  run(config, whole);
+  config.resume = true;
+  int stops = 0;
+  while (run_until(100 + 60 * stops, config, broken).interrupted) ASSERT_LT(++stops, 200);
+  EXPECT_GE(stops, least_stops);
+  EXPECT_EQ(first_difference(tree_of(whole.folder()), tree_of(broken.folder())), "");
+}
+
 // A run as one and as `count` shards that are merged: the same bytes.
 inline void expect_shards_make_one_run(const TempFolder& folder, RunConfig config, int count) {
   const Corpus whole = create(folder / "whole"), into = create(folder / "merged");

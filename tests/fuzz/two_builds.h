@@ -37,26 +37,34 @@ class GeneratorBase final : public BaseBuild {
   MeasureRequest request_;
 };
 
-// The pendulum, which turns three times as far as it should for angles below -115 degrees. A swing to such an angle is
-// then faster than its joints allow.
-class WideSwingGenerator final : public Generator {
+// A build of the pendulum that differs from the sound one in what `Change` does to its motions.
+template <class Change>
+class ChangedSwing final : public Generator {
  public:
   const Manifest& manifest() const override { return swing_.manifest(); }
   const Offers& offers(const Character& character) override { return swing_.offers(character); }
   Result<Admission> admit(const Spec& spec) override { return swing_.admit(spec); }
   Result<Done> run(const Spec& spec, Execution& execution) override {
     const Result<Done> done = swing_.run(spec, execution);
-    if (done)
-      for (double& angle_rad : execution.motion.coords)
-        if (angle_rad < -115 * kRadPerDeg) angle_rad *= 3.0;
+    if (done) Change()(execution.motion);
     return done;
   }
-  std::unique_ptr<Generator> another() const override { return std::make_unique<WideSwingGenerator>(); }
+  std::unique_ptr<Generator> another() const override { return std::make_unique<ChangedSwing>(); }
   Result<std::unique_ptr<Generator>> with(const Library& library) const override { return swing_.with(library); }
 
  private:
   swing::SwingGenerator swing_;
 };
+
+// It turns three times as far as it should for angles below -115 degrees. A swing to such an angle is then faster than its
+// joints allow.
+struct SwingWide {
+  void operator()(Motion& motion) const {
+    for (double& angle_rad : motion.coords)
+      if (angle_rad < -115 * kRadPerDeg) angle_rad *= 3.0;
+  }
+};
+using WideSwingGenerator = ChangedSwing<SwingWide>;
 
 inline AgainstConfig against_base(std::unique_ptr<Generator> (*make)(), GeneratorBase::Before before = {}) {
   AgainstConfig config;
