@@ -15,7 +15,7 @@ namespace contort {
 
 namespace {
 
-constexpr Odds kAlwaysGuided{1, 1.0, 0.0};
+const Odds kAlwaysGuided{1, 1.0, 0.0};
 constexpr std::int64_t kLate = 1'000'000;  // where guidance has its whole share
 
 // A subject of the group that island 0 is guided by.

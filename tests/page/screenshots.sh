@@ -9,7 +9,7 @@ binaries=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-"$binaries/contort" fuzz --character human --seed 3 --cases 4 --shrink-evaluations 60 --corpus "$scratch/corpus" \
+"$binaries/contort" fuzz --profile stress --character human --seed 3 --cases 4 --shrink-evaluations 60 --corpus "$scratch/corpus" \
   >/dev/null || [ $? -eq 1 ]
 "$binaries/contort" report "$scratch/corpus" -o "$scratch/report"
 CONTORT_PAGE_TEST=$(printf '{"modules": "%s", "report": "%s", "contort": "%s", "chromium": "%s"}' \
