@@ -55,8 +55,11 @@ void ContactSolver::find_link(int link) {
   link_rows_.assign(6 * size_, 0.0);
   const Multibody& body = equation_->body();
   const Link& last = body.links()[at(link)];
+  link_first_dof_ = kRootDofs;
+  link_end_dof_ = std::max(at(last.dof + last.dof_count), at(kRootDofs));
   for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[at(k)]) {
     if (is_stiff_ && k >= kRootDofs) continue;
+    if (k >= kRootDofs) link_first_dof_ = at(k);
     const SpatialMotion& freedom = equation_->dynamics.freedoms[at(k)];
     for (int axis = 0; axis < 3; ++axis) {
       link_rows_[at(axis) * size_ + at(k)] = freedom.angular[axis];
@@ -84,7 +87,9 @@ void ContactSolver::add_touch(const TouchedPoint& touch) {
     add_row({.least_speed = axis == 0 ? touch.least_m_s : 0.0,
              .preload = touch.preload_N_s,
              .normal = axis == 0 ? -1 : normal,
-             .is_sole = touch.is_sole});
+             .is_sole = touch.is_sole,
+             .first_dof = link_first_dof_,
+             .end_dof = link_end_dof_});
   }
 }
 
@@ -96,13 +101,23 @@ void ContactSolver::add_stop(int dof, double sense, double least_speed) {
   add_row({.least_speed = least_speed, .stop_dof = dof, .stop_sense = sense});
 }
 
+// Only freedoms between the row's link and the root move its point.
+double ContactSolver::speed_of(std::size_t k, std::span<const double> velocity) {
+  const std::span<const double> row = jacobian(k);
+  double speed = 0.0;
+  for (std::size_t i = 0; i < kRootDofs; ++i) speed += row[i] * velocity[i];
+  if (is_stiff_) return speed;
+  for (std::size_t i = rows_[k].first_dof; i < rows_[k].end_dof; ++i) speed += row[i] * velocity[i];
+  return speed;
+}
+
 // Answers by how much the row's own speed changes.
 double ContactSolver::push(std::size_t k, std::span<double> velocity) {
   Row& row = rows_[k];
   if (!(row.softness > 0.0)) return 0.0;
   const double pressed = row.normal >= 0 ? rows_[at(row.normal)].impulse + row.preload : 0.0;
   if (row.normal >= 0 && pressed == 0.0 && row.impulse == 0.0) return 0.0;  // nothing to rub with
-  const double speed = row.stop_dof >= 0 ? row.stop_sense * velocity[at(row.stop_dof)] : dot(jacobian(k), velocity);
+  const double speed = row.stop_dof >= 0 ? row.stop_sense * velocity[at(row.stop_dof)] : speed_of(k, velocity);
   const double next = row.impulse + (row.least_speed - speed) / row.softness;
   double impulse = std::max(-row.preload, next);
   if (row.normal >= 0) {

@@ -48,12 +48,14 @@ class ContactSolver {
     int stop_dof = -1;      // of a joint's end: its freedom, and in which sense it stops
     double stop_sense = 0.0;
     bool is_sole = false;
+    std::size_t first_dof = kRootDofs, end_dof = kRootDofs;  // of a contact: behind the root's, those that move it
   };
   void add_row(const Row& row);
   void solve_answer(std::span<double> right) const;
   void find_link(int link);
   std::span<double> jacobian(std::size_t row) { return std::span(jacobians_).subspan(row * size_, size_); }
   std::span<double> answer(std::size_t row) { return std::span(answers_).subspan(row * size_, size_); }
+  double speed_of(std::size_t row, std::span<const double> velocity);
   double push(std::size_t row, std::span<double> velocity);
 
   const EquationOfMotion* equation_ = nullptr;
@@ -61,6 +63,7 @@ class ContactSolver {
   std::size_t size_ = 0;
   std::vector<double> root_factors_;
   int link_ = -1;                     // of the last touch
+  std::size_t link_first_dof_ = kRootDofs, link_end_dof_ = kRootDofs;
   std::vector<double> link_rows_;     // 6 x freedoms
   std::vector<double> link_answers_;  // 6 x freedoms
   std::vector<Row> rows_;

@@ -97,8 +97,10 @@ void factorise(const Multibody& body, std::span<double> matrix) {
 void solve(const Multibody& body, std::span<const double> factors, std::span<double> x) {
   const auto n = at(body.dof_count());
   const auto parent = body.parent_dof();
-  for (std::size_t k = n; k-- > 0;)
+  for (std::size_t k = n; k-- > 0;) {
+    if (x[k] == 0.0) continue;  // a force at one link reaches only the freedoms on its way to the root
     for (int i = parent[k]; i >= 0; i = parent[at(i)]) x[at(i)] -= factors[k * n + at(i)] * x[k];
+  }
   for (std::size_t k = 0; k < n; ++k) {
     x[k] /= factors[k * n + k];
     for (int i = parent[k]; i >= 0; i = parent[at(i)]) x[k] -= factors[k * n + at(i)] * x[at(i)];
