@@ -1,7 +1,6 @@
 #include "generator/motion/limb_room.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <set>
 
@@ -82,6 +81,8 @@ void LimbRoom::begin_bodies() {
     for (const Solid& solid : solids) radius = std::max(radius, length(solid.center_m - center) + solid.bound_m);
     ball_center_m_.push_back(center), ball_radius_m_.push_back(radius);
   }
+  ball_world_m_ = ball_center_m_;
+  has_ball_.assign(ball_center_m_.size(), 0), has_solids_.assign(ball_center_m_.size(), 0);
 }
 
 // Whether a limb is this one or carried by it.
@@ -97,15 +98,19 @@ void LimbRoom::begin_pairs() {
   limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {}), safe_m_.clear();
   for (std::size_t l = 0; l < limbs_.size(); ++l)
     for (const int p : limbs_[l].parts) limb_of_[at(p)] = static_cast<int>(l);
+  limb_of_body_.clear(), kind_.clear();
+  for (int b = 0; b < static_cast<int>(character_->bodies().size()); ++b) limb_of_body_.push_back(limb_of_[part_of(b)]);
+  for (int l = 0; l < static_cast<int>(limbs_.size()); ++l) kind_.push_back(first_of_kind(l));
   before_.resize(character_->joints().size());
   forward_kinematics(*character_, character_->rest_root(), character_->rest_coords(), before_);
+  begin_look(-1, before_);
   for (std::size_t p = 0; p < character_->judged_pairs().size(); ++p) {
     const JudgedPair& pair = character_->judged_pairs()[p];
     const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)], index = static_cast<int>(p);
     for (int l = 0; l < static_cast<int>(limbs_.size()); ++l)
       if ((is_moved_by(l, a) || is_moved_by(l, b)) && (a != b || a == l)) pairs_[at(l)].push_back(index);
     const bool is_in_hands = (is_object(pair.body_a) && has_grip(b)) || (is_object(pair.body_b) && has_grip(a));
-    safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, -1, before_)));
+    safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, kRoomBand_m)));
   }
   swings_.clear();
   for (const Limb& limb : limbs_) swings_.push_back(is_free_arm(*character_, feet_->legs(), limb.parts.front()));
@@ -137,12 +142,32 @@ bool LimbRoom::has_grip(int limb) const {
          });
 }
 
+// Bodies are placed when they are first asked for.
+void LimbRoom::begin_look(int limb, std::span<const Rigid> world) {
+  looks_from_ = limb, seen_ = world;
+  std::ranges::fill(has_ball_, 0), std::ranges::fill(has_solids_, 0);
+}
+
 // A body of another limb of the same kind is where it was before this frame.
-const Rigid& LimbRoom::where(int body, int limb, std::span<const Rigid> world) const {
+const Rigid& LimbRoom::where(int body) const {
   const auto joint = at(character_->bodies()[at(body)].joint);
-  const int other = limb_of_[part_of(body)];
-  const bool is_twin = limb >= 0 && other >= 0 && other != limb && kind_of(other) == kind_of(limb);
-  return is_twin ? before_[joint] : world[joint];
+  const int other = limb_of_body_[at(body)];
+  const bool is_twin = looks_from_ >= 0 && other >= 0 && other != looks_from_ && kind_[at(other)] == kind_[at(looks_from_)];
+  return is_twin ? before_[joint] : seen_[joint];
+}
+
+const Vec3& LimbRoom::ball_of(int body) {
+  if (has_ball_[at(body)] == 0) ball_world_m_[at(body)] = where(body) * ball_center_m_[at(body)];
+  has_ball_[at(body)] = 1;
+  return ball_world_m_[at(body)];
+}
+
+void LimbRoom::place_solids(int body) {
+  if (has_solids_[at(body)] != 0) return;
+  has_solids_[at(body)] = 1;
+  const Body& own = character_->bodies()[at(body)];
+  for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
+    place(where(body), own_[at(c)], world_[at(c)]);
 }
 
 // Infinite beyond the band. Both bodies are placed.
@@ -160,19 +185,13 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) cons
 }
 
 // Infinite beyond the band.
-double LimbRoom::distance_m(int pair, int limb, std::span<const Rigid> world) {
+double LimbRoom::distance_m(int pair, double band_m) {
   const JudgedPair& judged = character_->judged_pairs()[at(pair)];
-  const std::array<int, 2> bodies{judged.body_a, judged.body_b};
-  const std::array<Rigid, 2> at_now{where(bodies[0], limb, world), where(bodies[1], limb, world)};
-  const Vec3 apart = at_now[1] * ball_center_m_[at(bodies[1])] - at_now[0] * ball_center_m_[at(bodies[0])];
-  const double reach = ball_radius_m_[at(bodies[0])] + ball_radius_m_[at(bodies[1])] + kRoomBand_m;
-  if (glm::dot(apart, apart) > reach * reach) return kFar;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Body& own = character_->bodies()[at(bodies[i])];
-    for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
-      place(at_now[i], own_[at(c)], world_[at(c)]);
-  }
-  return collider_distance_m(judged, kRoomBand_m);
+  const Vec3 apart = ball_of(judged.body_b) - ball_of(judged.body_a);
+  const double reach = ball_radius_m_[at(judged.body_a)] + ball_radius_m_[at(judged.body_b)] + band_m;
+  if (reach < 0.0 || glm::dot(apart, apart) > reach * reach) return kFar;
+  place_solids(judged.body_a), place_solids(judged.body_b);
+  return collider_distance_m(judged, band_m);
 }
 
 // Infinite beyond the band.
@@ -205,17 +224,26 @@ std::size_t LimbRoom::part_of(int body) const {
   return at(character_->joint(character_->bodies()[at(body)].joint).part);
 }
 
-const std::string& LimbRoom::kind_of(int limb) const {
-  return character_->parts()[at(limbs_[at(limb)].parts.front())].kind;
+int LimbRoom::first_of_kind(int limb) const {
+  const auto kind_of = [&](int l) { return character_->parts()[at(limbs_[at(l)].parts.front())].kind; };
+  int first = 0;
+  while (kind_of(first) != kind_of(limb)) ++first;
+  return first;
+}
+
+// The distance from which on a pair leaves no less room than this; a nanometre more than rounding needs.
+double LimbRoom::band_below(double room_m, int pair) const {
+  return std::min(kRoomBand_m, room_m + safe_m_[at(pair)] + 1e-9);
 }
 
 double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world) {
   const int limb = limb_of_[part];
   double least = kRoomBand_m;
+  begin_look(limb, world);
   for (const int p : pairs_[at(limb)]) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
-      least = std::min(least, distance_m(p, limb, world) - safe_m_[at(p)]);
+      least = std::min(least, distance_m(p, band_below(least, p)) - safe_m_[at(p)]);
   }
   return least;
 }
@@ -236,10 +264,11 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
 
 double LimbRoom::room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world) {
   double least = kRoomBand_m;
+  begin_look(-1, world);
   for (const int p : pairs_[at(limb_of_[part])]) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     if (!is_of(held, pair.body_a, pair.body_b) && !is_of(held, pair.body_b, pair.body_a))
-      least = std::min(least, distance_m(p, -1, world) - safe_m_[at(p)]);
+      least = std::min(least, distance_m(p, band_below(least, p)) - safe_m_[at(p)]);
   }
   return least;
 }
@@ -257,11 +286,12 @@ double LimbRoom::over_plane_m(int joint, const Vec3& point_m, const Vec3& normal
 bool LimbRoom::swings(int limb) const { return limb >= 0 && swings_[at(limb)] != 0; }
 
 bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
+  begin_look(-1, world);
   return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)];
     return !swings(a) && !swings(b) && !holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a) &&
-           distance_m(p, -1, world) < std::min(kTouch_m, safe_m_[at(p)]);
+           distance_m(p, kRoomBand_m) < std::min(kTouch_m, safe_m_[at(p)]);
   });
 }
 
@@ -280,10 +310,11 @@ bool LimbRoom::holds(int body, int object) const {
 
 bool LimbRoom::is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world) {
   constexpr double kAt_m = 0.002;
+  begin_look(limb_of_[part], world);
   return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     return (is_of(held, pair.body_a, pair.body_b) || is_of(held, pair.body_b, pair.body_a)) &&
-           distance_m(p, limb_of_[part], world) < kAt_m;
+           distance_m(p, kRoomBand_m) < kAt_m;
   });
 }
 

@@ -84,12 +84,16 @@ class LimbRoom {
   bool is_leg(int limb) const;
   bool has_grip(int limb) const;
   bool swings(int limb) const;
-  const std::string& kind_of(int limb) const;
+  int first_of_kind(int limb) const;
   void begin_bodies();
   void begin_pairs();
   void begin_ground();
-  const Rigid& where(int body, int limb, std::span<const Rigid> world) const;
-  double distance_m(int pair, int limb, std::span<const Rigid> world);
+  void begin_look(int limb, std::span<const Rigid> world);
+  const Rigid& where(int body) const;
+  const Vec3& ball_of(int body);
+  void place_solids(int body);
+  double distance_m(int pair, double band_m);
+  double band_below(double room_m, int pair) const;
   double collider_distance_m(const JudgedPair& pair, double band_m) const;
   double off_obstacles_m(int body, const Rigid& world_from_body) const;
   double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment);
@@ -112,6 +116,13 @@ class LimbRoom {
   std::vector<Solid> world_;              // placed
   std::vector<Vec3> ball_center_m_;       // by body: of a ball that holds it, in its joint's frame
   std::vector<double> ball_radius_m_;
+  std::vector<int> limb_of_body_;  // by body; -1 of the root part's
+  std::vector<int> kind_;          // by limb: the first limb whose part is of the same kind
+  // The present look at the figure, from a limb or from none (-1), and the bodies that it has placed.
+  int looks_from_ = -1;
+  std::span<const Rigid> seen_;
+  std::vector<Vec3> ball_world_m_;
+  std::vector<char> has_ball_, has_solids_;
 };
 
 }  // namespace contort
