@@ -23,9 +23,13 @@ std::vector<double> evenly(double low, double high, double step) {
   return values;
 }
 
+int rings_of(const Joint& ball, double step_rad) {
+  return steps_in(std::max(ball.swing_a_rad, ball.swing_b_rad), step_rad);
+}
+
 std::vector<SwingTwist> swings_of(const Joint& ball, double step_rad) {
   std::vector<SwingTwist> swings = {{}};
-  const int rings = steps_in(std::max(ball.swing_a_rad, ball.swing_b_rad), step_rad);
+  const int rings = rings_of(ball, step_rad);
   for (int ring = 1; ring <= rings; ++ring)
     for (int i = 0; i < 6 * ring; ++i) {
       const det::SinCos at = det::sincos(2.0 * kPi * i / (6 * ring));
@@ -35,12 +39,17 @@ std::vector<SwingTwist> swings_of(const Joint& ball, double step_rad) {
   return swings;
 }
 
-std::vector<double> ball_places(const Joint& ball, double step_rad) {
-  // Twists are angles in [-pi, pi]; of a full turn the two ends are one place.
+// Twists are angles in [-pi, pi]; of a full turn the two ends are one place.
+std::vector<double> twists_of(const Joint& ball, double step_rad) {
   const double low = std::max(ball.low, -kPi);
   const double high = std::max(low, std::min(ball.high, kPi));
   std::vector<double> twists = evenly(low, high, step_rad);
   if (twists.size() > 2 && high - low > 2.0 * kPi - 1e-9) twists.pop_back();
+  return twists;
+}
+
+std::vector<double> ball_places(const Joint& ball, double step_rad) {
+  const std::vector<double> twists = twists_of(ball, step_rad);
   std::vector<double> places;
   for (const SwingTwist& swing : swings_of(ball, step_rad))
     for (const double twist : twists) {
@@ -52,20 +61,27 @@ std::vector<double> ball_places(const Joint& ball, double step_rad) {
   return places;
 }
 
-// Numbers of places as aim_steps counts them; a double, because sixteen joints overflow an int.
-double count_of(const AimGeometry& geometry, const AimSteps& steps) {
+// The number of places_of, without listing them; a double, because three rings of a ball are many.
+double place_count(const Joint& joint, double step_rad) {
+  if (joint.kind == JointKind::hinge) return 1.0 + steps_in(joint.high - joint.low, step_rad);
+  if (joint.kind != JointKind::ball) return 1.0;
+  const double rings = rings_of(joint, step_rad);
+  return (1.0 + 3.0 * rings * (rings + 1.0)) * static_cast<double>(twists_of(joint, step_rad).size());
+}
+
+// The number of states; a double, because sixteen joints overflow an int.
+double state_count(const AimGeometry& geometry, double step_rad) {
+  double count = 1.0;
+  for (const Joint& joint : geometry.joints) count *= place_count(joint, step_rad);
+  return count;
+}
+
+double listed_count(const AimGeometry& geometry, const AimSteps& steps) {
   double count = 1.0;
   for (std::size_t i = 0; i < geometry.joints.size(); ++i)
     count *=
         static_cast<double>(steps.places[i].size() / static_cast<std::size_t>(coord_size(geometry.joints[i].kind)));
   return count;
-}
-
-// A bound on the memory of one attempt: places of one joint beyond the number of states allowed need not be listed.
-bool too_many_alone(const Joint& joint, double step_rad, int max_states) {
-  if (joint.kind != JointKind::ball) return false;
-  const double rings = steps_in(std::max(joint.swing_a_rad, joint.swing_b_rad), step_rad);
-  return 1.0 + 3.0 * rings * (rings + 1.0) > max_states;
 }
 
 }  // namespace
@@ -85,28 +101,19 @@ std::vector<double> places_of(const Joint& joint, double step_rad) {
   return middle_of(joint);
 }
 
+// The step is made wider until there are few enough states; joints that are still too many at the widest one stay in
+// the middle, the innermost first.
 AimSteps aim_steps(const AimGeometry& geometry, const AimTableOptions& options) {
   const double wanted_rad = options.joint_step_deg * kRadPerDeg;
   AimSteps steps;
-  for (int quarter = 4;; ++quarter) {
-    steps.step_rad = std::min(wanted_rad * quarter / 4.0, kPi);
-    steps.places.clear();
-    bool too_many = false;
-    for (const Joint& joint : geometry.joints) {
-      too_many = too_many || too_many_alone(joint, steps.step_rad, options.max_states);
-      if (!too_many) steps.places.push_back(places_of(joint, steps.step_rad));
-    }
-    if (!too_many && count_of(geometry, steps) <= options.max_states) break;
-    if (steps.step_rad < kPi) continue;
-    for (std::size_t i = 0; i < geometry.joints.size(); ++i) {
-      if (i >= steps.places.size()) steps.places.emplace_back();
-      steps.places[i] = places_of(geometry.joints[i], steps.step_rad);
-    }
-    for (std::size_t i = 0; count_of(geometry, steps) > options.max_states; ++i)
-      steps.places[i] = middle_of(geometry.joints[i]);
-    break;
-  }
-  steps.state_count = static_cast<int>(count_of(geometry, steps));
+  int quarter = 4;
+  do {
+    steps.step_rad = std::min(wanted_rad * quarter++ / 4.0, kPi);
+  } while (state_count(geometry, steps.step_rad) > options.max_states && steps.step_rad < kPi);
+  for (const Joint& joint : geometry.joints) steps.places.push_back(places_of(joint, steps.step_rad));
+  for (std::size_t i = 0; listed_count(geometry, steps) > options.max_states; ++i)
+    steps.places[i] = middle_of(geometry.joints[i]);
+  steps.state_count = static_cast<int>(listed_count(geometry, steps));
   return steps;
 }
 
