@@ -44,6 +44,7 @@ inline RunConfig config_of(std::int64_t cases, int jobs) {
   config.shrinks_per_family = 1;
   config.shrink.max_evaluations = 12;
   config.tool = "test";
+  config.limits.seconds = 120.0;  // with sanitizers, on a busy machine, a case may take longer than the default
   return config;
 }
 
