@@ -7,11 +7,11 @@
 
 namespace contort {
 
-#define X(name, scale, resolution, needs_world, needs, nothing, help) \
+#define X(name, kind, scale, resolution, needs_world, needs, nothing, help) \
   int name##_subject_count(const Character&);                         \
   Subject name##_subject(const Character&, int);                      \
   void name##_measure(const CheckInput&, MarginFold&);
-#define CLIP(name, scale, help) ClipCheckResult name##_in_clip(const ClipInput&);
+#define CLIP(name, kind, scale, help) ClipCheckResult name##_in_clip(const ClipInput&);
 #include "checks/check_list.inc"
 #undef X
 #undef CLIP
@@ -29,17 +29,28 @@ void measure_nothing(const CheckInput&, MarginFold&) {}
 
 std::span<const CheckDef> all_checks() {
   static const CheckDef checks[] = {
-#define X(name, scale, resolution, needs_world, needs, nothing, help)                                        \
-  {#name,   scale, resolution,           needs_world,    Needs::needs,   \
-   nothing, help,  name##_subject_count, name##_subject, name##_measure},
-#define CLIP(name, scale, help)                                                         \
-  {#name, scale, 0.0,         false,      Needs::clip,     "",                           \
+#define X(name, kind, scale, resolution, needs_world, needs, nothing, help)                                        \
+  {#name,   CheckKind::kind, scale, resolution,           needs_world,    Needs::needs, \
+   nothing, help,            name##_subject_count, name##_subject, name##_measure},
+#define CLIP(name, kind, scale, help)                                                         \
+  {#name, CheckKind::kind, scale, 0.0, false, Needs::clip, "", \
    help,  no_subjects, no_subject, measure_nothing, name##_in_clip},
 #include "checks/check_list.inc"
 #undef X
 #undef CLIP
   };
   return checks;
+}
+
+std::span<const std::string_view> check_kind_names() {
+  static constexpr std::string_view kNames[] = {"broken", "speed",    "range", "contact", "ground",
+                                                "obstacle", "goal", "queue", "dynamics"};
+  return kNames;
+}
+
+CheckKind kind_of_check(std::string_view check) {
+  const auto def = std::ranges::find(all_checks(), check, &CheckDef::name);
+  return def == all_checks().end() ? CheckKind::broken : def->kind;
 }
 
 std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& input) {

@@ -31,6 +31,23 @@ enum class Needs : std::uint8_t {
   clip,              // instead of all that, a clip as it is in its file
 };
 
+// The kind of what is wrong, for grouping failures (docs/causes.md).
+enum class CheckKind : std::uint8_t {
+  broken,    // no motion, or NaN and infinite values
+  speed,     // too fast, too abrupt
+  range,     // a joint or point beyond its limits
+  contact,   // the figure touches itself
+  ground,    // it sinks, or slides
+  obstacle,  // it passes through something
+  goal,      // a target is missed
+  queue,     // sequences, or what they leave behind
+  dynamics,  // effort, balance, recovery
+};
+std::span<const std::string_view> check_kind_names();  // in the order of the enum
+
+// The kind of a check by name. Crashes, timeouts and memory have no row in the manifest; they are `broken`.
+CheckKind kind_of_check(std::string_view check);
+
 struct ClipInput;  // clip_check.h
 struct ClipCheckResult;
 
@@ -57,6 +74,7 @@ struct Subject {
 
 struct CheckDef {
   std::string_view name;  // "joint_range"
+  CheckKind kind;
   double scale;           // margin / scale compares checks: 0.1 rad out of range is "as bad as" 2 cm deep
   double resolution;      // margins down to -resolution are rounding, not violations
   bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it

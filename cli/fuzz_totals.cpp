@@ -2,28 +2,87 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <span>
 
 #include "cli/against.h"
+#include "cli/causes.h"
 #include "cli/input.h"
 #include "cli/print.h"
-#include "cli/report.h"
 #include "corpus/search_progress.h"
 #include "model/core/json_fields.h"
 #include "renders/search_html.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
 namespace {
 
-void print_found(const RunResult& result, const TotalsRequest& request) {
-  if (request.against) print_comparison(result, *request.against, request.library_folders);
-  for (const std::string& folder : request.against ? std::vector<std::string>() : result.new_buckets) {
-    const Result<std::string> line = bucket_line(folder, request.library_folders);
-    std::printf("%s\n", line ? line->c_str() : to_line(line.issue()).c_str());
+std::string name_of_folder(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+// The causes of the failures of this run, and the ids of those that the corpus had before.
+struct FoundCauses {
+  std::vector<CauseRow> rows;
+  std::set<std::string> known;
+};
+
+FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
+  std::set<std::string> fresh, touched;
+  for (const std::string& folder : result.new_buckets) fresh.insert(name_of_folder(folder));
+  touched = fresh;
+  for (const std::string& folder : result.known_buckets) touched.insert(name_of_folder(folder));
+  std::vector<Issue> damaged;  // the run has told of what cannot be read
+  std::vector<CauseMember> found, before;
+  for (CauseMember& member : cause_members(corpus, corpus.buckets(damaged), damaged)) {
+    const std::string name = folder_name(member.bucket);
+    if (!fresh.contains(name)) before.push_back(member);
+    if (touched.contains(name)) found.push_back(std::move(member));
   }
-  for (const std::string& lead : result.unconfirmed)
-    std::printf("NOT CONFIRMED (a second run differed)  %s\n", replay_command(lead, request.library_folders).c_str());
+  return {causes_of(std::move(found), std::span(&result.record, 1)), cause_ids(before)};
+}
+
+// The verdict in one sentence.
+std::string verdict(const RunRecord& record, const FoundCauses& causes) {
+  if (record.cases == 0) return "No case ran.";
+  const double clean = 100.0 * (1.0 - static_cast<double>(record.failing) / static_cast<double>(record.cases));
+  const std::string share = decimal(clean, record.failing == 0 ? 0 : 1) + " % of " +
+                            counted(record.cases, "case is clean", "cases are clean");
+  if (record.failing == 0) return share + ".";
+  const auto is_new = [&](const CauseRow& row) { return !causes.known.contains(row.id); };
+  return share + "; " + counted(record.failing, "fails", "fail") + ", by " +
+         counted(std::ssize(causes.rows), "cause", "causes") + ", " +
+         count_text(std::ranges::count_if(causes.rows, is_new)) + " of them new.";
+}
+
+void print_causes(const RunResult& result, const TotalsRequest& request) {
+  const Result<Corpus> corpus = Corpus::open(request.corpus);
+  if (!corpus) return;
+  FoundCauses causes = causes_found(result, *corpus);
+  std::printf("%s\n%s", verdict(result.record, causes).c_str(),
+              causes_text(causes.rows, {.cases = result.record.cases,
+                                        .known = causes.known,
+                                        .corpus = request.corpus,
+                                        .library_folders = request.library_folders})
+                  .c_str());
+}
+
+constexpr std::size_t kMostUnsteady = 5;  // that are printed; the others are only counted
+
+void print_unsteady(const RunResult& result, const TotalsRequest& request) {
+  for (std::size_t i = 0; i < std::min(result.unconfirmed.size(), kMostUnsteady); ++i)
+    std::printf("NOT CONFIRMED (a second run differed)  %s\n",
+                replay_command(result.unconfirmed[i], request.library_folders).c_str());
+  if (result.unconfirmed.size() > kMostUnsteady)
+    std::printf("and %zu more that were not confirmed, in %s/leads\n", result.unconfirmed.size() - kMostUnsteady,
+                request.corpus.c_str());
+}
+
+void print_found(const RunResult& result, const TotalsRequest& request) {
+  if (request.against)
+    print_comparison(result, *request.against, request.library_folders);
+  else
+    print_causes(result, request);
+  print_unsteady(result, request);
 }
 
 void print_totals_json(const RunResult& result, const TotalsRequest& request) {

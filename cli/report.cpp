@@ -249,24 +249,6 @@ int draw(const std::vector<Picture>& pictures, const Context& context) {
   return code;
 }
 
-}  // namespace
-
-Result<std::string> bucket_line(const std::string& bucket_folder, const std::vector<std::string>& library_folders) {
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(bucket_folder, error)) {
-    if (entry.path().filename().string().rfind("min-", 0) != 0) continue;
-    const Result<Case> stored = read_case_of(bucket_folder, entry.path().filename().string());
-    if (!stored) return stored.issue();
-    return "NEW " + print_family(family_of(*stored)) + "  " + short_number(stored->expect.worst_margin) + " " +
-           stored->expect.unit +
-           (stored->co_failures.empty() ? "" : " and " + std::to_string(stored->co_failures.size()) + " that come with it") + "  " +
-           replay_command(entry.path().string(), library_folders);
-  }
-  return Issue{"corpus.no_case", "", bucket_folder + " holds no minimal case"};
-}
-
-namespace {
-
 void write_page(const ReportRequest& request, const ReportModel& model, Media media, Generator& generator,
                 Context& context) {
   // Its summary comes first: it is what tells a folder that holds a report.

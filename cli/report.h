@@ -20,7 +20,4 @@ struct ReportRequest {
 // Writes what CI reads first, then the page, and the pictures after it, so that no picture can cost a finding.
 void make_report(const ReportRequest& request, Generator& generator, Context& context);
 
-// "NEW self_collision|mech|… -0.03 m  contort replay …/min-….json", for a bucket's folder.
-Result<std::string> bucket_line(const std::string& bucket_folder, const std::vector<std::string>& library_folders);
-
 }  // namespace contort::cli

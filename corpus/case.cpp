@@ -14,6 +14,12 @@ Family family_of(const Case& stored) {
   return {stored.expect.check, stored.spec.character.name, stored.expect.subject};
 }
 
+Cause cause_of(const Case& minimal) {
+  return minimal.cause.scheme > 0 ? minimal.cause : cause_without_experiments(minimal.spec);
+}
+
+std::string cause_id_of(const Case& minimal) { return cause_id(cause_of(minimal), kind_of_check(minimal.expect.check)); }
+
 double depth_of(const Expectation& expect) {
   return std::isnan(expect.worst_margin) ? std::numeric_limits<double>::infinity() : expect.depth;
 }

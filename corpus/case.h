@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checks/family.h"
+#include "corpus/cause.h"
 #include "corpus/evaluator.h"
 #include "model/core/result.h"
 #include "model/spec/spec.h"
@@ -56,10 +57,15 @@ struct Case {
   Provenance provenance;
   std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
   std::vector<Family> co_failures{};              // came with it before it was shrunk, and still do
+  Cause cause{};                                  // of a minimal case
   bool operator==(const Case&) const = default;
 };
 
 Family family_of(const Case& stored);
+
+// The stored cause, or the one that the spec alone tells if none is stored.
+Cause cause_of(const Case& minimal);
+std::string cause_id_of(const Case& minimal);
 
 // The depth of the failure in its check's scale. NaN is deeper than any finite depth.
 double depth_of(const Expectation& expect);

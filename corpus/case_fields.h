@@ -14,6 +14,7 @@ inline const Rule kText{.text = Text::label, .may_be_empty = true};
 inline const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
 inline const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
 inline const Rule kFrame{.low = 0, .high = 36000};
+inline const Rule kNames{.max_count = 64, .text = Text::label};
 inline const Rule kWholeNumber{.low = -1, .high = 0x1p53};
 }  // namespace stored_rules
 
@@ -64,6 +65,16 @@ void fields(V& v, const Provenance*) {
 }
 
 template <class V>
+void fields(V& v, const Cause*) {
+  v.field("scheme", &Cause::scheme, {.low = 0, .high = 1e6}, "Version of the rules that found it; 0: not found yet.");
+  v.field("scope", &Cause::scope, {.names = cause_scope_names()},
+          "alone: one action fails by itself; company: several fail only together; setting: no action explains it.");
+  v.field("names", &Cause::names, stored_rules::kNames, "The culprit, the actions, or the surroundings.");
+  v.field("also", &Cause::also, stored_rules::kNames, "Other actions that fail by themselves, too; of a setting, the actions of the spec.");
+  v.field("simulated", &Cause::is_simulated, {}, "The minimal spec needs dynamics.");
+}
+
+template <class V>
 void fields(V& v, const Case*) {
   v.constant("format", "contort.case/1");
   v.field("spec", &Case::spec, {.required = true}, "The action specification.");
@@ -73,6 +84,7 @@ void fields(V& v, const Case*) {
           "Pointers into the spec: fields that could as well have other values.");
   v.field("also", &Case::co_failures, {.max_count = 100'000, .text = json_fields::Text::prose},
           "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
+  v.field("cause", &Case::cause, {}, "Of a minimal case: which of its actions fails alone (docs/causes.md).");
 }
 
 }  // namespace contort

@@ -8,6 +8,7 @@
 #include "process/clock.h"
 #include "corpus/replay.h"
 #include "fuzz/profile_violations.h"
+#include "fuzz/culprits.h"
 #include "fuzz/labels.h"
 #include "fuzz/precursor.h"
 #include "model/core/hash.h"
@@ -200,10 +201,13 @@ bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shr
 }  // namespace
 
 // If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does
-// not count there; a deepest case that does not is left out.
-bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, WorkerSlot& slot) {
+// not count there; a deepest case that does not is left out. The actions of a guarded one are not played alone, as that
+// could end the process.
+bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot) {
   Case minimal = shrunk.minimal, worst = shrunk.worst;
   if (!counts_again(minimal, "", slot)) return false;
+  minimal.cause = guarded ? cause_without_experiments(minimal.spec)
+                          : find_cause(minimal, evaluator_, [&](const Spec& spec) { slot.note(print_spec(spec)); });
   lead.minimal = minimal;
   lead.worst = counts_again(worst, "", slot) ? worst : minimal;
   if (family_of(minimal) == family_of(lead.original)) return true;
@@ -218,7 +222,7 @@ Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlo
   const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
     return shrink_one(original, lead.run, guarded, slot, search);
   });
-  settled.confirmed = shows_again(shrunk) && take_shrunk(shrunk, lead, slot);
+  settled.confirmed = shows_again(shrunk) && take_shrunk(shrunk, lead, guarded, slot);
   if (!settled.confirmed) lead.original.provenance.shrink_stopped = kUnsteady;
   Result<Done> kept = done(keep_lead(corpus_, lead));
   for (const Case& met : shrunk.met)
@@ -237,6 +241,7 @@ Result<Done> CaseWork::keep_incidental(const Case& met, SettledLead& settled, Wo
   const Shrunk smaller = shrink_one(lead.original, lead.run, false, slot, {});
   Case minimal = smaller.minimal;
   const bool again = shows_again(smaller) && counts_again(minimal, "", slot);
+  if (again) minimal.cause = cause_without_experiments(minimal.spec);
   if (again)
     lead.minimal = minimal;
   else

@@ -1,0 +1,145 @@
+// contort causes: the failures of a corpus, grouped by what causes them.
+#include "cli/causes.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+#include "cli/print.h"
+#include "model/core/json_fields.h"
+#include "renders/wording.h"
+
+namespace contort::cli {
+
+namespace {
+
+using json_fields::Json;
+
+struct CausesOptions {
+  std::string corpus, baseline;
+  bool all = false;
+  bool json = false;
+};
+
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
+  return text;
+}
+
+// A path that works in whatever folder the command is pasted.
+std::string absolute(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  return error ? path : whole.lexically_normal().string();
+}
+
+std::string row_text(const CauseRow& row, std::size_t place, const CausesText& about) {
+  const std::string number = std::to_string(place) + ".";
+  std::string text = number + std::string(number.size() < 4 ? 4 - number.size() : 1, ' ');
+  text += (about.known.contains(row.id) ? "      " : "NEW   ") + printable(row.headline) + "\n          ";
+  text += "severity " + decimal(row.severity, 1);
+  if (about.cases > 0) text += ", " + count_text(row.cases) + " of " + counted(about.cases, "case", "cases");
+  text += ", " + counted(std::ssize(row.members), "bucket", "buckets") + " (" + joined(row.characters) + ")  ";
+  return text + replay_command(absolute(row.members.front().path), about.library_folders) + "\n";
+}
+
+Json row_json(const CauseRow& row, const CausesText& about) {
+  const Case& deepest = row.members.front().minimal;
+  const Cause cause = cause_of(deepest);
+  Json buckets = Json::array();
+  for (const CauseMember& member : row.members)
+    buckets.push_back({{"id", member.bucket.id},
+                       {"family", print_family(member.bucket.family)},
+                       {"state", state_name(member.bucket.state)},
+                       {"case", absolute(member.path)}});
+  return {{"id", row.id},
+          {"headline", row.headline},
+          {"severity", row.severity},
+          {"is_new", !about.known.contains(row.id)},
+          {"scope", cause_scope_names()[static_cast<std::size_t>(cause.scope)]},
+          {"names", cause.names},
+          {"also", cause.also},
+          {"simulated", cause.is_simulated},
+          {"kind", check_kind_names()[static_cast<std::size_t>(kind_of_check(deepest.expect.check))]},
+          {"cases", row.cases},
+          {"characters", row.characters},
+          {"buckets", buckets}};
+}
+
+}  // namespace
+
+std::string causes_text(std::span<const CauseRow> rows, const CausesText& about) {
+  std::string text;
+  const std::size_t shown = std::min(rows.size(), about.most);
+  for (std::size_t i = 0; i < shown; ++i) text += row_text(rows[i], i + 1, about);
+  if (shown < rows.size())
+    text += "and " + counted(std::ssize(rows) - static_cast<std::int64_t>(shown), "other cause", "other causes") +
+            ": contort causes --all " +
+            shell_quoted(absolute(about.corpus)) + "\n";
+  return text;
+}
+
+std::string causes_json(std::span<const CauseRow> rows, const CausesText& about) {
+  Json list = Json::array();
+  for (const CauseRow& row : rows) list.push_back(row_json(row, about));
+  const Json out = {{"format", "contort.causes/1"}, {"cases", about.cases}, {"causes", list}};
+  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+namespace {
+
+// Members of all buckets that are not fixed; what cannot be read is told, and makes the exit code 2.
+std::vector<CauseMember> members_of(const Corpus& corpus, Context& context) {
+  std::vector<Issue> damaged;
+  std::vector<Bucket> buckets = corpus.buckets(damaged);
+  std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
+  std::vector<CauseMember> members = cause_members(corpus, std::move(buckets), damaged);
+  for (const Issue& issue : damaged) context.fail(issue);
+  return members;
+}
+
+Result<std::set<std::string>> causes_known_in(const std::string& baseline, const std::vector<CauseMember>& members,
+                                              Context& context) {
+  if (baseline.empty()) return cause_ids(members);
+  const Result<Corpus> other = Corpus::open(baseline);
+  if (!other) return other.issue();
+  return cause_ids(members_of(*other, context));
+}
+
+void run_causes(const CausesOptions& options, Context& context) {
+  const Result<Corpus> corpus = Corpus::open(options.corpus);
+  if (!corpus) return context.fail(corpus.issue());
+  std::vector<CauseMember> members = members_of(*corpus, context);
+  const Result<std::set<std::string>> known = causes_known_in(options.baseline, members, context);
+  if (!known) return context.fail(known.issue());
+  std::vector<Issue> damaged;
+  const std::vector<RunRecord> runs = runs_of(*corpus, damaged);
+  for (const Issue& issue : damaged) context.fail(issue);
+  CausesText about{.known = *known, .corpus = options.corpus, .library_folders = context.library_folders};
+  for (const RunRecord& run : runs) about.cases += run.cases;
+  const auto buckets = std::ssize(members);
+  const std::vector<CauseRow> rows = causes_of(std::move(members), runs);
+  if (options.all) about.most = rows.size();
+  if (options.json) return void(std::printf("%s\n", causes_json(rows, about).c_str()));
+  std::printf("%s%s, %s\n", causes_text(rows, about).c_str(), counted(std::ssize(rows), "cause", "causes").c_str(),
+              counted(buckets, "bucket", "buckets").c_str());
+}
+
+}  // namespace
+
+void add_causes(CLI::App& app, Context& context) {
+  auto options = std::make_shared<CausesOptions>();
+  CLI::App* command = app.add_subcommand("causes", "Group the failures of a corpus by what causes them");
+  command->add_option("corpus", options->corpus, "Folder of the corpus")->required();
+  command->add_option("--baseline", options->baseline, "Another corpus: causes that it does not have are new");
+  command->add_flag("--all", options->all, "Print every cause, not only the most severe ones");
+  command->add_flag("--json", options->json, "Print all causes with their buckets as JSON");
+  command->footer("Example: contort causes contort-out/corpus");
+  command->callback([options, &context] { run_causes(*options, context); });
+}
+
+}  // namespace contort::cli

@@ -1,0 +1,201 @@
+#include "corpus/cause.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "model/core/hash.h"
+
+namespace contort {
+
+namespace {
+
+constexpr std::size_t kCauseDigits = 12;
+constexpr std::string_view kBetween = " ~ ";
+
+std::vector<std::string_view> bodies_of(std::string_view subject) {
+  std::vector<std::string_view> bodies;
+  for (std::size_t end = subject.find(kBetween); end != std::string_view::npos; end = subject.find(kBetween)) {
+    bodies.push_back(subject.substr(0, end));
+    subject.remove_prefix(end + kBetween.size());
+  }
+  bodies.push_back(subject);
+  return bodies;
+}
+
+std::string_view side_of(std::string_view slot) {
+  return slot.ends_with("_left") ? "left" : slot.ends_with("_right") ? "right" : "";
+}
+
+std::string_view without_side(std::string_view slot) {
+  const std::string_view side = side_of(slot);
+  return side.empty() ? slot : slot.substr(0, slot.size() - side.size() - 1);
+}
+
+// "arm_left/elbow max" as people say it: "left elbow".
+std::string body_in_words(std::string_view body) {
+  for (const std::string_view end : {" min", " max"})
+    if (body.ends_with(end)) body.remove_suffix(end.size());
+  const std::size_t slash = body.find('/');
+  const std::string_view slot = body.substr(0, slash), side = side_of(slot);
+  std::string words(slash == std::string_view::npos ? without_side(slot) : body.substr(slash + 1));
+  if (!side.empty() && words.find(side) == std::string::npos) words = std::string(side) + " " + words;
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string joined(const std::vector<std::string>& names, std::string_view between) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : std::string(between)) + name;
+  return text;
+}
+
+// The first few names, and how many others there are.
+std::string first_joined(const std::vector<std::string>& names, std::string_view between) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() <= kMost) return joined(names, between);
+  return joined({names.begin(), names.begin() + kMost}, between) + " and " + std::to_string(names.size() - kMost) +
+         " others";
+}
+
+// The verb of each check; what it judges stands before it. Checks that are not listed say their name.
+struct Verb {
+  std::string_view check, text;
+};
+constexpr Verb kVerbs[] = {
+    {"non_finite", "has NaN or infinite values"},
+    {"joint_range", "leaves its range"},
+    {"angular_velocity", "turns too fast"},
+    {"pop", "jumps"},
+    {"angular_acceleration", "starts or stops too abruptly"},
+    {"bind_pose_flash", "flashes to the rest pose"},
+    {"bone_position", "leaves its region"},
+    {"aim_error", "misses what it aims at"},
+    {"reach_error", "misses its target"},
+    {"residue", "does not come back"},
+    {"stuck", "stays in the queue"},
+    {"queue_gap", "begins or goes on at the wrong place"},
+    {"joint_torque", "needs more effort than its strength"},
+    {"balance", "loses balance"},
+    {"tracking_error", "does not come back to its target after an impact"},
+    {"ground_penetration", "sinks into the ground"},
+    {"foot_slide", "slides on the ground"},
+};
+
+std::string what_happens(std::string_view check, std::string_view subject) {
+  const std::vector<std::string_view> bodies = bodies_of(subject);
+  const std::string first = body_in_words(bodies.front());
+  if (check == "self_collision" || check == "obstacle_penetration")
+    return first + " goes through " + (bodies.size() > 1 ? body_in_words(bodies[1]) : "an obstacle");
+  for (const Verb& verb : kVerbs)
+    if (verb.check == check) return first + " " + std::string(verb.text);
+  return first + ": " + std::string(check);
+}
+
+bool is_disturbed(const Spec& spec) { return !spec.dynamics.impacts.empty() || !spec.dynamics.loads.empty(); }
+
+std::vector<std::string> disturbances_of(const Spec& spec) {
+  std::vector<std::string> names;
+  if (!spec.dynamics.impacts.empty()) names.emplace_back("impact");
+  if (!spec.dynamics.loads.empty()) names.emplace_back("load");
+  return names;
+}
+
+// How sentences name surroundings.
+std::string setting_in_words(const std::string& name) {
+  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"ground", "on uneven ground"},        {"impact", "after an impact"},
+      {"load", "under a load"},              {"obstacle", "beside an obstacle"},
+      {"pose", "in the start pose"},         {"recording", "in a recording"},
+      {"swap", "with another part or object"}};
+  for (const auto& [setting, words] : kWords)
+    if (setting == name) return std::string(words);
+  return name;
+}
+
+std::string settings_in_words(const std::vector<std::string>& names) {
+  std::vector<std::string> words;
+  for (const std::string& name : names) words.push_back(setting_in_words(name));
+  return joined(words, " and ");
+}
+
+void add_actions(const SequenceDesc& sequence, std::vector<LoneAction>& list) {
+  for (const ClipDesc& clip : sequence.clips)
+    for (const ActionUse& use : clip.actions) {
+      LoneAction& one = list.emplace_back(LoneAction{use.action, sequence});
+      one.sequence.clips = {clip};
+      one.sequence.clips.front().actions = {use};
+    }
+}
+
+}  // namespace
+
+std::span<const std::string_view> cause_scope_names() {
+  static constexpr std::string_view kNames[] = {"alone", "company", "setting"};
+  return kNames;
+}
+
+std::vector<LoneAction> lone_actions_of(const Spec& spec) {
+  std::vector<LoneAction> list;
+  for (const SequenceDesc& sequence : spec.sequences) add_actions(sequence, list);
+  for (const InterruptDesc& interrupt : spec.interrupts) add_actions(interrupt.sequence, list);
+  return list;
+}
+
+std::vector<std::string> surroundings_of(const Spec& spec) {
+  std::vector<std::string> names;
+  if (!std::holds_alternative<PlaneGround>(spec.environment.ground)) names.emplace_back("ground");
+  if (!spec.dynamics.impacts.empty()) names.emplace_back("impact");
+  if (!spec.dynamics.loads.empty()) names.emplace_back("load");
+  if (!spec.environment.obstacles.empty()) names.emplace_back("obstacle");
+  if (!spec.recording.name.empty()) names.emplace_back("recording");
+  if (!spec.character.parts.empty() || !spec.character.attachments.empty()) names.emplace_back("swap");
+  if (names.empty()) names.emplace_back("pose");
+  return names;
+}
+
+Cause cause_without_experiments(const Spec& minimal) {
+  const std::vector<LoneAction> uses = lone_actions_of(minimal);
+  std::set<std::string> actions;
+  for (const LoneAction& one : uses) actions.insert(one.action);
+  Cause cause{.scheme = kCauseScheme, .is_simulated = minimal.dynamics.mode != Mode::kinematic};
+  if (cause.is_simulated && is_disturbed(minimal)) {
+    cause.scope = CauseScope::setting;
+    cause.names = disturbances_of(minimal);
+    cause.also.assign(actions.begin(), actions.end());
+    return cause;
+  }
+  cause.scope = uses.empty()       ? CauseScope::setting
+                : uses.size() == 1 ? CauseScope::alone
+                                   : CauseScope::company;
+  cause.names = actions.empty() ? surroundings_of(minimal) : std::vector(actions.begin(), actions.end());
+  return cause;
+}
+
+std::string cause_id(const Cause& cause, CheckKind kind) {
+  const std::string key = std::to_string(cause.scheme) + "|" +
+                          std::string(cause_scope_names()[static_cast<std::size_t>(cause.scope)]) + "|" +
+                          joined(cause.names, ",") + "|" +
+                          std::string(check_kind_names()[static_cast<std::size_t>(kind)]) +
+                          (cause.is_simulated ? "|simulated" : "");
+  return content_id(key).substr(0, kCauseDigits);
+}
+
+std::vector<std::string> limbs_of(std::string_view subject) {
+  std::set<std::string> limbs;
+  for (const std::string_view body : bodies_of(subject)) limbs.emplace(without_side(body.substr(0, body.find('/'))));
+  return {limbs.begin(), limbs.end()};
+}
+
+std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject) {
+  std::string text = what_happens(check, subject);
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 32);
+  switch (cause.scope) {
+    case CauseScope::alone: text += " during " + joined(cause.names, ", ") ; break;
+    case CauseScope::company: text += " during " + first_joined(cause.names, " together with "); break;
+    case CauseScope::setting: text += " " + settings_in_words(cause.names); break;
+  }
+  return text + (cause.is_simulated ? ", simulated" : "");
+}
+
+}  // namespace contort

@@ -1,0 +1,57 @@
+// The cause of a failure: what people read, where a bucket is what is tracked. docs/causes.md describes the experiments
+// that find it (fuzz/culprits.h).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checks/check.h"
+#include "model/spec/spec.h"
+
+namespace contort {
+
+// The version of the rules that find causes and make their ids.
+inline constexpr int kCauseScheme = 1;
+
+enum class CauseScope : std::uint8_t {
+  alone,    // one action fails by itself
+  company,  // several actions fail only together
+  setting,  // fails without any action, or because of an impact or a load on a simulated figure
+};
+std::span<const std::string_view> cause_scope_names();  // in the order of the enum
+
+struct Cause {
+  int scheme = 0;  // kCauseScheme of who found it; 0: not found yet
+  CauseScope scope = CauseScope::alone;
+  std::vector<std::string> names{};  // alone: the culprit; company: the actions, sorted; setting: surroundings, sorted
+  std::vector<std::string> also{};   // alone: other actions that fail by themselves, too; setting: actions; sorted
+  bool is_simulated = false;       // the minimal spec needs dynamics
+  bool operator==(const Cause&) const = default;
+};
+
+// The actions of a spec in the order of its text: each with the sequence and clip that hold it, and nothing else there.
+struct LoneAction {
+  std::string action;
+  SequenceDesc sequence;
+};
+std::vector<LoneAction> lone_actions_of(const Spec& spec);
+
+// The surroundings that a spec has and that could make a figure without actions fail, sorted: "ground", "impact",
+// "load", "obstacle", "recording", "swap"; "pose" if it has none.
+std::vector<std::string> surroundings_of(const Spec& spec);
+
+// The cause as far as the minimal spec alone tells it, without experiments.
+Cause cause_without_experiments(const Spec& minimal);
+
+// The id of a cause: 12 hex digits, a hash over scheme, scope, names, kind and whether it needs dynamics.
+std::string cause_id(const Cause& cause, CheckKind kind);
+
+// The limbs of a check's subject, without sides, sorted: "arm_left/hand ~ leg_right/thigh" gives "arm" and "leg".
+std::vector<std::string> limbs_of(std::string_view subject);
+
+// A sentence for people, such as "Left hand goes through right thigh during aim".
+std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject);
+
+}  // namespace contort

@@ -1,0 +1,44 @@
+// The causes of a corpus: its buckets, grouped and ordered for people. docs/causes.md has the formula of severity.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "corpus/corpus.h"
+#include "corpus/runs.h"
+
+namespace contort {
+
+// A bucket of a cause, with its minimal case.
+struct CauseMember {
+  Bucket bucket;
+  Case minimal;
+  std::string path;  // of the minimal case
+};
+
+struct CauseRow {
+  std::string id;
+  double severity = 0.0;      // [0, 100]
+  std::string headline{};     // of its deepest member
+  std::int64_t cases = 0;     // of the runs, that showed the most frequent family of its buckets
+  std::set<std::string> characters{};
+  std::vector<CauseMember> members{};  // the deepest first, then by name
+};
+
+// Reads the minimal cases of these buckets. Those that cannot be read are reported in `damaged`.
+std::vector<CauseMember> cause_members(const Corpus& corpus, std::vector<Bucket> buckets, std::vector<Issue>& damaged);
+
+// Groups members by cause. The most severe cause comes first, equally severe ones by id. `runs` say how often each
+// family was seen.
+std::vector<CauseRow> causes_of(std::vector<CauseMember> members, std::span<const RunRecord> runs);
+
+// The ids of the causes of these members.
+std::set<std::string> cause_ids(std::span<const CauseMember> members);
+
+// The severity of a cause, [0, 100]: of a kind of check, at this median depth (in scales), shown by a share of cases.
+double severity_of(CheckKind kind, double median_depth, CauseScope scope, double share);
+
+}  // namespace contort

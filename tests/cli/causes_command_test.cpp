@@ -1,0 +1,54 @@
+// Causes on the terminal: after a run, and of a corpus.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace contort {
+namespace {
+
+class CausesCommand : public ::testing::Test {
+ protected:
+  Ran fuzz(const std::string& corpus, int seed) const {
+    return contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", std::to_string(seed), "--cases",
+                            "2", "--shrink-evaluations", "60", "--shrinks-per-case", "20", "--corpus", corpus});
+  }
+  TempFolder folder_;
+};
+
+TEST_F(CausesCommand, ARunEndsWithAVerdictAndItsCausesWithinFortyLines) {
+  const Ran ran = fuzz(folder_ / "c", 12);
+  EXPECT_LE(std::ranges::count(ran.out, '\n'), 40) << ran.out;
+  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 fail, by ")) << ran.out;
+  EXPECT_NE(ran.out.find("\n1.  NEW   "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("  contort replay /"), std::string::npos) << "commands have absolute paths: " << ran.out;
+  const Ran again = fuzz(folder_ / "c", 12);
+  EXPECT_NE(again.out.find(", 0 of them new.\n"), std::string::npos) << again.out;
+  EXPECT_EQ(again.out.find("NEW"), std::string::npos) << again.out;
+}
+
+TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
+  fuzz(folder_ / "a", 12);
+  const Ran told = contort_program({"causes", folder_ / "a", "--json"});
+  const nlohmann::json all = nlohmann::json::parse(told.out);
+  const nlohmann::json buckets = nlohmann::json::parse(contort_program({"corpus", "list", folder_ / "a", "--json"}).out);
+  std::vector<std::string> listed, of_causes;
+  for (const auto& bucket : buckets) listed.push_back(bucket["id"]);
+  for (const auto& cause : all["causes"]) {
+    EXPECT_FALSE(cause["is_new"].get<bool>());
+    for (const auto& bucket : cause["buckets"]) of_causes.push_back(bucket["id"]);
+  }
+  std::ranges::sort(listed);
+  std::ranges::sort(of_causes);
+  EXPECT_EQ(listed, of_causes);
+  EXPECT_LT(all["causes"].size(), listed.size()) << "there are fewer causes than buckets";
+  contort_program({"fuzz", "--cases", "0", "--corpus", folder_ / "empty"});
+  const Ran fresh = contort_program({"causes", folder_ / "a", "--baseline", folder_ / "empty", "--json"});
+  for (const auto& cause : nlohmann::json::parse(fresh.out)["causes"]) EXPECT_TRUE(cause["is_new"].get<bool>());
+  EXPECT_EQ(contort_program({"causes", folder_ / "nowhere"}).code, 2);
+}
+
+}  // namespace
+}  // namespace contort
