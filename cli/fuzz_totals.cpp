@@ -44,12 +44,15 @@ FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
 // The verdict in one sentence.
 std::string verdict(const RunRecord& record, const FoundCauses& causes) {
   if (record.cases == 0) return "No case ran.";
-  const double clean = 100.0 * (1.0 - static_cast<double>(record.failing) / static_cast<double>(record.cases));
-  const std::string share = decimal(clean, record.failing == 0 ? 0 : 1) + " % of " +
+  // Rounded down, so that 100 % means that no case fails.
+  const std::int64_t clean_per_mille = 1000 * (record.cases - record.failing) / record.cases;
+  const std::string share = decimal(static_cast<double>(clean_per_mille) / 10.0, record.failing == 0 ? 0 : 1) + " % of " +
                             counted(record.cases, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
+  const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
+  if (causes.rows.empty()) return failing + "; none has a bucket yet, so no cause is known.";
   const auto is_new = [&](const CauseRow& row) { return !causes.known.contains(row.id); };
-  return share + "; " + counted(record.failing, "fails", "fail") + ", by " +
+  return failing + ", by " +
          counted(std::ssize(causes.rows), "cause", "causes") + ", " +
          count_text(std::ranges::count_if(causes.rows, is_new)) + " of them new.";
 }

@@ -61,7 +61,7 @@ std::vector<double> ball_places(const Joint& ball, double step_rad) {
   return places;
 }
 
-// The number of places_of, without listing them; a double, because three rings of a ball are many.
+// The number of places_of, without listing them; a double, because small steps of a ball overflow an int.
 double place_count(const Joint& joint, double step_rad) {
   if (joint.kind == JointKind::hinge) return 1.0 + steps_in(joint.high - joint.low, step_rad);
   if (joint.kind != JointKind::ball) return 1.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "corpus/corpus.h"
 #include "tests/cli/program.h"
 
 namespace contort {
@@ -29,13 +30,26 @@ TEST_F(CausesCommand, ARunEndsWithAVerdictAndItsCausesWithinFortyLines) {
   EXPECT_EQ(again.out.find("NEW"), std::string::npos) << again.out;
 }
 
+// A shard leaves it to the merge to file its failures.
+TEST_F(CausesCommand, AreNotClaimedOfFailuresWithoutABucket) {
+  const Ran ran = contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", "12", "--cases", "2",
+                                   "--shrink-evaluations", "1", "--shrinks-per-case", "1", "--shard", "0/2", "--corpus",
+                                   folder_ / "shard"});
+  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 fail; none has a bucket yet, so no cause is known.\n"))
+      << ran.out << ran.err;
+}
+
 TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
   fuzz(folder_ / "a", 12);
   const Ran told = contort_program({"causes", folder_ / "a", "--json"});
   const nlohmann::json all = nlohmann::json::parse(told.out);
   const nlohmann::json buckets = nlohmann::json::parse(contort_program({"corpus", "list", folder_ / "a", "--json"}).out);
   std::vector<std::string> listed, of_causes;
-  for (const auto& bucket : buckets) listed.push_back(bucket["id"]);
+  for (const auto& bucket : buckets) {
+    listed.push_back(bucket["id"]);
+    const std::string minimal = bucket["folder"].get<std::string>() + "/" + bucket["min"].get<std::string>();
+    EXPECT_EQ(read_case(minimal)->cause.scheme, kCauseScheme) << "the run stores the cause: " << minimal;
+  }
   for (const auto& cause : all["causes"]) {
     EXPECT_FALSE(cause["is_new"].get<bool>());
     for (const auto& bucket : cause["buckets"]) of_causes.push_back(bucket["id"]);
