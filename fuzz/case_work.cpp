@@ -201,13 +201,15 @@ bool shows_again(const Shrunk& shrunk) { return shrunk.stopped != "flaky" && shr
 }  // namespace
 
 // If there is a base, the smallest and the deepest case are run once more in both builds. False if the smallest does
-// not count there; a deepest case that does not is left out. The actions of a guarded one are not played alone, as that
-// could end the process.
-bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot) {
+// not count there; a deepest case that does not is left out.
+bool CaseWork::take_shrunk(Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot) {
   Case minimal = shrunk.minimal, worst = shrunk.worst;
   if (!counts_again(minimal, "", slot)) return false;
-  minimal.cause = guarded ? cause_without_experiments(minimal.spec)
-                          : find_cause(minimal, evaluator_, [&](const Spec& spec) { slot.note(print_spec(spec)); });
+  CauseSearch search{[&](const Spec& spec) { slot.note(print_spec(spec)); }, {}};
+  if (guarded) search.guard = isolation_of(config_.limits);
+  FoundCause found = find_cause(minimal, evaluator_, search);
+  minimal.cause = found.cause;
+  std::ranges::move(found.met, std::back_inserter(shrunk.met));
   lead.minimal = minimal;
   lead.worst = counts_again(worst, "", slot) ? worst : minimal;
   if (family_of(minimal) == family_of(lead.original)) return true;
@@ -219,7 +221,7 @@ bool CaseWork::take_shrunk(const Shrunk& shrunk, Lead& lead, bool guarded, Worke
 // A lead is shrunk in this process at first, and with a guard once a candidate has ended that.
 Result<Done> CaseWork::shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot) {
   Lead& lead = settled.lead;
-  const Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
+  Shrunk shrunk = shrink_to_precursor(lead.original, [&](const Case& original, const PrimarySearch& search) {
     return shrink_one(original, lead.run, guarded, slot, search);
   });
   settled.confirmed = shows_again(shrunk) && take_shrunk(shrunk, lead, guarded, slot);

@@ -48,7 +48,7 @@ class CaseWork {
   Shrunk shrink_one(const Case& original, const std::string& run, bool guarded, WorkerSlot& slot,
                     const PrimarySearch& search);
   Result<Done> shrink_lead(SettledLead& settled, bool guarded, WorkerSlot& slot);
-  bool take_shrunk(const Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot);
+  bool take_shrunk(Shrunk& shrunk, Lead& lead, bool guarded, WorkerSlot& slot);
   std::function<bool(const Spec&)> allowed_for(const Case& original, const std::string& run) const;
   Result<Done> keep_incidental(const Case& met, SettledLead& settled, WorkerSlot& slot);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "checks/circumstances.h"
+#include "corpus/ending_case.h"
 
 namespace contort {
 
@@ -23,8 +24,8 @@ bool is_alike(const Finding& finding, const Expectation& failure) {
 
 class Experiments {
  public:
-  Experiments(const Case& minimal, Evaluator& evaluator, const std::function<void(const Spec&)>& before_run)
-      : minimal_(minimal), evaluator_(evaluator), before_run_(before_run) {}
+  Experiments(const Case& minimal, Evaluator& evaluator, const CauseSearch& search)
+      : minimal_(minimal), evaluator_(evaluator), search_(search) {}
 
   // The depth of the deepest finding like the failure while this action plays alone; below 0 if there is no such one.
   double depth_alone(const LoneAction& one) {
@@ -33,7 +34,7 @@ class Experiments {
     spec.sequences = {one.sequence};
     spec.only_sequence = spec.only_clip = 0;
     double depth = -1.0;
-    if (const Result<Evaluation> run = evaluate(spec))
+    if (const std::optional<Evaluation> run = evaluate(spec))
       for (const Finding& finding : run->findings)
         if (is_alike(finding, minimal_.expect)) depth = std::max(depth, finding.depth);
     return depth;
@@ -42,7 +43,7 @@ class Experiments {
   // The names of the actions that move the figure in the worst frame.
   std::set<std::string> actions_in_force() {
     std::set<std::string> names;
-    const Result<Evaluation> run = evaluate(minimal_.spec);
+    const std::optional<Evaluation> run = evaluate(minimal_.spec);
     const Execution& execution = evaluator_.execution();
     if (!run || !execution.intent || minimal_.expect.worst_frame >= execution.motion.frame_count) return names;
     for (const ActiveAction& action : circumstances_of(*execution.intent, *execution.character, execution.motion,
@@ -51,15 +52,37 @@ class Experiments {
     return names;
   }
 
+  std::vector<Case> take_met() { return std::move(met_); }
+
  private:
-  Result<Evaluation> evaluate(const Spec& spec) {
-    if (before_run_) before_run_(spec);
+  // Nothing if the spec is refused or ends its process.
+  std::optional<Evaluation> evaluate(const Spec& spec) {
+    if (search_.guard && ends_its_process(spec)) return std::nullopt;
+    Result<Evaluation> run = run_noted(spec);
+    if (!run) return std::nullopt;
+    return std::move(run).value();
+  }
+
+  Result<Evaluation> run_noted(const Spec& spec) {
+    if (search_.before_run) search_.before_run(spec);
     return evaluator_.run(spec);
+  }
+
+  // False, too, if the machine has no process left.
+  bool ends_its_process(const Spec& spec) {
+    Isolation guard = *search_.guard;
+    guard.silent = true;
+    const auto work = [&] { return (void)run_noted(spec), std::string(); };
+    const Result<Ending> ending = isolate(work, guard);
+    if (!ending || ending->kind == Ending::Kind::finished) return false;
+    met_.push_back(ending_case(spec, *ending, guard));
+    return true;
   }
 
   const Case& minimal_;
   Evaluator& evaluator_;
-  const std::function<void(const Spec&)>& before_run_;
+  const CauseSearch& search_;
+  std::vector<Case> met_;
 };
 
 // The deepest first, of equally deep ones by name; nothing if no action fails alone.
@@ -76,10 +99,10 @@ std::vector<std::string> culprits_of(const Spec& minimal, Experiments& experimen
 
 }  // namespace
 
-Cause find_cause(const Case& minimal, Evaluator& evaluator, const std::function<void(const Spec&)>& before_run) {
+FoundCause find_cause(const Case& minimal, Evaluator& evaluator, const CauseSearch& search) {
   Cause cause = cause_without_experiments(minimal.spec);
-  if (cause.scope != CauseScope::company || is_abnormal_exit(minimal.expect)) return cause;
-  Experiments experiments(minimal, evaluator, before_run);
+  if (cause.scope != CauseScope::company || is_abnormal_exit(minimal.expect)) return {cause, {}};
+  Experiments experiments(minimal, evaluator, search);
   std::vector<std::string> culprits;
   if (lone_actions_of(minimal.spec).size() <= kMostExperiments) culprits = culprits_of(minimal.spec, experiments);
   if (!culprits.empty()) {
@@ -87,11 +110,10 @@ Cause find_cause(const Case& minimal, Evaluator& evaluator, const std::function<
     cause.names = {culprits.front()};
     cause.also.assign(culprits.begin() + 1, culprits.end());
     std::ranges::sort(cause.also);
-    return cause;
-  }
-  if (const std::set<std::string> in_force = experiments.actions_in_force(); !in_force.empty())
+  } else if (const std::set<std::string> in_force = experiments.actions_in_force(); !in_force.empty()) {
     cause.names.assign(in_force.begin(), in_force.end());
-  return cause;
+  }
+  return {cause, experiments.take_met()};
 }
 
 }  // namespace contort

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <map>
 #include <numeric>
 
@@ -66,7 +67,7 @@ class Culprits : public ::testing::Test {
     }
     const Case minimal{spec, expectation_of(evaluator.execution(), *evaluation, *finding), {}};
     generator_.runs = 0;
-    return find_cause(minimal, evaluator);
+    return find_cause(minimal, evaluator).cause;
   }
   AddingGenerator generator_;
 };
@@ -96,11 +97,32 @@ TEST_F(Culprits, ASingleActionNeedsNoExperiment) {
   EXPECT_EQ(generator_.runs, 0);
 }
 
+TEST_F(Culprits, AnActionThatEndsItsProcessShowsNothingAndIsMet) {
+  Evaluator evaluator(generator_);
+  Case minimal{spec_with({"little", "much"}), {}, {}};
+  const Result<Evaluation> evaluation = evaluator.run(minimal.spec);
+  ASSERT_TRUE(evaluation);
+  const Finding* finding = deepest(evaluation->findings, "joint_range", "body/knee max");
+  ASSERT_NE(finding, nullptr);
+  minimal.expect = expectation_of(evaluator.execution(), *evaluation, *finding);
+  CauseSearch search;
+  search.before_run = [](const Spec& spec) {
+    if (lone_actions_of(spec).size() == 1 && lone_actions_of(spec)[0].action == "much") ::raise(SIGUSR1);
+  };
+  search.guard = Isolation{};
+  const FoundCause found = find_cause(minimal, evaluator, search);
+  EXPECT_EQ(found.cause.scope, CauseScope::company);
+  EXPECT_EQ(found.cause.names, (std::vector<std::string>{"little", "much"}));
+  ASSERT_EQ(found.met.size(), 1U);
+  EXPECT_EQ(found.met[0].expect.check, "crash");
+  EXPECT_EQ(found.met[0].expect.subject, "SIGUSR1");
+}
+
 TEST_F(Culprits, AProcessThatEndedIsNotRunAgain) {
   Evaluator evaluator(generator_);
   Case ended{spec_with({"little", "much"}), {}, {}};
   ended.expect.check = "crash", ended.expect.subject = "SIGSEGV";
-  EXPECT_EQ(find_cause(ended, evaluator).scope, CauseScope::company);
+  EXPECT_EQ(find_cause(ended, evaluator).cause.scope, CauseScope::company);
   EXPECT_EQ(generator_.runs, 0);
 }
 
