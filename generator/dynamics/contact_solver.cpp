@@ -1,6 +1,7 @@
 #include "generator/dynamics/contact_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "generator/dynamics/linear.h"
@@ -52,7 +53,7 @@ void ContactSolver::solve_answer(std::span<double> right) const {
 void ContactSolver::find_link(int link) {
   if (link == link_) return;
   link_ = link;
-  link_rows_.assign(6 * size_, 0.0);
+  link_rows_.assign(size_, Six{});
   const Multibody& body = equation_->body();
   const Link& last = body.links()[at(link)];
   link_first_dof_ = kRootDofs;
@@ -61,14 +62,28 @@ void ContactSolver::find_link(int link) {
     if (is_stiff_ && k >= kRootDofs) continue;
     if (k >= kRootDofs) link_first_dof_ = at(k);
     const SpatialMotion& freedom = equation_->dynamics.freedoms[at(k)];
-    for (int axis = 0; axis < 3; ++axis) {
-      link_rows_[at(axis) * size_ + at(k)] = freedom.angular[axis];
-      link_rows_[at(3 + axis) * size_ + at(k)] = freedom.linear[axis];
-    }
+    link_rows_[at(k)] = {freedom.angular.x, freedom.angular.y, freedom.angular.z,
+                         freedom.linear.x,  freedom.linear.y,  freedom.linear.z};
   }
   link_answers_ = link_rows_;
-  for (std::size_t i = 0; i < 6; ++i) solve_answer(std::span(link_answers_).subspan(i * size_, size_));
+  if (!is_stiff_) return solve_six(equation_->body(), equation_->factors, link_answers_);
+  std::array<double, kRootDofs> column;
+  for (std::size_t c = 0; c < 6; ++c) {
+    for (std::size_t k = 0; k < kRootDofs; ++k) column[k] = link_answers_[k][c];
+    solve_answer(column);
+    for (std::size_t k = 0; k < kRootDofs; ++k) link_answers_[k][c] = column[k];
+  }
 }
+
+namespace {
+
+double sum_of(const Six& shares, const Six& entries) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < shares.size(); ++c) sum += shares[c] * entries[c];
+  return sum;
+}
+
+}  // namespace
 
 void ContactSolver::add_touch(const TouchedPoint& touch) {
   find_link(touch.link);
@@ -77,13 +92,9 @@ void ContactSolver::add_touch(const TouchedPoint& touch) {
   const int normal = static_cast<int>(rows_.size());
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 moment = glm::cross(touch.from_root_m, axes[axis]);
-    const double wrench[6] = {moment.x, moment.y, moment.z, axes[axis].x, axes[axis].y, axes[axis].z};
-    jacobians_.resize(jacobians_.size() + size_, 0.0);
-    answers_.resize(answers_.size() + size_, 0.0);
-    for (std::size_t i = 0; i < 6; ++i) {
-      add_scaled(wrench[i], std::span(link_rows_).subspan(i * size_, size_), std::span(jacobians_).last(size_));
-      add_scaled(wrench[i], std::span(link_answers_).subspan(i * size_, size_), std::span(answers_).last(size_));
-    }
+    const Six wrench{moment.x, moment.y, moment.z, axes[axis].x, axes[axis].y, axes[axis].z};
+    for (const Six& entries : link_rows_) jacobians_.push_back(sum_of(wrench, entries));
+    for (const Six& entries : link_answers_) answers_.push_back(sum_of(wrench, entries));
     add_row({.least_speed = axis == 0 ? touch.least_m_s : 0.0,
              .preload = touch.preload_N_s,
              .normal = axis == 0 ? -1 : normal,

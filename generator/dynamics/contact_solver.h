@@ -64,8 +64,8 @@ class ContactSolver {
   std::vector<double> root_factors_;
   int link_ = -1;                     // of the last touch
   std::size_t link_first_dof_ = kRootDofs, link_end_dof_ = kRootDofs;
-  std::vector<double> link_rows_;     // 6 x freedoms
-  std::vector<double> link_answers_;  // 6 x freedoms
+  std::vector<Six> link_rows_;     // of each freedom: what it adds to the link's moments and forces
+  std::vector<Six> link_answers_;  // of each freedom: its velocity after a unit moment or force on the link
   std::vector<Row> rows_;
   std::vector<double> jacobians_;  // rows x freedoms
   std::vector<double> answers_;    // rows x freedoms: velocities for a unit impulse

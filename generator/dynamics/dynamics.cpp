@@ -37,6 +37,10 @@ Quat moved_on(const Quat& q, const Vec3& rate, double time_s) {
   return glm::normalize(q * from_rotation_vector(rate * time_s));
 }
 
+void subtract_scaled(double share, const Six& v, Six& sum) {
+  for (std::size_t c = 0; c < v.size(); ++c) sum[c] -= share * v[c];
+}
+
 }  // namespace
 
 void place(const Multibody& body, const Rigid& world_from_root, std::span<const double> coords,
@@ -104,6 +108,19 @@ void solve(const Multibody& body, std::span<const double> factors, std::span<dou
   for (std::size_t k = 0; k < n; ++k) {
     x[k] /= factors[k * n + k];
     for (int i = parent[k]; i >= 0; i = parent[at(i)]) x[k] -= factors[k * n + at(i)] * x[at(i)];
+  }
+}
+
+void solve_six(const Multibody& body, std::span<const double> factors, std::span<Six> x) {
+  const std::size_t n = x.size();
+  const auto parent = body.parent_dof();
+  for (std::size_t k = n; k-- > 0;) {
+    if (x[k] == Six{}) continue;  // as in solve
+    for (int i = parent[k]; i >= 0; i = parent[at(i)]) subtract_scaled(factors[k * n + at(i)], x[k], x[at(i)]);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    for (double& entry : x[k]) entry /= factors[k * n + k];
+    for (int i = parent[k]; i >= 0; i = parent[at(i)]) subtract_scaled(factors[k * n + at(i)], x[at(i)], x[k]);
   }
 }
 
