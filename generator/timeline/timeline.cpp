@@ -310,7 +310,7 @@ class Layout {
 // 0 up to `from`, 1 after `from + length`, eased between; at once where the length is 0.
 double ramp(double frame, double from, double length) {
   if (!(length > 0.0)) return frame > from ? 1.0 : 0.0;
-  return ease(std::clamp((frame - from) / length, 0.0, 1.0));
+  return ease((frame - from) / length);
 }
 
 }  // namespace
@@ -344,6 +344,9 @@ double come_in(const PlannedAction& action, double came, int frame, int held_fra
   return std::min(in, ease(static_cast<double>(held_frames) / back_frames));
 }
 
-double ease(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+double ease(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * u * (10.0 + u * (6.0 * u - 15.0));
+}
 
 }  // namespace contort

@@ -92,7 +92,7 @@ double not_blended_out(const PlannedAction& action, int frame);
 double come_in(const PlannedAction& action, double came, int frame, int held_frames, double rate_hz);
 
 // Minimum-jerk easing from 0 to 1 with no speed or acceleration at either end: 10 u^3 - 15 u^4 + 6 u^5 (Flash and
-// Hogan 1985). Its greatest slope is 1.875, in the middle.
+// Hogan 1985). Its greatest slope is 1.875, in the middle. Before 0 it is 0, and after 1 it is 1.
 double ease(double u);
 
 }  // namespace contort
