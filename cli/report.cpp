@@ -20,6 +20,7 @@
 #include "corpus/baseline.h"
 #include "corpus/corpus.h"
 #include "process/program.h"
+#include "corpus/causes.h"
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
@@ -130,17 +131,34 @@ void add_row(ReportRow row, const CasePage& page, const std::string& out, Report
   media.cases.back().strip = added.strip;
 }
 
-void add_bucket_rows(std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
-                     const std::string& out, std::vector<Issue>& damaged) {
-  for (Bucket& bucket : buckets) {
-    const Result<Case> stored = with.corpus.minimal_of(bucket);
-    const std::string folder = with.corpus.folder_of(bucket);
-    if (stored)
-      add_row(row_of(bucket, *stored, with), {folder_name(bucket), folder, bucket.min, bucket.orig, bucket.worst, {}},
-              out, model, media);
-    else
-      damaged.push_back(stored.issue());
+// Answers the buckets with their minimal cases.
+std::vector<CauseMember> add_bucket_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model,
+                                         Media& media, const std::string& out, std::vector<Issue>& damaged) {
+  std::vector<CauseMember> members = cause_members(with.corpus, buckets, damaged);
+  for (const auto& [bucket, minimal, path] : members)
+    add_row(row_of(bucket, minimal, with),
+            {folder_name(bucket), with.corpus.folder_of(bucket), bucket.min, bucket.orig, bucket.worst, {}}, out, model,
+            media);
+  return members;
+}
+
+// The causes of failures that are not fixed, and the headline of each row.
+void add_causes(std::vector<CauseMember> members, const std::vector<RunRecord>& runs, ReportModel& model) {
+  std::erase_if(members, [](const CauseMember& member) { return member.bucket.state == BucketState::fixed; });
+  std::map<std::string, std::string> headlines;  // by bucket
+  for (const CauseRow& row : causes_of(std::move(members), runs)) {
+    ReportCause& cause = model.causes.emplace_back();
+    cause.id = row.id, cause.headline = row.headline;
+    cause.severity = row.severity, cause.cases = row.cases;
+    cause.characters.assign(row.characters.begin(), row.characters.end());
+    for (const CauseMember& member : row.members) {
+      cause.buckets.push_back(member.bucket.id);
+      headlines[member.bucket.id] = row.headline;
+    }
+    if (!is_abnormal_exit(row.members.front().minimal.expect)) cause.key = folder_name(row.members.front().bucket);
   }
+  for (ReportRow& row : model.rows)
+    if (const auto at = headlines.find(row.bucket); at != headlines.end()) row.cause = at->second;
 }
 
 void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
@@ -161,10 +179,12 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
   // They were read before; without --settings there is no file.
   const RowContext with{corpus, known, read ? *read : "", context};
-  std::vector<Bucket> buckets = corpus.buckets(damaged);
+  const std::vector<Bucket> buckets = corpus.buckets(damaged);
   model.buckets = std::ssize(buckets);
-  add_bucket_rows(buckets, with, model, media, out, damaged);
+  std::vector<CauseMember> members = add_bucket_rows(buckets, with, model, media, out, damaged);
   add_lead_rows(buckets, with, model, media, out, damaged);
+  std::vector<Issue> of_runs;  // add_runs tells them
+  add_causes(std::move(members), runs_of(corpus, of_runs), model);
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   order_rows(model.rows);
 }

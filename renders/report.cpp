@@ -49,6 +49,11 @@ Json row_json(const ReportRow& row) {
           {"note", row.note}};
 }
 
+Json cause_json(const ReportCause& cause) {
+  return {{"id", cause.id},       {"headline", cause.headline},     {"severity", cause.severity},
+          {"cases", cause.cases}, {"characters", cause.characters}, {"buckets", cause.buckets}};
+}
+
 Json search_json(const SearchProgress& search) {
   Json arms = Json::array();
   for (const ArmProgress& arm : search.arms)
@@ -68,8 +73,10 @@ std::string report_json(const ReportModel& model) {
                {"buckets", model.buckets},     {"elapsed", model.elapsed},   {"rows", Json::array()},
                {"search", search_json(model.search)},
                {"pairs_possible", pair_counts(model).possible},
+               {"causes", Json::array()},
                {"tested", Json::array()}};
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
+  for (const ReportCause& cause : model.causes) json["causes"].push_back(cause_json(cause));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

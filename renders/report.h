@@ -37,6 +37,7 @@ struct ReportRow {
   int last_frame = 0;
   double rate_hz = 60.0;
   std::string features;   // of the bucket: what its id is made of beside the family
+  std::string cause;      // headline of its cause; "" where it has none
   std::string needs;      // of the minimal spec, in words (renders/needs.h)
   std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
@@ -45,6 +46,17 @@ struct ReportRow {
   std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known
   std::vector<std::string> actions;  // of the minimal spec
   double depth = 0.0;                // of the failure, comparable between checks
+};
+
+// A cause of failures (docs/causes.md). Its texts are untrusted, too.
+struct ReportCause {
+  std::string id;
+  std::string headline;                 // "Left hand goes through right thigh during aim"
+  double severity = 0.0;                // [0, 100]
+  std::int64_t cases = 0;               // that showed its most frequent family
+  std::vector<std::string> characters;  // sorted
+  std::vector<std::string> buckets;     // ids, the deepest first
+  std::string key;                      // of the row of its deepest case, if that has a motion; else ""
 };
 
 struct ReportModel {
@@ -57,6 +69,7 @@ struct ReportModel {
   std::int64_t buckets = 0;
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
+  std::vector<ReportCause> causes;  // the most severe first
   SearchProgress search;            // of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
 };

@@ -8,6 +8,7 @@
 #include "renders/html.h"
 #include "renders/page_files.h"
 #include "renders/report.h"
+#include "renders/causes_html.h"
 #include "renders/report_cards.h"
 #include "renders/report_rest.h"
 #include "renders/search_html.h"
@@ -128,6 +129,9 @@ std::string words_html() {
       {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
       {"needs", "The actions without which the failure does not happen: where to look for its cause."},
       {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},
+      {"cause", "What explains failures: an action that fails alone, several that fail only together, or what is around "
+                "the figure. Found by playing each action of the smallest case alone."},
+      {"severity", "From 0 to 100: how deep, how often, how visible and how easy to meet."},
       {"phase", "What was going on in the worst frame, such as an interrupt that had just cut in."},
       {"state", "new: nobody has looked at it. open: somebody looks after it. regressed: it was fixed and is back. "
                 "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time. waiting: found when "
@@ -208,7 +212,7 @@ std::string index_html(const ReportModel& model, const std::vector<FamilyCard>& 
   const std::string nonce = content_id(report_json(model));
   const std::string head = head_html(model, verdict, nonce) +
                            "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" +
-                           verdict_html(model, verdict) + "<main class='page'>\n";
+                           verdict_html(model, verdict) + "<main class='page'>\n" + causes_html(model, inside);
   const std::string tail = search_html(model.search) + tested_html(model) + words_html() + "</main>\n" +
                            footer_html(model, !inside.empty()) + inside_html(inside, nonce) + "</body>\n</html>\n";
   const Room room = room_for(model, head.size() + tail.size(), !inside.empty());
