@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "corpus/baseline.h"
 #include "model/core/json_fields.h"
 #include "renders/wording.h"
 
@@ -41,7 +42,7 @@ std::string row_text(const CauseRow& row, std::size_t place, const CausesText& a
   const std::string number = std::to_string(place) + ".";
   std::string text = number + std::string(number.size() < 4 ? 4 - number.size() : 1, ' ');
   text += (about.known.contains(row.id) ? "      " : "NEW   ") + printable(row.headline) + "\n          ";
-  text += "severity " + decimal(row.severity, 1);
+  text += row.id + ": severity " + decimal(row.severity, 1);
   if (about.cases > 0) text += ", " + count_text(row.cases) + " of " + counted(about.cases, "case", "cases");
   text += ", " + counted(std::ssize(row.members), "bucket", "buckets") + " (" + joined(row.characters) + ")  ";
   return text + replay_command(absolute(row.members.front().path), about.library_folders) + "\n";
@@ -102,19 +103,18 @@ std::vector<CauseMember> members_of(const Corpus& corpus, Context& context) {
   return members;
 }
 
-Result<std::set<std::string>> causes_known_in(const std::string& baseline, const std::vector<CauseMember>& members,
-                                              Context& context) {
+Result<std::set<std::string>> causes_known_in(const std::string& baseline, const std::vector<CauseMember>& members) {
   if (baseline.empty()) return cause_ids(members);
-  const Result<Corpus> other = Corpus::open(baseline);
-  if (!other) return other.issue();
-  return cause_ids(members_of(*other, context));
+  const Result<Baseline> known = read_baseline(baseline);
+  if (!known) return known.issue();
+  return known->causes;
 }
 
 void run_causes(const CausesOptions& options, Context& context) {
   const Result<Corpus> corpus = Corpus::open(options.corpus);
   if (!corpus) return context.fail(corpus.issue());
   std::vector<CauseMember> members = members_of(*corpus, context);
-  const Result<std::set<std::string>> known = causes_known_in(options.baseline, members, context);
+  const Result<std::set<std::string>> known = causes_known_in(options.baseline, members);
   if (!known) return context.fail(known.issue());
   std::vector<Issue> damaged;
   const std::vector<RunRecord> runs = runs_of(*corpus, damaged);
@@ -135,7 +135,9 @@ void add_causes(CLI::App& app, Context& context) {
   auto options = std::make_shared<CausesOptions>();
   CLI::App* command = app.add_subcommand("causes", "Group the failures of a corpus by what causes them");
   command->add_option("corpus", options->corpus, "Folder of the corpus")->required();
-  command->add_option("--baseline", options->baseline, "Another corpus: causes that it does not have are new");
+  command->add_option("--baseline", options->baseline,
+                      "Another corpus, or a file with what contort corpus list --json says of it: causes that it does "
+                      "not have are new");
   command->add_flag("--all", options->all, "Print every cause, not only the most severe ones");
   command->add_flag("--json", options->json, "Print all causes with their buckets as JSON");
   command->footer("Example: contort causes contort-out/corpus");

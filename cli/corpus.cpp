@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "cli/commands.h"
 #include "cli/corpus_upkeep.h"
@@ -11,6 +12,7 @@
 #include "cli/print.h"
 #include "cli/usage_text.h"
 #include "corpus/bucket_files.h"
+#include "corpus/causes.h"
 #include "corpus/lifecycle.h"
 #include "corpus/sides.h"
 #include "model/core/json_fields.h"
@@ -23,7 +25,7 @@ using json_fields::Json;
 
 struct CorpusOptions {
   std::string corpus;
-  std::vector<std::string> buckets;
+  std::vector<std::string> buckets, causes;
   std::vector<std::string> states;
   std::string check, character;
   std::string owner, ticket, reason, expires, text;
@@ -38,11 +40,13 @@ bool is_wanted(const Bucket& bucket, const CorpusOptions& options) {
          (options.character.empty() || bucket.family.character == options.character);
 }
 
-Json bucket_json(const Corpus& corpus, const Bucket& bucket, const std::string& today) {
+Json bucket_json(const Corpus& corpus, Bucket bucket, const std::string& today) {
   Json out = Json::parse(print_bucket(bucket));
   out.erase("format");
   out["folder"] = corpus.folder_of(bucket);
   out["gating"] = is_gating(bucket, today);
+  if (const Result<Case> minimal = corpus.minimal_of(bucket))
+    out["cause"] = cause_id_of(*minimal);
   return out;
 }
 
@@ -140,19 +144,54 @@ void show(const CorpusOptions& options, Context& context) {
          replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));
 }
 
+// The buckets of the one cause whose id begins like this. What is fixed belongs to no cause.
+Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<Bucket> buckets,
+                                             const std::string& prefix) {
+  std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
+  std::map<std::string, std::vector<Bucket>> of_cause;
+  std::vector<Issue> unread;  // a bucket without a minimal case has no cause
+  for (const CauseMember& member : cause_members(corpus, std::move(buckets), unread))
+    if (const std::string id = cause_id_of(member.minimal); !prefix.empty() && id.starts_with(prefix))
+      of_cause[id].push_back(member.bucket);
+  if (of_cause.size() == 1) return of_cause.begin()->second;
+  if (of_cause.empty())
+    return Issue{"corpus.no_cause", "", "no cause begins with \"" + prefix + "\"; contort causes shows them"};
+  std::string ids;
+  for (const auto& [id, members] : of_cause) ids += (ids.empty() ? "" : ", ") + id;
+  return Issue{"corpus.many_causes", "", "\"" + prefix + "\" is the beginning of " + ids};
+}
+
+// Those that are named, and those of the causes that are named; each once.
+Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vector<Bucket>& all,
+                                           const CorpusOptions& options) {
+  if (options.buckets.empty() && options.causes.empty())
+    return Issue{"corpus.nothing_named", "", "name buckets, or causes with --cause"};
+  std::vector<Bucket> chosen;
+  const auto add = [&](const Bucket& bucket) {
+    if (std::ranges::find(chosen, bucket.id, &Bucket::id) == chosen.end()) chosen.push_back(bucket);
+  };
+  for (const std::string& prefix : options.buckets) {
+    const Result<Bucket> bucket = find_bucket(all, prefix);
+    if (!bucket) return bucket.issue();
+    add(*bucket);
+  }
+  for (const std::string& prefix : options.causes) {
+    const Result<std::vector<Bucket>> members = buckets_of_cause(corpus, all, prefix);
+    if (!members) return members.issue();
+    for (const Bucket& bucket : *members) add(bucket);
+  }
+  return chosen;
+}
+
 // All are found and may change before the first one does.
 void change_all(const CorpusOptions& options, Context& context, const Corpus::Change& change) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
-  const std::vector<Bucket> all = read_buckets(*corpus, context);
-  std::vector<Bucket> chosen;
-  for (const std::string& prefix : options.buckets) {
-    const Result<Bucket> bucket = find_bucket(all, prefix);
-    if (!bucket) return context.fail(bucket.issue());
-    if (const Result<Bucket> next = change(*bucket); !next) return context.fail(next.issue());
-    chosen.push_back(*bucket);
-  }
-  for (const Bucket& bucket : chosen) {
+  const Result<std::vector<Bucket>> chosen = chosen_buckets(*corpus, read_buckets(*corpus, context), options);
+  if (!chosen) return context.fail(chosen.issue());
+  for (const Bucket& bucket : *chosen)
+    if (const Result<Bucket> next = change(bucket); !next) return context.fail(next.issue());
+  for (const Bucket& bucket : *chosen) {
     const Result<Bucket> next = corpus->change(bucket, change);
     if (!next) return context.fail(next.issue(), next.issue().code == "file.unwritable" ? kInternal : kBadInput);
     std::printf("%s is %s: %s\n", folder_name(*next).c_str(), std::string(state_name(next->state)).c_str(),
@@ -209,11 +248,17 @@ void add_showing(CLI::App& corpus, Context& context) {
   command->footer("Example: contort corpus show contort-out/corpus 0123");
 }
 
+void add_choice(CLI::App& command, CorpusOptions& options) {
+  command.add_option("BUCKET", options.buckets, "Beginnings of ids or folders' names");
+  command.add_option("--cause", options.causes, "All failures of this cause (contort causes); may be repeated")
+      ->allow_extra_args(false);
+}
+
 void add_ack(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
   CLI::App* command =
       add(corpus, "ack", "Acknowledge failures: they are open, and gate no more", options, context, ack);
-  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  add_choice(*command, *options);
   command->add_option("--owner", options->owner, "Who looks after it")->required();
   command->add_option("--ticket", options->ticket, "Where that is written down")->required();
   command->footer("Example: contort corpus ack contort-out/corpus 0123 --owner ana --ticket 12");
@@ -222,7 +267,7 @@ void add_ack(CLI::App& corpus, Context& context) {
 void add_note(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
   CLI::App* command = add(corpus, "note", "Write down what is known about failures", options, context, note);
-  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  add_choice(*command, *options);
   command->add_option("--text", options->text, "The note; \"\" takes it away")->required();
   command->footer("Example: contort corpus note contort-out/corpus 0123 --text 'only with the heavy torso'");
 }
@@ -231,7 +276,7 @@ void add_quarantine(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
   CLI::App* command =
       add(corpus, "quarantine", "Let failures pass until a day; they still run", options, context, put_in_quarantine);
-  command->add_option("BUCKET", options->buckets, "Beginnings of ids or folders' names")->required();
+  add_choice(*command, *options);
   command->add_option("--owner", options->owner, "Who looks after it")->required();
   command->add_option("--reason", options->reason, "Why it may fail")->required();
   command->add_option("--expires", options->expires, "Last day, at most 30 days from today")

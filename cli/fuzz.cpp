@@ -251,8 +251,8 @@ void run(FuzzOptions options, Context& context) {
   if (const Result<Done> ready = check_results(options); !ready)
     return context.fail(ready.issue(), exit_of(ready.issue()));
   // Now, not after an hour of fuzzing; it is read again at the end, when others may have added to it.
-  if (const Result<Baseline> known = load_baseline(options.outputs.baseline); !known)
-    return context.fail(known.issue());
+  const Result<Baseline> known = load_baseline(options.outputs.baseline);
+  if (!known) return context.fail(known.issue());
   const Result<Corpus> corpus = open_corpus(options, config);
   if (!corpus) return context.fail(corpus.issue(), exit_of(corpus.issue()));
   warn_of_other_rules(*corpus);
@@ -270,7 +270,7 @@ void run(FuzzOptions options, Context& context) {
   const int code = exit_code_of(result, !gates || *gates);
   context.exit_code = code;
   print_totals(result, {options.json, options.corpus, options.report, options.shrinks_per_case, *settings,
-                        context.library_folders, config.against});
+                        context.library_folders, config.against, known->causes});
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
   if (result.record.discarded > 0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct TotalsRequest {
   const CheckSettings& settings;
   const std::vector<std::string>& library_folders;
   const std::optional<AgainstConfig>& against;
+  const std::set<std::string>& known_causes;  // of the baseline: they are not new
 };
 
 // All but the last line: failures with their commands, waivers, counts, and what is left to do.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "corpus/causes.h"
 #include "corpus/corpus.h"
 #include "corpus/lifecycle.h"
 #include "corpus/replay.h"
@@ -20,9 +21,12 @@ Result<Baseline> from_corpus(const std::string& folder) {
   if (!corpus) return corpus.issue();
   std::vector<Issue> damaged;
   Baseline known;
-  for (const Bucket& bucket : corpus->buckets(damaged))
-    if (bucket.state != BucketState::fixed) known.add(bucket.id, bucket.family);
+  std::vector<Bucket> buckets = corpus->buckets(damaged);
   if (!damaged.empty()) return damaged.front();
+  std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
+  for (const Bucket& bucket : buckets) known.add(bucket.id, bucket.family);
+  // A bucket without a readable minimal case is known all the same.
+  known.causes = cause_ids(cause_members(*corpus, std::move(buckets), damaged));
   return known;
 }
 
@@ -41,7 +45,9 @@ Result<Done> add_entry(const Json& entry, const std::string& pointer, Baseline& 
     return Done{};
   }
   if (id.empty()) return Issue{"baseline.no_id", pointer, "expected an object with an \"id\" or a \"bucket\""};
-  if (text_in(entry, "state") != state_name(BucketState::fixed)) known.add(id, parse_family(text_in(entry, "family")));
+  if (text_in(entry, "state") == state_name(BucketState::fixed)) return Done{};
+  known.add(id, parse_family(text_in(entry, "family")));
+  if (const std::string cause = text_in(entry, "cause"); !cause.empty()) known.causes.insert(cause);
   return Done{};
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "corpus/corpus.h"
 #include "tests/cli/program.h"
@@ -12,9 +14,16 @@ namespace {
 
 class CausesCommand : public ::testing::Test {
  protected:
-  Ran fuzz(const std::string& corpus, int seed) const {
-    return contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", std::to_string(seed), "--cases",
-                            "1", "--shrink-evaluations", "8", "--shrinks-per-case", "3", "--corpus", corpus});
+  Ran fuzz(const std::string& corpus, int seed, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = {"fuzz", "--profile", "stress", "--character", "human", "--cases", "1",
+                                    "--shrink-evaluations", "8", "--shrinks-per-case", "3", "--corpus", corpus,
+                                    "--seed", std::to_string(seed)};
+    all.insert(all.end(), more.begin(), more.end());
+    return contort_program(all);
+  }
+  nlohmann::json json_of(std::vector<std::string> arguments) const {
+    arguments.push_back("--json");
+    return nlohmann::json::parse(contort_program(arguments).out);
   }
   TempFolder folder_;
 };
@@ -30,6 +39,17 @@ TEST_F(CausesCommand, ARunEndsWithAVerdictAndItsCausesWithinFortyLines) {
   EXPECT_EQ(again.out.find("NEW"), std::string::npos) << again.out;
 }
 
+TEST_F(CausesCommand, AreNotNewIfTheBaselineHasThem) {
+  fuzz(folder_ / "first", 12);
+  const Ran list = contort_program({"corpus", "list", folder_ / "first", "--json"});
+  spill(folder_ / "list.json", list.out);
+  for (const std::string& baseline : {folder_ / "first", folder_ / "list.json"}) {
+    const Ran second = fuzz(folder_ / "second", 12, {"--baseline", baseline});
+    EXPECT_NE(second.out.find(", 0 of them new.\n"), std::string::npos) << second.out << second.err;
+    std::filesystem::remove_all(folder_ / "second");
+  }
+}
+
 // A shard leaves it to the merge to file its failures.
 TEST_F(CausesCommand, AreNotClaimedOfFailuresWithoutABucket) {
   const Ran ran = contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", "12", "--cases", "2",
@@ -43,7 +63,7 @@ TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
   fuzz(folder_ / "a", 12);
   const Ran told = contort_program({"causes", folder_ / "a", "--json"});
   const nlohmann::json all = nlohmann::json::parse(told.out);
-  const nlohmann::json buckets = nlohmann::json::parse(contort_program({"corpus", "list", folder_ / "a", "--json"}).out);
+  const nlohmann::json buckets = json_of({"corpus", "list", folder_ / "a"});
   std::vector<std::string> listed, of_causes;
   for (const auto& bucket : buckets) {
     listed.push_back(bucket["id"]);
@@ -59,9 +79,34 @@ TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
   EXPECT_EQ(listed, of_causes);
   EXPECT_LE(all["causes"].size(), listed.size());
   contort_program({"fuzz", "--cases", "0", "--corpus", folder_ / "empty"});
-  const Ran fresh = contort_program({"causes", folder_ / "a", "--baseline", folder_ / "empty", "--json"});
-  for (const auto& cause : nlohmann::json::parse(fresh.out)["causes"]) EXPECT_TRUE(cause["is_new"].get<bool>());
+  const nlohmann::json fresh = json_of({"causes", folder_ / "a", "--baseline", folder_ / "empty"});
+  for (const auto& cause : fresh["causes"]) EXPECT_TRUE(cause["is_new"].get<bool>());
   EXPECT_EQ(contort_program({"causes", folder_ / "nowhere"}).code, 2);
+}
+
+TEST_F(CausesCommand, AreTriagedAsOne) {
+  fuzz(folder_ / "c", 12);
+  const nlohmann::json causes = json_of({"causes", folder_ / "c"})["causes"];
+  const std::string id = causes[0]["id"];
+  std::set<std::string> of_cause;
+  for (const auto& bucket : causes[0]["buckets"]) of_cause.insert(bucket["id"]);
+  const auto ack = [&](std::vector<std::string> what) {
+    std::vector<std::string> all = {"corpus", "ack", folder_ / "c", "--owner", "ana", "--ticket", "12"};
+    all.insert(all.end(), what.begin(), what.end());
+    return contort_program(all);
+  };
+  const Ran refused = ack({"--cause", id, "--cause", "ffffffffffffff"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("corpus.no_cause"), std::string::npos) << refused.err;
+  EXPECT_NE(ack({}).err.find("corpus.nothing_named"), std::string::npos);
+  const auto states = [&] {
+    std::map<std::string, std::string> state_of;
+    for (const auto& bucket : json_of({"corpus", "list", folder_ / "c"})) state_of[bucket["id"]] = bucket["state"];
+    return state_of;
+  };
+  for (const auto& [bucket, state] : states()) EXPECT_EQ(state, "new") << "what is refused changes nothing: " << bucket;
+  EXPECT_EQ(ack({"--cause", id.substr(0, 11)}).code, 0);
+  for (const auto& [bucket, state] : states()) EXPECT_EQ(state, of_cause.contains(bucket) ? "open" : "new") << bucket;
 }
 
 }  // namespace
