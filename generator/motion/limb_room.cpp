@@ -198,12 +198,16 @@ double LimbRoom::distance_m(int pair, double band_m) {
 double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Environment& environment) {
   const Vec3 center = world_from_body * ball_center_m_[at(body)];
   const double high_enough_m = ball_radius_m_[at(body)] + kRoomBand_m;
+  if (environment.least_over_ground_m(center.y) > high_enough_m) return kFar;
   if (environment.nearest_ground(center).distance_m > high_enough_m) return kFar;
   double least = kFar;
   const Body& own = character_->bodies()[at(body)];
   for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
-    for (const Vec3& point : core_m_[at(c)])
-      least = std::min(least, environment.nearest_ground(world_from_body * point).distance_m - own_[at(c)].radius_m);
+    for (const Vec3& core : core_m_[at(c)]) {
+      const Vec3 point = world_from_body * core;
+      if (environment.least_over_ground_m(point.y) - own_[at(c)].radius_m > least) continue;
+      least = std::min(least, environment.nearest_ground(point).distance_m - own_[at(c)].radius_m);
+    }
   return least;
 }
 

@@ -77,6 +77,35 @@ Vec3 normal_of(const Ground& ground, const GroundAngles& angles, double x_m, dou
   return unit_or(Vec3(-dx, 2.0 * kStep_m, -dz), Vec3(0, 1, 0));
 }
 
+// The height that no point of a ground exceeds, in the environment's frame.
+double highest_of(const PlaneGround& ground) { return ground.height_m; }
+double highest_of(const SlopeGround&) { return std::numeric_limits<double>::infinity(); }
+double highest_of(const StepsGround& ground) { return std::max(0.0, ground.height_m * ground.count); }
+double highest_of(const HeightGround& ground) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const double height : ground.heights_m) highest = std::max(highest, height);
+  return highest;
+}
+
+// The y that no normal of a ground falls below. Between the points of a grid heights are interpolated, so that nowhere
+// the ground rises more steeply than between two neighbours.
+double least_up_of(const HeightGround& ground) {
+  double across_m = 0.0, along_m = 0.0;
+  const auto at = [&](int r, int c) { return ground.heights_m[static_cast<std::size_t>(r * ground.columns + c)]; };
+  for (int r = 0; r < ground.rows; ++r)
+    for (int c = 0; c < ground.columns; ++c) {
+      if (c > 0) across_m = std::max(across_m, std::fabs(at(r, c) - at(r, c - 1)));
+      if (r > 0) along_m = std::max(along_m, std::fabs(at(r, c) - at(r - 1, c)));
+    }
+  const double a = across_m / ground.spacing_m, b = along_m / ground.spacing_m;
+  return 1.0 / std::sqrt(1.0 + a * a + b * b);
+}
+
+template <class Shape>
+double least_up_of(const Shape&) {
+  return 1.0;
+}
+
 Surface from_centre(const Vec3& centre_m, double radius_m, const Vec3& point_m) {
   const Vec3 apart = point_m - centre_m;
   const Vec3 normal = unit_or(apart, Vec3(0, 1, 0));
@@ -166,6 +195,8 @@ Environment::Environment(const EnvironmentDesc& desc)
     level_m_ = plane->height_m + world_from_environment_.p_m.y;
   is_flat_ = level_ || std::holds_alternative<StepsGround>(ground_);
   up_ = world_from_environment_.q * Vec3(0, 1, 0);
+  highest_m_ = std::visit([](const auto& g) { return highest_of(g); }, ground_) + world_from_environment_.p_m.y;
+  least_up_ = std::visit([](const auto& g) { return least_up_of(g); }, ground_);
   for (const ObstacleDesc& obstacle : obstacles_) {
     const auto* box = std::get_if<Box>(&obstacle.shape);
     turns_.push_back(box == nullptr ? kNoRotation : from_rotation_vector(box->rotation_deg * kRadPerDeg));
@@ -184,6 +215,12 @@ Vec3 Environment::normal_at(double x_m, double z_m) const {
   if (is_flat_) return up_;
   const Vec3 at = local({x_m, 0.0, z_m});
   return world_from_environment_.q * normal_of(ground_, angles_, at.x, at.z);
+}
+
+double Environment::least_over_ground_m(double y_m) const {
+  constexpr double kRounding_m = 1e-9, kRoundedUp = 1e-6;
+  if (!(y_m > highest_m_)) return -std::numeric_limits<double>::infinity();
+  return (y_m - highest_m_) * least_up_ * (1.0 - kRoundedUp) - kRounding_m;
 }
 
 Surface Environment::nearest_ground(const Vec3& point_m) const {

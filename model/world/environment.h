@@ -36,6 +36,8 @@ class Environment {
 
   // Distance to the ground is along its normal under the point, exact for planes and slopes.
   Surface nearest_ground(const Vec3& point_m) const;
+  // A lower bound of the distance to the ground for all points of this height, without a look at what is below them.
+  double least_over_ground_m(double y_m) const;
   // Returns obstacle = -1 and an infinite distance if there are no obstacles.
   Surface nearest_obstacle(const Vec3& point_m) const;
 
@@ -61,6 +63,8 @@ class Environment {
   double level_m_ = 0.0;   // of level ground, in the world
   bool is_flat_ = true;    // its normal is the same everywhere: level ground, and the treads of steps
   Vec3 up_{0.0, 1.0, 0.0};  // this normal, in the world
+  double highest_m_ = 0.0;  // no ground is higher, in the world
+  double least_up_ = 1.0;   // no normal has a smaller y
 };
 
 // Codes environment.wrong_count (heights), .duplicate_name, .bad_shape; pointers from the description's root.

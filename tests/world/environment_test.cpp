@@ -52,6 +52,30 @@ TEST(Environment, HeightsAreBilinearAndGoOnBeyondTheEdges) {
   EXPECT_DOUBLE_EQ(ground.height_at(99.0, -99.0), 2.0);
 }
 
+// Callers skip what the bound says is far away, so it may never exceed the distance; and it has to be of use.
+TEST(Environment, TheLowerBoundOfTheDistanceToTheGroundHolds) {
+  std::mt19937_64 random(3);
+  const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int round = 0; round < 400; ++round) {
+    HeightGround grid;
+    grid.columns = 2 + static_cast<int>(random() % 4), grid.rows = 2 + static_cast<int>(random() % 4);
+    grid.spacing_m = any(0.2, 1.0), grid.heights_m.clear();
+    for (int i = 0; i < grid.columns * grid.rows; ++i) grid.heights_m.push_back(any(-0.5, 0.5));
+    const Ground grounds[] = {PlaneGround{any(-1, 1)}, SlopeGround{any(-25, 25), any(-180, 180)},
+                              StepsGround{0.0, 1.0, 0.3, any(-0.2, 0.2), 5}, grid};
+    EnvironmentDesc desc = with_ground(grounds[round % 4]);
+    desc.heading_deg = any(-180, 180), desc.position_m = Vec3(any(-1, 1), any(-1, 1), any(-1, 1));
+    const Environment environment = built(desc);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 point(any(-3, 3), any(-2, 4), any(-3, 3));
+      EXPECT_LE(environment.least_over_ground_m(point.y), environment.nearest_ground(point).distance_m);
+    }
+    const bool is_bounded = round % 4 != 1;  // a slope rises without end
+    EXPECT_EQ(environment.least_over_ground_m(10.0) > 1.0, is_bounded) << round;
+  }
+  EXPECT_GT(Environment().least_over_ground_m(1.0), 0.999);
+}
+
 TEST(Environment, ATurnedAndMovedOneAnswersTheSameThere) {
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> place(-4.0, 4.0);
