@@ -52,7 +52,8 @@ CauseRow row_of(const std::string& id, std::vector<CauseMember> members, std::sp
   std::ranges::sort(members, comes_before);
   std::int64_t of_cases = 0;
   for (const RunRecord& run : runs) of_cases += run.cases;
-  row.cases = most_cases(members, runs);
+  // Shrinking may have met a failure that no whole case showed; then the case that was shrunk counts.
+  row.cases = std::max(most_cases(members, runs), std::min<std::int64_t>(of_cases, 1));
   const Case& deepest = members.front().minimal;
   const Cause cause = cause_of(deepest);
   row.headline = cause_headline(cause, deepest.expect.check, deepest.expect.subject);

@@ -23,7 +23,7 @@ struct CauseRow {
   std::string id;
   double severity = 0.0;      // [0, 100]
   std::string headline{};     // of its deepest member
-  std::int64_t cases = 0;     // of the runs, that showed the most frequent family of its buckets
+  std::int64_t cases = 0;     // of the runs, that showed the most frequent family of its buckets; >= 1 if any ran
   std::set<std::string> characters{};
   std::vector<CauseMember> members{};  // the deepest first, then by name
 };

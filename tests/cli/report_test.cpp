@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "corpus/ending_case.h"
 #include "process/isolate.h"
@@ -58,6 +59,27 @@ TEST_F(ReportOfCorpus, HasWhatTheViewerShowsOfEachBucket) {
   EXPECT_NE(page.find("data-case='" + key() + "'"), std::string::npos);
   EXPECT_NE(page.find("data-phase='" + failing_case(bent_elbow(158), "joint_range", kElbow).expect.phase + "'"),
             std::string::npos);
+}
+
+TEST_F(ReportOfCorpus, HasEachBucketInOneCause) {
+  const Case deeper = failing_case(bent_elbow(170), "joint_range", kElbow);
+  add(deeper, deeper);
+  ASSERT_EQ(report({}).code, 0);
+  const nlohmann::json told = nlohmann::json::parse(slurp(folder_ / "out/report.json"));
+  std::vector<std::string> of_causes, of_corpus;
+  for (const auto& cause : told["causes"]) {
+    EXPECT_NE(cause["headline"], "");
+    for (const auto& bucket : cause["buckets"]) of_causes.push_back(bucket);
+  }
+  std::vector<Issue> damaged;
+  for (const Bucket& bucket : corpus_.buckets(damaged)) of_corpus.push_back(bucket.id);
+  std::ranges::sort(of_causes);
+  std::ranges::sort(of_corpus);
+  EXPECT_EQ(of_causes, of_corpus);
+  EXPECT_FALSE(of_causes.empty());
+  const std::string page = slurp(folder_ / "out/index.html");
+  EXPECT_NE(page.find("<section id='causes'>"), std::string::npos);
+  EXPECT_NE(page.find("<a href='#case=" + key() + "'>"), std::string::npos) << "it opens the deepest case";
 }
 
 // To play it would end whoever plays it.

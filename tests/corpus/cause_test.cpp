@@ -120,6 +120,13 @@ TEST(Causes, GroupBucketsInAnyOrderIntoTheSameRows) {
       return depth_of(member.minimal.expect);
     }));
   }
+  RunRecord other = run;
+  other.families.clear();
+  for (const CauseRow& row : causes_of(members, std::span(&other, 1))) {
+    EXPECT_EQ(row.cases, 1) << "no whole case showed it, but one was shrunk to it";
+    EXPECT_GT(row.severity, 0.0);
+  }
+  for (const CauseRow& row : causes_of(members, {})) EXPECT_EQ(row.cases, 0) << "nothing is known of any run";
   std::ranges::reverse(members);
   const std::vector<CauseRow> again = causes_of(members, std::span(&run, 1));
   for (std::size_t i = 0; i < rows.size(); ++i) {
