@@ -45,8 +45,7 @@ Json bucket_json(const Corpus& corpus, Bucket bucket, const std::string& today) 
   out.erase("format");
   out["folder"] = corpus.folder_of(bucket);
   out["gating"] = is_gating(bucket, today);
-  if (const Result<Case> minimal = corpus.minimal_of(bucket))
-    out["cause"] = cause_id_of(*minimal);
+  if (const Result<Case> minimal = corpus.minimal_of(bucket)) out["cause"] = cause_id_of(*minimal);
   return out;
 }
 
@@ -144,7 +143,7 @@ void show(const CorpusOptions& options, Context& context) {
          replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));
 }
 
-// The buckets of the one cause whose id begins like this. What is fixed belongs to no cause.
+// Returns the buckets of the one cause whose id begins with `prefix`. A fixed bucket belongs to no cause.
 Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<Bucket> buckets,
                                              const std::string& prefix) {
   std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
@@ -161,7 +160,7 @@ Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<B
   return Issue{"corpus.many_causes", "", "\"" + prefix + "\" is the beginning of " + ids};
 }
 
-// Those that are named, and those of the causes that are named; each once.
+// Returns each bucket once that the options name, by itself or by its cause.
 Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vector<Bucket>& all,
                                            const CorpusOptions& options) {
   if (options.buckets.empty() && options.causes.empty())
@@ -183,7 +182,7 @@ Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vect
   return chosen;
 }
 
-// All are found and may change before the first one does.
+// Changes nothing if one of the buckets is not found or may not change.
 void change_all(const CorpusOptions& options, Context& context, const Corpus::Change& change) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;

@@ -55,7 +55,7 @@ class Experiments {
   std::vector<Case> take_met() { return std::move(met_); }
 
  private:
-  // Nothing if the spec is refused or ends its process.
+  // Returns no evaluation if the spec is refused or ends its process.
   std::optional<Evaluation> evaluate(const Spec& spec) {
     if (search_.guard && ends_its_process(spec)) return std::nullopt;
     Result<Evaluation> run = run_noted(spec);
@@ -68,7 +68,7 @@ class Experiments {
     return evaluator_.run(spec);
   }
 
-  // False, too, if the machine has no process left.
+  // Returns false, too, if no process can be started; then the spec runs in this one.
   bool ends_its_process(const Spec& spec) {
     Isolation guard = *search_.guard;
     guard.silent = true;

@@ -218,9 +218,9 @@ Vec3 Environment::normal_at(double x_m, double z_m) const {
 }
 
 double Environment::least_over_ground_m(double y_m) const {
-  constexpr double kRounding_m = 1e-9, kRoundedUp = 1e-6;
+  constexpr double kRounding_m = 1e-9, kRoundingShare = 1e-6;  // more than the distance's own rounding errors
   if (!(y_m > highest_m_)) return -std::numeric_limits<double>::infinity();
-  return (y_m - highest_m_) * least_up_ * (1.0 - kRoundedUp) - kRounding_m;
+  return (y_m - highest_m_) * least_up_ * (1.0 - kRoundingShare) - kRounding_m;
 }
 
 Surface Environment::nearest_ground(const Vec3& point_m) const {
