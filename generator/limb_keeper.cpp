@@ -158,7 +158,8 @@ bool LimbKeeper::has_room_on_the_way(const Limb& limb) {
     for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, world);
     LimbRoom& room = s_.rules.room();
     const std::size_t part = at(limb.parts.back());
-    return (share < 1.0 ? room.apart_m(part, world) : room.room_m(part, world)) >= -kTooNear_m;
+    if (share == 1.0) return room.has_room(part, world);
+    return room.apart_m(part, world, {-kTooNear_m, -kTooNear_m}) >= -kTooNear_m;
   });
 }
 

@@ -60,7 +60,7 @@ double elbow_height(const RuleInput& in) {
 
 // The cost of joints out of range and of bodies too near; 0 where there are none. The limb is placed.
 double cost_of_faults(const RuleInput& in, const Posture& posture) {
-  const double room_m = in.room.room_m(index_in(in.character, in.part), in.world);
+  const double room_m = in.room.room_m(index_in(in.character, in.part), in.world, {.high_m = -kTooNear_m});
   const double too_near = room_m < -kTooNear_m ? 4.0 - 400.0 * room_m : 0.0;
   return 40.0 * excess(in, posture) + too_near;
 }

@@ -13,15 +13,16 @@ namespace contort {
 namespace {
 
 constexpr int kStops = 8;
+constexpr double kFree_m = 0.001;
 
 const Limb& way_limb(const RuleInput& in) {
   return in.room.limb_of(static_cast<std::size_t>(&in.part - in.character.parts().data()));
 }
 
-double room_m(const RuleInput& in, const Posture& posture) {
+double room_m(const RuleInput& in, const Posture& posture, const RoomRange& range) {
   const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
   for (const int j : way_limb(in).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
-  return in.room.room_m(part, in.world);
+  return in.room.room_m(part, in.world, range);
 }
 
 // The limb's coordinates, so that they can be put back.
@@ -67,17 +68,17 @@ std::array<Vec3, 13> detours_of(Side side) {
   return detours;
 }
 
-// The least room at seven stops on the way, by a detour; no less than what matters.
+// The least room at seven stops on the way, by a detour; exact from `matters_m` to kFree_m, which is enough for any way.
 double room_on_way_m(const RuleInput& in, const Vec3& by_rad, double matters_m, Posture& posture) {
   Kept kept;
   const auto keep = [&](std::size_t coord, std::size_t at) { kept.coords[at] = posture.coords[coord]; };
-  if (!for_limb_coords(in, keep)) return kRoomBand_m;
-  double least_m = kRoomBand_m;
+  if (!for_limb_coords(in, keep)) return kFree_m;
+  double least_m = kFree_m;
   for (int stop = 1; stop < kStops && least_m > matters_m; ++stop) {
     const double share = static_cast<double>(stop) / kStops;
     if (by_rad != Vec3(0.0)) raise(in, left_of_detour(share) * by_rad, posture);
     for (const int p : way_limb(in).parts) blend_part(in.character, at(p), in.from, posture, share, posture);
-    least_m = std::min(least_m, room_m(in, posture));
+    least_m = std::min(least_m, room_m(in, posture, {matters_m, least_m}));
     for_limb_coords(in, [&](std::size_t coord, std::size_t at) { posture.coords[coord] = kept.coords[at]; });
   }
   return least_m;

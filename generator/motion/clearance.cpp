@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "generator/motion/blend.h"
 #include "generator/motion/joint_clamp.h"
@@ -88,7 +89,8 @@ struct Clearance::Case {
       return limb.is_its_own(feet.legs()[at(leg)]) || feet.is_planted(at(leg));
     });
   }
-  double room_m() { return place(), room.room_m(part, world); }
+  double room_m(const RoomRange& range) { return place(), room.room_m(part, world, range); }
+  bool has_room(double least_m) { return place(), room.has_room(part, world, least_m); }
 
   // Joints of the limb, and of legs that it carries and that stay where they stand.
   template <class Test>
@@ -115,7 +117,7 @@ struct Clearance::Case {
     if (all_joints([&](int j) { return length(step_of(j)) <= most * greatest_step(j); })) return true;
     save();
     for (const int p : limb.parts) blend_part(character, at(p), past.before, saved, 1.0 + kCoast, shown);
-    const bool is_clear_there = room_m() >= -kTooNear_m;
+    const bool is_clear_there = has_room(-kTooNear_m);
     restore();
     place();
     return is_clear_there;
@@ -126,7 +128,7 @@ struct Clearance::Case {
     for (const int p : limb.parts) copy_part(character, at(p), shown, spare);
     const bool is_clear_there = std::ranges::all_of(kBetween, [&](double share) {
       for (const int p : limb.parts) blend_part(character, at(p), past.before, spare, share, shown);
-      return room_m() >= -kTooNear_m;
+      return has_room(-kTooNear_m);
     });
     for (const int p : limb.parts) copy_part(character, at(p), spare, shown);
     place();
@@ -134,18 +136,25 @@ struct Clearance::Case {
   }
   Vec3 step_of(int j) const { return way_between(character.joint(j), past.before, shown); }
   double greatest_step(int j) const { return character.joint(j).max_speed * past.frame_s; }
-  bool is_clear() { return room_m() >= enough_m && is_clear_between(); }
+  bool is_clear() { return has_room(enough_m) && is_clear_between(); }
 
   void go(double share) const {
     for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
   }
 
-  // The greatest share of the way that is clear, and smooth if there is one.
+  // The greatest share of the way that is clear; if possible one that is also smooth, and that can be stopped after.
   bool stop_on_the_way() {
     const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
-    return std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth() && can_stop(); }) ||
-           std::ranges::any_of(kShares, [&](double share) { return is_good(share) && is_smooth(); }) ||
-           std::ranges::any_of(kShares, is_good);
+    std::optional<double> good, smooth;
+    for (const double share : kShares) {
+      if (!is_good(share)) continue;
+      if (!good) good = share;
+      if (!is_smooth()) continue;
+      if (can_stop()) return true;
+      if (!smooth) smooth = share;
+    }
+    if (!good) return false;
+    return is_good(smooth.value_or(*good));  // goes there once more
   }
 
   // Joints that may go where they are wanted go there, one by one, those that carry the others first.
@@ -174,7 +183,8 @@ struct Clearance::Case {
       double* coords = shown.coords.data() + joint.coord;
       turn(joint, i / 2, i % 2 == 0 ? step : -step, coords);
       clamp_to_range(joint, coords);
-      if (const double now_m = room_m(); now_m > most_m + kMore_m && is_slow())
+      const double more_m = most_m + kMore_m;
+      if (const double now_m = room_m({.low_m = more_m}); now_m > more_m && is_slow())
         most_m = now_m;
       else
         restore();
@@ -193,7 +203,7 @@ struct Clearance::Case {
   }
 
   void get_out() {
-    double most_m = room_m();
+    double most_m = room_m({});
     for (int round = 0; round < kRounds && most_m < -kTooNear_m; ++round)
       for (const int j : limb.joints)
         if (const Joint& joint = character.joint(j); most_m < -kTooNear_m)
@@ -214,12 +224,12 @@ Clearance::Kept Clearance::keep(std::size_t part, const Past& past, bool was_lif
   for (const int p : limb.parts) copy_part(*character_, at(p), shown, wanted_);
   Case now{*character_, *room_, room_->feet(), limb, part, past, wanted_, shown, saved_, spare_, world};
   now.was_lifted = was_lifted;
-  const double wanted_m = wanted_m_ = now.room_m();
+  const double wanted_m = wanted_m_ = now.room_m({-kTooNear_m, kSlowsDown_m});
   const bool is_easy = now.can_stop() && (!now.concerns_feet() || (now.is_slow() && now.is_smooth()));
   const Kept as_wanted = now.is_lifted ? Kept::foot_lifted : Kept::as_wanted;
   if (wanted_m >= kSlowsDown_m && is_easy) return as_wanted;
   now.go(0.0);
-  const double room_m = now.room_m();
+  const double room_m = now.room_m({.low_m = -kTooNear_m});
   now.enough_m = std::max(-kTooNear_m, std::min(kApproach * room_m, room_m - kCreep_m));
   now.go(1.0);
   if (is_easy && now.is_clear()) return as_wanted;

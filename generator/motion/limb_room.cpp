@@ -1,7 +1,6 @@
 #include "generator/motion/limb_room.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "generator/motion/arm_swing.h"
@@ -19,6 +18,7 @@ constexpr double kSafe_m = 0.008;
 constexpr double kSafeInHands_m = 0.001;
 constexpr double kTouch_m = 0.001;
 constexpr double kSink_m = 0.002;  // of feet that stand, on ground that is not quite level
+constexpr double kSurely_m = 1e-9;  // more than the rounding of distances
 
 int child_count(const Character& character, int part) {
   int count = 0;
@@ -124,7 +124,7 @@ void LimbRoom::begin_ground() {
     const int limb = limb_of_[part_of(b)];
     for (int l = 0; l < static_cast<int>(limbs_.size()); ++l)
       if (l == limb || (is_moved_by(l, limb) && !is_leg(limb))) bodies_[at(l)].push_back(b);
-    const double at_rest_m = over_ground_m(b, before_[at(character_->bodies()[at(b)].joint)], level);
+    const double at_rest_m = over_ground_m(b, before_[at(character_->bodies()[at(b)].joint)], level, kRoomBand_m);
     safe_over_ground_m_.push_back(std::min(kSafe_m, at_rest_m - kSink_m));
   }
 }
@@ -194,28 +194,30 @@ double LimbRoom::distance_m(int pair, double band_m) {
   return collider_distance_m(judged, band_m);
 }
 
-// Infinite beyond the band.
-double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Environment& environment) {
+// Infinite, or any distance beyond it, beyond the band.
+double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Environment& environment,
+                               double band_m) const {
   const Vec3 center = world_from_body * ball_center_m_[at(body)];
-  const double high_enough_m = ball_radius_m_[at(body)] + kRoomBand_m;
-  if (environment.least_over_ground_m(center.y) > high_enough_m) return kFar;
-  if (environment.nearest_ground(center).distance_m > high_enough_m) return kFar;
+  const double radius_m = ball_radius_m_[at(body)];
+  if (environment.is_surely_over_ground(center, radius_m, band_m)) return kFar;
+  if (environment.nearest_ground(center).distance_m > radius_m + kRoomBand_m) return kFar;
   double least = kFar;
   const Body& own = character_->bodies()[at(body)];
   for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
     for (const Vec3& core : core_m_[at(c)]) {
       const Vec3 point = world_from_body * core;
-      if (environment.least_over_ground_m(point.y) - own_[at(c)].radius_m > least) continue;
+      if (environment.is_surely_over_ground(point, own_[at(c)].radius_m, std::min(least, band_m))) continue;
       least = std::min(least, environment.nearest_ground(point).distance_m - own_[at(c)].radius_m);
     }
   return least;
 }
 
 // By the points that span its colliders; infinite beyond the band. A hand may lie on an obstacle.
-double LimbRoom::off_obstacles_m(int body, const Rigid& world_from_body) const {
+double LimbRoom::off_obstacles_m(int body, const Rigid& world_from_body, double band_m) const {
   if (environment_->obstacles().empty()) return kFar;
   const Vec3 center = world_from_body * ball_center_m_[at(body)];
-  if (environment_->nearest_obstacle(center).distance_m > ball_radius_m_[at(body)] + kRoomBand_m) return kFar;
+  const double matters_m = std::min(kRoomBand_m, band_m + kSurely_m);
+  if (environment_->nearest_obstacle(center).distance_m > ball_radius_m_[at(body)] + matters_m) return kFar;
   double least = kFar;
   const Body& own = character_->bodies()[at(body)];
   for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
@@ -235,16 +237,17 @@ int LimbRoom::first_of_kind(int limb) const {
   return first;
 }
 
-// The distance from which on a pair leaves no less room than this; a nanometre more than rounding needs.
+// The distance from which on a pair leaves no less room than this.
 double LimbRoom::band_below(double room_m, int pair) const {
-  return std::min(kRoomBand_m, room_m + safe_m_[at(pair)] + 1e-9);
+  return std::min(kRoomBand_m, room_m + safe_m_[at(pair)] + kSurely_m);
 }
 
-double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world) {
+double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range) {
   const int limb = limb_of_[part];
-  double least = kRoomBand_m;
+  double least = range.high_m;
   begin_look(limb, world);
   for (const int p : pairs_[at(limb)]) {
+    if (least < range.low_m) return least;
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
       least = std::min(least, distance_m(p, band_below(least, p)) - safe_m_[at(p)]);
@@ -252,13 +255,15 @@ double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world) {
   return least;
 }
 
-double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world) {
+double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range) {
   const int limb = limb_of_[part];
-  double least = apart_m(part, world);
+  double least = apart_m(part, world, range);
   for (const int b : bodies_[at(limb)]) {
+    if (least < range.low_m) return least;
     const Rigid& world_from_body = world[at(character_->bodies()[at(b)].joint)];
-    least = std::min(least, over_ground_m(b, world_from_body, *environment_) - safe_over_ground_m_[at(b)]);
-    if (!is_leg(limb)) least = std::min(least, off_obstacles_m(b, world_from_body));
+    const double safe_m = safe_over_ground_m_[at(b)];
+    least = std::min(least, over_ground_m(b, world_from_body, *environment_, least + safe_m) - safe_m);
+    if (!is_leg(limb)) least = std::min(least, off_obstacles_m(b, world_from_body, least));
   }
   for (const int leg : limbs_[at(limb)].legs)
     if (limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]) || feet_->is_planted(at(leg)))

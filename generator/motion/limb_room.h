@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,13 @@ std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs
 // A limb that lacks this much room still counts as clear: at rest many pairs have exactly the gap that they must have.
 inline constexpr double kTooNear_m = 1e-4;
 inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measured
+
+// The room that a caller tells apart: more than `high_m` is told as that, and less than `low_m` as anything less. The
+// narrower, the sooner an answer is found.
+struct RoomRange {
+  double low_m = -std::numeric_limits<double>::infinity();
+  double high_m = kRoomBand_m;  // <= kRoomBand_m
+};
 
 // The hand, by the joint that it and all beyond it hang on, and the body of the object; -1: nothing is held.
 struct HeldObject {
@@ -59,11 +67,16 @@ class LimbRoom {
 
   // The least distance of the bodies of this part's limb, and of what it carries, from others, from each other and from
   // the ground and obstacles, beyond what they must have, and of what its feet have to spare, m; negative where they are
-  // too near, and at most 0.08. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
+  // too near. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
   // frame before. Not for the root part.
-  double room_m(std::size_t part, std::span<const Rigid> world);
+  double room_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
   // The same between bodies of the figure alone, without the ground, obstacles and feet.
-  double apart_m(std::size_t part, std::span<const Rigid> world);
+  double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
+
+  // Whether room_m() is no less than this, at most 0.08 m.
+  bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m) {
+    return room_m(part, world, {least_m, least_m}) >= least_m;
+  }
 
   // The same where all joints are as in `world`, with a hand that holds an object; without the ground and feet.
   double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);
@@ -95,8 +108,8 @@ class LimbRoom {
   double distance_m(int pair, double band_m);
   double band_below(double room_m, int pair) const;
   double collider_distance_m(const JudgedPair& pair, double band_m) const;
-  double off_obstacles_m(int body, const Rigid& world_from_body) const;
-  double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment);
+  double off_obstacles_m(int body, const Rigid& world_from_body, double band_m) const;
+  double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment, double band_m) const;
 
   const Character* character_ = nullptr;
   const Environment* environment_ = nullptr;

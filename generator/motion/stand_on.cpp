@@ -65,7 +65,7 @@ bool stand_bent(const Character& character, std::span<const Leg> legs, const Gai
 bool has_room(LimbRoom& room, std::span<const Rigid> world) {
   room.begin_frame(world);
   return std::ranges::all_of(room.limbs(), [&](const Limb& limb) {
-    return room.room_m(at(limb.parts.back()), world) >= -kTooNear_m;
+    return room.has_room(at(limb.parts.back()), world);
   });
 }
 

@@ -70,7 +70,8 @@ double height_of(const Ground& ground, const GroundAngles& angles, double x_m, d
 }
 
 // The normal of a slope or a grid, in the environment's frame, pointing up.
-Vec3 normal_of(const Ground& ground, const GroundAngles& angles, double x_m, double z_m) {
+template <class Shape>
+Vec3 normal_of(const Shape& ground, const GroundAngles& angles, double x_m, double z_m) {
   constexpr double kStep_m = 1e-4;  // both grounds are linear at this scale, but for the grid's own edges
   const double dx = height_of(ground, angles, x_m + kStep_m, z_m) - height_of(ground, angles, x_m - kStep_m, z_m);
   const double dz = height_of(ground, angles, x_m, z_m + kStep_m) - height_of(ground, angles, x_m, z_m - kStep_m);
@@ -196,7 +197,7 @@ Environment::Environment(const EnvironmentDesc& desc)
   is_flat_ = level_ || std::holds_alternative<StepsGround>(ground_);
   up_ = world_from_environment_.q * Vec3(0, 1, 0);
   highest_m_ = std::visit([](const auto& g) { return highest_of(g); }, ground_) + world_from_environment_.p_m.y;
-  least_up_ = std::visit([](const auto& g) { return least_up_of(g); }, ground_);
+  least_up_ = std::visit([](const auto& g) { return least_up_of(g); }, ground_) / std::sqrt(1.0 + angles_.rise * angles_.rise);
   for (const ObstacleDesc& obstacle : obstacles_) {
     const auto* box = std::get_if<Box>(&obstacle.shape);
     turns_.push_back(box == nullptr ? kNoRotation : from_rotation_vector(box->rotation_deg * kRadPerDeg));
@@ -214,13 +215,20 @@ double Environment::height_at(double x_m, double z_m) const {
 Vec3 Environment::normal_at(double x_m, double z_m) const {
   if (is_flat_) return up_;
   const Vec3 at = local({x_m, 0.0, z_m});
-  return world_from_environment_.q * normal_of(ground_, angles_, at.x, at.z);
+  return world_from_environment_.q *
+         std::visit([&](const auto& ground) { return normal_of(ground, angles_, at.x, at.z); }, ground_);
 }
 
-double Environment::least_over_ground_m(double y_m) const {
+// Ground that rises by at most a tangent t is nowhere above a cone of that slope over one of its points, and the y of its
+// normals is at least least_up_ = 1 / sqrt(1 + t^2). So each point of a ball is farther away than the height of its centre
+// over the ground times least_up_, less its radius. Steps have no such tangent: they are bounded by their highest tread.
+bool Environment::is_surely_over_ground(const Vec3& center_m, double radius_m, double distance_m) const {
   constexpr double kRounding_m = 1e-9, kRoundingShare = 1e-6;  // more than the distance's own rounding errors
-  if (!(y_m > highest_m_)) return -std::numeric_limits<double>::infinity();
-  return (y_m - highest_m_) * least_up_ * (1.0 - kRoundingShare) - kRounding_m;
+  const double needed_m =
+      std::max(0.0, distance_m + radius_m + kRounding_m) / (least_up_ * (1.0 - kRoundingShare));
+  if (center_m.y - highest_m_ > needed_m) return true;
+  return !std::holds_alternative<StepsGround>(ground_) &&
+         center_m.y - height_at(center_m.x, center_m.z) > needed_m;
 }
 
 Surface Environment::nearest_ground(const Vec3& point_m) const {

@@ -36,8 +36,9 @@ class Environment {
 
   // Distance to the ground is along its normal under the point, exact for planes and slopes.
   Surface nearest_ground(const Vec3& point_m) const;
-  // A lower bound of the distance to the ground for all points of this height, without a look at what is below them.
-  double least_over_ground_m(double y_m) const;
+  // Whether a quick look shows that nearest_ground() is farther than distance_m for each point of a ball. False may mean
+  // that the look was too quick.
+  bool is_surely_over_ground(const Vec3& center_m, double radius_m, double distance_m) const;
   // Returns obstacle = -1 and an infinite distance if there are no obstacles.
   Surface nearest_obstacle(const Vec3& point_m) const;
 

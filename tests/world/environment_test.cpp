@@ -52,8 +52,8 @@ TEST(Environment, HeightsAreBilinearAndGoOnBeyondTheEdges) {
   EXPECT_DOUBLE_EQ(ground.height_at(99.0, -99.0), 2.0);
 }
 
-// Callers skip what the bound says is far away, so it may never exceed the distance; and it has to be of use.
-TEST(Environment, TheLowerBoundOfTheDistanceToTheGroundHolds) {
+// Callers skip the balls that are surely over the ground, so the quick look may never be wrong; and it has to be of use.
+TEST(Environment, AQuickLookAtTheGroundIsNeverWrongAndOfUse) {
   std::mt19937_64 random(3);
   const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   for (int round = 0; round < 400; ++round) {
@@ -67,13 +67,17 @@ TEST(Environment, TheLowerBoundOfTheDistanceToTheGroundHolds) {
     desc.heading_deg = any(-180, 180), desc.position_m = Vec3(any(-1, 1), any(-1, 1), any(-1, 1));
     const Environment environment = built(desc);
     for (int i = 0; i < 200; ++i) {
-      const Vec3 point(any(-3, 3), any(-2, 4), any(-3, 3));
-      EXPECT_LE(environment.least_over_ground_m(point.y), environment.nearest_ground(point).distance_m);
+      const Vec3 center(any(-3, 3), any(-2, 4), any(-3, 3));
+      const double radius_m = any(0.0, 0.5), distance_m = any(-0.3, 0.5);
+      if (!environment.is_surely_over_ground(center, radius_m, distance_m)) continue;
+      const Vec3 way(any(-1, 1), any(-1, 1), any(-1, 1));
+      const Vec3 point = center + radius_m / std::max(1.0, glm::length(way)) * way;
+      EXPECT_GT(environment.nearest_ground(point).distance_m, distance_m);
     }
-    const bool is_bounded = round % 4 != 1;  // a slope rises without end
-    EXPECT_EQ(environment.least_over_ground_m(10.0) > 1.0, is_bounded) << round;
+    EXPECT_TRUE(environment.is_surely_over_ground(Vec3(0, 100, 0), 1.0, 1.0)) << round;
   }
-  EXPECT_GT(Environment().least_over_ground_m(1.0), 0.999);
+  EXPECT_TRUE(Environment().is_surely_over_ground(Vec3(0, 1, 0), 0.5, 0.499));
+  EXPECT_FALSE(Environment().is_surely_over_ground(Vec3(0, 1, 0), 0.5, 0.501));
 }
 
 TEST(Environment, ATurnedAndMovedOneAnswersTheSameThere) {
