@@ -10,6 +10,8 @@
 
 namespace contort {
 
+template struct json_fields::Codec<Case>;
+
 Family family_of(const Case& stored) {
   return {stored.expect.check, stored.spec.character.name, stored.expect.subject};
 }

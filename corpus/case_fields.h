@@ -87,4 +87,8 @@ void fields(V& v, const Case*) {
   v.field("cause", &Case::cause, {}, "Of a minimal case: which of its actions fails alone (docs/causes.md).");
 }
 
+namespace json_fields {
+extern template struct Codec<Case>;  // compiled in case.cpp
+}
+
 }  // namespace contort

@@ -316,25 +316,35 @@ class FieldSchema {
   Json required_ = Json::array();
 };
 
+// Not inline, so that `extern template` keeps a great struct from being compiled wherever it is a part of another one.
 template <class S>
 struct Codec {
-  static void read(const Json& in, const Rule&, S& out, ReadContext& context) {
-    if (!expect_object(in, context)) return;
-    FieldReader<S> reader(in, out, context);
-    fields(reader, static_cast<const S*>(nullptr));
-    reader.finish();
-  }
-  static Json write(const S& value, const Rule&) {
-    FieldWriter<S> writer(value);
-    fields(writer, static_cast<const S*>(nullptr));
-    return writer.take();
-  }
-  static Json schema(const Rule&) {
-    FieldSchema<S> schema;
-    fields(schema, static_cast<const S*>(nullptr));
-    return schema.take();
-  }
+  static void read(const Json& in, const Rule&, S& out, ReadContext& context);
+  static Json write(const S& value, const Rule&);
+  static Json schema(const Rule&);
 };
+
+template <class S>
+void Codec<S>::read(const Json& in, const Rule&, S& out, ReadContext& context) {
+  if (!expect_object(in, context)) return;
+  FieldReader<S> reader(in, out, context);
+  fields(reader, static_cast<const S*>(nullptr));
+  reader.finish();
+}
+
+template <class S>
+Json Codec<S>::write(const S& value, const Rule&) {
+  FieldWriter<S> writer(value);
+  fields(writer, static_cast<const S*>(nullptr));
+  return writer.take();
+}
+
+template <class S>
+Json Codec<S>::schema(const Rule&) {
+  FieldSchema<S> schema;
+  fields(schema, static_cast<const S*>(nullptr));
+  return schema.take();
+}
 
 // A variant of structs; each writes its own `constant("type", …)` and names it by type_name(const T*).
 template <class... Ts>

@@ -5,6 +5,8 @@
 
 namespace contort {
 
+template struct json_fields::Codec<Spec>;
+
 Result<Spec> parse_spec(std::string_view json) { return json_fields::read_document<Spec>(json, "spec"); }
 std::string print_spec(const Spec& spec) { return json_fields::write_canonical(spec); }
 std::string pretty_spec(const Spec& spec) { return json_fields::write_pretty(spec); }

@@ -144,4 +144,8 @@ void fields(V& v, const Spec*) {
   v.field("only_clip", &Spec::only_clip, {.low = 0, .high = 1000000}, "Plays this clip of that sequence alone.");
 }
 
+namespace json_fields {
+extern template struct Codec<Spec>;  // compiled in spec.cpp
+}
+
 }  // namespace contort
