@@ -54,6 +54,7 @@ struct FuzzOptions {
   std::string shrink_time;
   std::string corpus;  // "": contort-out/corpus, or the folder of the pair of builds
   AgainstOptions against;
+  double fail_on = 0.0;  // severity of a cause
   std::string report;
   std::string log;
   OutputRequest outputs;
@@ -168,24 +169,47 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
   return config;
 }
 
-// Whether anything that was found fails a build: what people know of, or the baseline has, does not.
+// The ids of the run's buckets that fail a build: those that people know of, or that the baseline has, do not.
+Result<std::set<std::string>> gating_buckets(const RunResult& result, const std::string& today,
+                                             const Baseline& baseline) {
+  std::set<std::string> gating;
+  for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
+    for (const std::string& folder : *folders) {
+      const Result<Bucket> bucket = read_bucket(folder);
+      if (!bucket) return bucket.issue();
+      if (is_gating(*bucket, today, baseline)) gating.insert(bucket->id);
+    }
+  return gating;
+}
+
+bool is_any_severe(const FoundCauses& causes, const std::set<std::string>& gating, double least_severity) {
+  return std::ranges::any_of(causes.rows, [&](const CauseRow& row) {
+    return row.severity >= least_severity && std::ranges::any_of(row.members, [&](const CauseMember& member) {
+             return gating.contains(member.bucket.id);
+           });
+  });
+}
+
+bool any_lead_gates(const RunResult& result, const Corpus& corpus, const std::string& today,
+                    const Baseline& baseline) {
+  std::vector<Issue> damaged;
+  const std::set<Family> known = known_families(corpus.buckets(damaged), today, baseline);
+  return std::ranges::any_of(result.waiting, [&](const std::string& path) {
+    const Result<Lead> lead = read_lead(path);
+    return lead && !known.contains(family_of(lead->original));
+  });
+}
+
+// Whether anything that was found fails a build. A failure that waits to be shrunk has no cause, and so no severity.
 Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const FuzzOptions& options,
                        const std::string& today) {
   if (result.record.against) return comparison_gates(result, options.against);
   const Result<Baseline> baseline = load_baseline(options.outputs.baseline);
   if (!baseline) return baseline.issue();
-  for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
-    for (const std::string& folder : *folders) {
-      const Result<Bucket> bucket = read_bucket(folder);
-      if (!bucket) return bucket.issue();
-      if (is_gating(*bucket, today, *baseline)) return true;
-    }
-  std::vector<Issue> damaged;
-  const std::set<Family> known = known_families(corpus.buckets(damaged), today, *baseline);
-  return std::ranges::any_of(result.waiting, [&](const std::string& path) {
-    const Result<Lead> lead = read_lead(path);
-    return lead && !known.contains(family_of(lead->original));
-  });
+  const Result<std::set<std::string>> gating = gating_buckets(result, today, *baseline);
+  if (!gating) return gating.issue();
+  if (options.fail_on > 0.0) return is_any_severe(causes_found(result, corpus), *gating, options.fail_on);
+  return !gating->empty() || any_lead_gates(result, corpus, today, *baseline);
 }
 
 int exit_code_of(const RunResult& result, bool gates) {
@@ -324,6 +348,12 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   command->add_option("--log", options->log, "Write every failing case as a line of JSON: index, arm, families, spec");
   add_output_options(*command, options->outputs);
+  command
+      ->add_option("--fail-on", options->fail_on,
+                   "Exit with 1 only for a cause at least so severe, from 0 to 100, that is not in the baseline and that "
+                   "nobody acknowledged (docs/causes.md); 0: for any failure")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort fuzz --character mech --time 10m --seed 7 --report contort-out/report");
   command->callback([options, &context] { run(*options, context); });

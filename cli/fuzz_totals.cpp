@@ -20,11 +20,7 @@ namespace {
 
 std::string name_of_folder(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-// The causes of the failures of this run, and the ids of those that the corpus had before.
-struct FoundCauses {
-  std::vector<CauseRow> rows;
-  std::set<std::string> known;
-};
+}  // namespace
 
 FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
   std::set<std::string> fresh, touched;
@@ -40,6 +36,8 @@ FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
   }
   return {causes_of(std::move(found), std::span(&result.record, 1)), cause_ids(before)};
 }
+
+namespace {
 
 // The verdict in one sentence.
 std::string verdict(const RunRecord& record, const FoundCauses& causes) {

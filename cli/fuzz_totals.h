@@ -6,9 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "corpus/causes.h"
 #include "fuzz/run.h"
 
 namespace contort::cli {
+
+// The causes of the failures of a run, the most severe first, and the ids of those that the corpus had before.
+struct FoundCauses {
+  std::vector<CauseRow> rows;
+  std::set<std::string> known;
+};
+FoundCauses causes_found(const RunResult& result, const Corpus& corpus);
 
 struct TotalsRequest {
   bool json = false;

@@ -50,6 +50,21 @@ TEST_F(CausesCommand, AreNotNewIfTheBaselineHasThem) {
   }
 }
 
+TEST_F(CausesCommand, FailARunFromTheSeverityOnThatIsAskedFor) {
+  EXPECT_EQ(fuzz(folder_ / "c", 12).code, 1);
+  const double severity = json_of({"causes", folder_ / "c"})["causes"][0]["severity"];
+  ASSERT_GT(severity, 0.0);
+  const auto code_for = [&](double least) {
+    std::filesystem::remove_all(folder_ / "c");
+    return fuzz(folder_ / "c", 12, {"--fail-on", std::to_string(least)}).code;
+  };
+  EXPECT_EQ(code_for(0.99 * severity), 1);
+  EXPECT_EQ(code_for(1.01 * severity), 0);
+  EXPECT_EQ(code_for(101.0), 2);
+  fuzz(folder_ / "other", 12);
+  EXPECT_EQ(fuzz(folder_ / "third", 12, {"--fail-on", "0.001", "--baseline", folder_ / "other"}).code, 0);
+}
+
 // A shard leaves it to the merge to file its failures.
 TEST_F(CausesCommand, AreNotClaimedOfFailuresWithoutABucket) {
   const Ran ran = contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", "12", "--cases", "2",
