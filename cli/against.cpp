@@ -54,14 +54,16 @@ std::vector<std::string> not_compared(const AgainstConfig& against) {
   return missing;
 }
 
+bool is_worse(const Provenance& from) { return from.base_shows == base_shows_name(BaseShows::milder); }
+
 std::optional<AgainstRow> row_of(const std::string& folder) {
   const Result<Bucket> bucket = read_bucket(folder);
   if (!bucket) return std::nullopt;
   const std::string path = folder + "/" + bucket->min;
   Result<Case> minimal = read_case(path);
   if (!minimal) return std::nullopt;
-  const bool is_worse = minimal->provenance.base_shows == base_shows_name(BaseShows::milder);
-  return AgainstRow{std::move(minimal).value(), path, is_worse};
+  const bool worse = is_worse(minimal->provenance);
+  return AgainstRow{std::move(minimal).value(), path, worse};
 }
 
 // Those that broke first, then the deepest.
@@ -76,18 +78,22 @@ std::vector<AgainstRow> rows_of(const RunResult& result) {
   return rows;
 }
 
-std::string sentence_about_base(const AgainstRow& row) {
-  const Provenance& from = row.minimal.provenance;
-  if (row.is_worse) return "worse than in the base, which has depth " + decimal(-from.base_margin, 2);
+}  // namespace
+
+std::string sentence_about_base(const Provenance& from) {
+  if (from.base_shows.empty()) return "";
+  if (is_worse(from)) return "worse than in the base, which has depth " + decimal(-from.base_margin, 2);
   std::string text = "new since the base; the base passes this case";
   if (from.base_margin > 0.0) text += " by " + decimal(from.base_margin, 2);
   if (from.base_shows == base_shows_name(BaseShows::passes)) text += ", and fails the check elsewhere in it";
   return text;
 }
 
+namespace {
+
 std::string text_of_row(const AgainstRow& row, const std::vector<std::string>& library_folders) {
   return std::string(row.is_worse ? "WORSE  " : "BROKE  ") + printable(print_family(family_of(row.minimal))) +
-         "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " + sentence_about_base(row) + "  " +
+         "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " + sentence_about_base(row.minimal.provenance) + "  " +
          replay_command(row.path, library_folders);
 }
 

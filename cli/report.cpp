@@ -1,4 +1,5 @@
 // contort report: corpus to HTML, and to what CI reads.
+#include "cli/against.h"
 #include "cli/report.h"
 
 #include <CLI/CLI.hpp>
@@ -93,6 +94,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.rate_hz = stored.spec.rate_hz;
   row.needs = needs_of(stored.spec);
   row.co_failures = stored.co_failures;
+  row.since_base = sentence_about_base(stored.provenance);
   row.phase = stored.expect.phase, row.depth = stored.expect.depth, row.actions = action_names(stored.spec);
   for (const CheckDef& check : all_checks())
     if (check.name == row.check) row.meaning = check.help;

@@ -43,7 +43,9 @@ void add_case(XMLElement* suite, const ReportRow& row) {
     const std::string margin = margin_text(row.worst_margin, row.unit) + " at frame " + std::to_string(row.worst_frame);
     set(failure, "type", row.check);
     set(failure, "message", row.state + ": " + row.family + ", " + margin);
-    failure->SetText((xml_text(row.family) + "\n" + xml_text(margin) + "\n" + xml_text(row.replay_command)).c_str());
+    const std::string since = row.since_base.empty() ? "" : xml_text(row.since_base) + "\n";
+    failure->SetText(
+        (xml_text(row.family) + "\n" + xml_text(margin) + "\n" + since + xml_text(row.replay_command)).c_str());
   } else if (row.state != "fixed") {
     set(test->InsertNewChildElement("skipped"), "message", row.note.empty() ? row.state : row.state + ": " + row.note);
   }

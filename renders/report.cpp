@@ -46,6 +46,7 @@ Json row_json(const ReportRow& row) {
           {"needs", row.needs},
           {"also", texts_of(row.co_failures)},
           {"phase", row.phase},
+          {"since_base", row.since_base},
           {"note", row.note}};
 }
 

@@ -129,6 +129,7 @@ std::string words_html() {
       {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
       {"needs", "The actions without which the failure does not happen: where to look for its cause."},
       {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},
+      {"in the base", "What the other build of a comparison (contort fuzz --against) shows for the same case."},
       {"cause", "What explains failures: an action that fails alone, several that fail only together, or what is around "
                 "the figure. Found by playing each action of the smallest case alone."},
       {"severity", "From 0 to 100: how deep, how often, how visible and how easy to meet."},

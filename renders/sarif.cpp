@@ -31,12 +31,15 @@ Json location_json(const ReportRow& row) {
       {"physicalLocation", {{"artifactLocation", {{"uri", html_url(row.case_file)}}}, {"region", {{"startLine", 1}}}}}};
 }
 
+std::string since_text(const ReportRow& row) { return row.since_base.empty() ? "" : ", " + row.since_base; }
+
 Json result_json(const ReportRow& row, int rule) {
   Json result = {{"ruleId", one_line(row.check)},
                  {"ruleIndex", rule},
                  {"level", row.gating ? "error" : "note"},
                  {"message", text_json(row.state + ": " + row.family + ", " + margin_text(row.worst_margin, row.unit) +
-                                       " at frame " + std::to_string(row.worst_frame) + ". " + row.replay_command)},
+                                       " at frame " + std::to_string(row.worst_frame) + since_text(row) + ". " +
+                                       row.replay_command)},
                  {"locations", Json::array({location_json(row)})},
                  // GitHub knows an alert again by primaryLocationLineHash alone, and would else hash the file's text,
                  // which changes with each smaller case.

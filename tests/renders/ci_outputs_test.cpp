@@ -144,6 +144,17 @@ Json sarif_of(const ReportModel& model) {
 }
 
 // https://docs.github.com/en/code-security/code-scanning/integrating-with-code-scanning/sarif-support-for-code-scanning
+TEST(CiOutputs, SayWhatTheBaseOfAComparisonShows) {
+  ReportRow row = row_of("new", true);
+  EXPECT_EQ(junit_xml(model_of({row})).find("the base"), std::string::npos);
+  row.since_base = "new since the base; the base passes this case by 0.84";
+  EXPECT_NE(junit_xml(model_of({row})).find("0.84\ncontort replay"), std::string::npos);
+  const Json result = sarif_of(model_of({row}))["runs"][0]["results"][0];
+  EXPECT_NE(result["message"]["text"].get<std::string>().find(", " + row.since_base + ". contort replay"),
+            std::string::npos);
+  EXPECT_NE(report_html(model_of({row})).find("<dt>in the base</dt><dd>" + row.since_base + "</dd>"), std::string::npos);
+}
+
 TEST(Sarif, HasTheFieldsThatGithubNeeds) {
   const Json log = sarif_of(all_states());
   EXPECT_EQ(log["version"], "2.1.0");
