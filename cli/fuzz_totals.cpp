@@ -42,10 +42,8 @@ namespace {
 // The verdict in one sentence.
 std::string verdict(const RunRecord& record, const FoundCauses& causes) {
   if (record.cases == 0) return "No case ran.";
-  // Rounded down, so that 100 % means that no case fails.
-  const std::int64_t clean_per_mille = 1000 * (record.cases - record.failing) / record.cases;
-  const std::string share = decimal(static_cast<double>(clean_per_mille) / 10.0, record.failing == 0 ? 0 : 1) +
-                            " % of " + counted(record.cases, "case is clean", "cases are clean");
+  const std::string share =
+      clean_share(record.cases, record.failing) + " of " + counted(record.cases, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
   const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
   if (causes.rows.empty()) return failing + "; none has a bucket yet, so no cause is known.";

@@ -34,12 +34,18 @@ std::string states_text(const std::map<std::string, std::int64_t>& states) {
   return text;
 }
 
+std::int64_t gating_causes(const ReportModel& model, const std::set<std::string>& gating_buckets) {
+  return std::ranges::count_if(model.causes, [&](const ReportCause& cause) {
+    return std::ranges::any_of(cause.buckets, [&](const std::string& id) { return gating_buckets.contains(id); });
+  });
+}
+
 Verdict verdict_of(const ReportModel& model) {
   std::map<std::string, std::int64_t> gating, known;
-  std::set<std::string> gating_families;
+  std::set<std::string> gating_families, gating_buckets;
   for (const ReportRow& row : model.rows) {
     ++(row.gating ? gating : known)[row.state];
-    if (row.gating) gating_families.insert(row.family);
+    if (row.gating) gating_families.insert(row.family), gating_buckets.insert(row.bucket);
   }
   std::int64_t count = 0;
   for (const auto& [state, n] : gating) count += n;
@@ -48,7 +54,9 @@ Verdict verdict_of(const ReportModel& model) {
     return {"idle", "Nothing was tested", "No case was run, so this says nothing about the animation."};
   if (count == 0) return {"good", "Nothing gating", others.empty() ? "No failure is known." : others};
   const bool all_new = gating.size() == 1 && gating.contains("new");
-  std::string detail = "In " + counted(static_cast<std::int64_t>(gating_families.size()), "family", "families");
+  const std::int64_t causes = gating_causes(model, gating_buckets);
+  std::string detail = causes > 0 ? "By " + counted(causes, "cause", "causes")
+                                  : "In " + counted(std::ssize(gating_families), "family", "families");
   if (!all_new) detail += ": " + states_text(gating);
   const std::string kind = all_new ? "new" : "gating";
   return {"bad", counted(count, kind + " failure", kind + " failures"), detail + ". " + others};
@@ -62,9 +70,11 @@ std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
   std::string out = "<header class='verdict " + verdict.look + "'>\n<div class='page'>\n<p class='title'>" +
                     html_text(model.title) + "</p>\n<h1>" + html_text(verdict.text) + "</h1>\n<p class='detail'>" +
                     html_text(verdict.detail) + "</p>\n<dl class='numbers'>\n";
-  out += number_item(count_text(model.cases), "cases") + number_item(count_text(model.frames), "frames") +
-         number_item(count_text(model.findings), "findings") + number_item(count_text(model.families), "families") +
-         number_item(count_text(model.buckets), "buckets");
+  out += number_item(count_text(model.cases), "cases");
+  if (model.search.cases > 0)
+    out += number_item(clean_share(model.search.cases, model.search.failing), "of them clean");
+  out += number_item(count_text(std::ssize(model.causes)), "causes") +
+         number_item(count_text(std::ssize(model.rows)), "failures") + number_item(count_text(model.frames), "frames");
   if (!model.elapsed.empty()) out += number_item(model.elapsed, "elapsed");
   return out + "</dl>\n</div>\n</header>\n";
 }
@@ -122,10 +132,10 @@ std::string footer_html(const ReportModel& model, bool alone) {
 // For who reads a report for the first time.
 std::string words_html() {
   static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
-      {"case", "One motion that was made and checked: a character, what it was told to do, and where."},
+      {"case", "One motion that was made and checked: a character, what it was told to do, and where. It is clean if no "
+               "check failed."},
       {"failure", "One way to break a check, with the smallest case that does it. Also called a bucket."},
       {"family", "Failures of one check in one place, such as a joint or two parts that run into each other."},
-      {"finding", "A case in which a family was seen. One cause can give many."},
       {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
       {"needs", "The actions without which the failure does not happen: where to look for its cause."},
       {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},

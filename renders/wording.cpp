@@ -72,6 +72,12 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
   return count_text(count) + " " + std::string(count == 1 ? one : many);
 }
 
+std::string clean_share(std::int64_t cases, std::int64_t failing) {
+  const std::int64_t per_mille = 1000 * (cases - failing) / cases;
+  const std::string tenths = failing == 0 ? "" : "." + std::to_string(per_mille % 10);
+  return std::to_string(per_mille / 10) + tenths + " %";
+}
+
 std::string one_line(std::string_view text, std::size_t max_chars) {
   std::vector<std::string_view> characters;
   while (!text.empty() && characters.size() <= max_chars) {

@@ -20,6 +20,10 @@ std::string count_text(std::int64_t count);
 // Returns a count with its noun, such as "1 case" or "3 cases".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
 
+// Returns the share of cases that did not fail, such as "92.6 %". Rounded down, so that "100 %" means that none failed.
+// `cases` > 0.
+std::string clean_share(std::int64_t cases, std::int64_t failing);
+
 // Returns the meaning of a phase (checks/circumstances.h): "just after an interrupt" for "interrupt". Unknown words
 // stay as they are.
 std::string phase_text(std::string_view phase);

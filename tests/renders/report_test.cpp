@@ -76,6 +76,23 @@ TEST(Report, NamesNewFailuresFirst) {
   EXPECT_TRUE(contains(html, "In 1 family"));
 }
 
+TEST(Report, CountsCausesAndCleanCasesFirst) {
+  ReportModel model =
+      page({row_of("a", "x", "new", true), row_of("b", "x", "new", true), row_of("c", "x", "open", false)});
+  model.causes.resize(2);
+  model.causes[0].buckets = {model.rows[0].bucket, model.rows[1].bucket};
+  model.causes[1].buckets = {model.rows[2].bucket};
+  model.search.cases = 300, model.search.failing = 1;
+  const std::string html = report_html(model);
+  EXPECT_TRUE(contains(html, "<h1>2 new failures</h1>"));
+  EXPECT_TRUE(contains(html, "By 1 cause. Known, not gating: 1 open.")) << "the other cause does not gate";
+  EXPECT_TRUE(contains(html, "<dt>of them clean</dt><dd>99.6 %</dd>"));
+  EXPECT_TRUE(contains(html, "<dt>causes</dt><dd>2</dd>"));
+  EXPECT_TRUE(contains(html, "<dt>failures</dt><dd>3</dd>"));
+  model.search.failing = 0;
+  EXPECT_TRUE(contains(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
+}
+
 TEST(Report, SaysHowFarTheSearchGot) {
   ReportModel model = page({});
   EXPECT_FALSE(contains(report_html(model), "How far the search got")) << "nothing ran";
