@@ -211,7 +211,8 @@ std::string count_of(const FamilyCard& card) {
   std::int64_t cases = 0;
   for (const ReportRow* row : card.rows) cases = std::max(cases, row->cases_seen);
   const auto buckets = static_cast<std::int64_t>(card.rows.size());
-  return counted(cases, "case", "cases") + (buckets > 1 ? ", " + counted(buckets, "bucket", "buckets") : "");
+  const std::string of_cases = cases > 0 ? counted(cases, "case", "cases") : "met only while another failure was shrunk";
+  return of_cases + (buckets > 1 ? ", " + counted(buckets, "bucket", "buckets") : "");
 }
 
 std::string short_text(const ReportRow& row) {

@@ -93,6 +93,13 @@ TEST(Report, CountsCausesAndCleanCasesFirst) {
   EXPECT_TRUE(contains(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
 }
 
+TEST(Report, SaysOfAFailureThatNoCaseShowedWhereItWasMet) {
+  ReportRow row = row_of("c", "a", "new", true);
+  EXPECT_FALSE(contains(report_html(page({row})), "met only while another failure was shrunk"));
+  row.cases_seen = 0;
+  EXPECT_TRUE(contains(report_html(page({row})), "<span>met only while another failure was shrunk</span>"));
+}
+
 TEST(Report, SaysHowFarTheSearchGot) {
   ReportModel model = page({});
   EXPECT_FALSE(contains(report_html(model), "How far the search got")) << "nothing ran";
