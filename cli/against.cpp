@@ -1,8 +1,12 @@
 #include "cli/against.h"
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <sstream>
 #include <tuple>
 
 #include "cli/input.h"
@@ -31,6 +35,16 @@ Result<std::string> build_text(const std::string& version, const std::string& pa
   return version + " " + content_id(*bytes).substr(0, 16);
 }
 
+// A name without a slash is looked for in the folders of PATH, as shells do; what is not there stays as it is.
+std::string program_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  if (name.find('/') != name.npos || path == nullptr) return name;
+  std::istringstream folders(path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string file = folder + "/" + name; !folder.empty() && ::access(file.c_str(), X_OK) == 0) return file;
+  return name;
+}
+
 std::vector<std::string> base_command(const std::string& base, const Context& context) {
   std::vector<std::string> command = {base};
   for (const std::string& folder : context.library_folders) command.insert(command.end(), {"--library", folder});
@@ -54,7 +68,7 @@ std::vector<std::string> not_compared(const AgainstConfig& against) {
   return missing;
 }
 
-bool is_worse(const Provenance& from) { return from.base_shows == base_shows_name(BaseShows::milder); }
+bool is_milder_in_base(const Provenance& from) { return from.base_shows == base_shows_name(BaseShows::milder); }
 
 std::optional<AgainstRow> row_of(const std::string& folder) {
   const Result<Bucket> bucket = read_bucket(folder);
@@ -62,7 +76,7 @@ std::optional<AgainstRow> row_of(const std::string& folder) {
   const std::string path = folder + "/" + bucket->min;
   Result<Case> minimal = read_case(path);
   if (!minimal) return std::nullopt;
-  const bool worse = is_worse(minimal->provenance);
+  const bool worse = is_milder_in_base(minimal->provenance);
   return AgainstRow{std::move(minimal).value(), path, worse};
 }
 
@@ -82,7 +96,7 @@ std::vector<AgainstRow> rows_of(const RunResult& result) {
 
 std::string sentence_about_base(const Provenance& from) {
   if (from.base_shows.empty()) return "";
-  if (is_worse(from)) return "worse than in the base, which has depth " + decimal(-from.base_margin, 2);
+  if (is_milder_in_base(from)) return "worse than in the base, which has depth " + decimal(-from.base_margin, 2);
   std::string text = "new since the base; the base passes this case";
   if (from.base_margin > 0.0) text += " by " + decimal(from.base_margin, 2);
   if (from.base_shows == base_shows_name(BaseShows::passes)) text += ", and fails the check elsewhere in it";
@@ -112,7 +126,8 @@ std::string firsts_text(const AgainstCounts& counts) {
 
 void add_against_options(CLI::App& command, AgainstOptions& options) {
   CLI::Option* base = command.add_option("--against", options.base,
-                                         "Another contort program: only failures that it does not show count");
+                                         "Another contort program, as a path or a name in PATH: only failures that it does not show "
+                                         "count");
   base->type_name("BASE");
   command.add_flag("--moved", options.moved, "Motions that differ from those of the base gate, too")->needs(base);
   command
@@ -127,13 +142,14 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
 Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
                                                  const Context& context) {
   if (options.base.empty()) return std::optional<AgainstConfig>();
-  const std::vector<std::string> command = base_command(options.base, context);
+  const std::string program = program_path(options.base);
+  const std::vector<std::string> command = base_command(program, context);
   const Result<std::string> build = build_text(CONTORT_VERSION, "/proc/self/exe");
   if (!build) return build.issue();
-  if (const Result<std::string> there = build_text("", options.base); !there) return there.issue();
+  if (const Result<std::string> there = build_text("", program); !there) return there.issue();
   const Result<MeasureHello> hello = greet(command, limits);
   if (!hello) return hello.issue();
-  const Result<std::string> base = build_text(hello->version, options.base);
+  const Result<std::string> base = build_text(hello->version, program);
   if (!base) return base.issue();
   AgainstConfig against;
   against.start = [command, limits] { return std::make_unique<BaseProgram>(command, limits); };

@@ -12,7 +12,7 @@
 namespace contort::cli {
 
 struct AgainstOptions {
-  std::string base;        // path of the other program; "": no comparison
+  std::string base;        // the other program, a path or a name in PATH; "": no comparison
   bool moved = false;      // motions that merely differ gate, too
   double tolerance = 0.1;  // depth below which a failure of one build alone does not count
 };

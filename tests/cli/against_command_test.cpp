@@ -67,6 +67,18 @@ TEST_F(AgainstCommand, FindsNothingBetweenEqualBuilds) {
   EXPECT_EQ(fuzz(kProgram, "again", {"--moved"}).code, 0);
 }
 
+TEST_F(AgainstCommand, FindsABaseByItsNameInThePath) {
+  script("old_contort", "exec " + kProgram + " \"$@\"\n");
+  const char* path = std::getenv("PATH");
+  ASSERT_NE(path, nullptr);
+  const std::string before = path;
+  ::setenv("PATH", (std::string(folder_ / "") + ":" + before).c_str(), 1);
+  const Ran ran = fuzz("old_contort", "c", {}, "2");
+  ::setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+  EXPECT_EQ(fuzz("no_such_contort", "d", {}, "2").code, 2);
+}
+
 TEST_F(AgainstCommand, ListsWhatBrokeWithACommandForEach) {
   const Ran ran = fuzz(flawless(), "corpus");
   EXPECT_EQ(ran.code, 1) << ran.err;
