@@ -56,7 +56,7 @@ struct Door {
 };
 
 const std::vector<Door> kDoors = {
-    {"nlohmann/", "model/core/json_fields.h"},
+    {"nlohmann/", "model/core/json_value_fields.h"},
     {"tiny_gltf.h", "formats/gltf/*.cpp"},
     {"rapidcheck", "fuzz/draw*.cpp"},
     {"GL/", "renders/raster/*.cpp"},
@@ -231,7 +231,7 @@ TEST(Layering, RefusesPlantedViolations) {
 TEST(Layering, AllowsWhatIsRight) {
   constexpr LayerExample kGood[] = {
       {"model/core/math.h", "#include <glm/vec3.hpp>\n#include <vector>\n"},
-      {"model/core/json_fields.h", "#include <nlohmann/json.hpp>\n"},
+      {"model/core/json_value_fields.h", "#include <nlohmann/json.hpp>\n"},
       {"model/core/hash.cpp", "#include <xxhash.h>\n"},
       {"generator/timeline/queue.cpp", "#include \"generator/actions/registry.h\"\n"},
       {"model/spec/spec_fields.h", "#include \"model/core/json_fields.h\"\n"},
