@@ -32,6 +32,29 @@ TEST(CausesHtml, ComeBeforeTheFailures) {
   EXPECT_LT(html.find("<section id='causes'>"), html.find("<section id='failures'>"));
 }
 
+// A row of its own check, with the id of that check.
+ReportRow row_in(const std::string& bucket, bool gating) {
+  ReportRow row;
+  row.family = row.check = row.bucket = row.key = bucket;
+  row.state = gating ? "new" : "open", row.gating = gating;
+  return row;
+}
+
+TEST(CausesHtml, AreCountedInTheHeadWithTheShareOfCleanCases) {
+  ReportModel model = model_with({elbow_cause(), elbow_cause()});
+  model.rows = {row_in("a", true), row_in("b", true), row_in("c", false)};
+  model.causes[1].buckets = {"c"};
+  model.search.cases = 300, model.search.failing = 1;
+  const std::string html = report_html(model);
+  EXPECT_TRUE(holds(html, "<h1>2 new failures</h1>"));
+  EXPECT_TRUE(holds(html, "By 1 cause. Known, not gating: 1 open.")) << "the other cause does not gate";
+  EXPECT_TRUE(holds(html, "<dt>of them clean</dt><dd>99.6 %</dd>"));
+  EXPECT_TRUE(holds(html, "<dt>causes</dt><dd>2</dd>"));
+  EXPECT_TRUE(holds(html, "<dt>failures</dt><dd>3</dd>"));
+  model.search.failing = 0;
+  EXPECT_TRUE(holds(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
+}
+
 TEST(CausesHtml, OpenTheirDeepestCase) {
   const std::string html = causes_html(model_with({elbow_cause()}), {});
   EXPECT_TRUE(holds(html, "<a href='#case=key-1'>Left elbow leaves its range during aim</a>"));

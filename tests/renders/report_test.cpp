@@ -9,7 +9,6 @@
 #include <set>
 
 #include "model/core/files.h"
-#include "renders/html.h"
 
 namespace contort {
 namespace {
@@ -54,43 +53,11 @@ bool contains(std::string_view text, std::string_view what) { return count(text,
 // The text that a browser would take for markup: the page without its two fixed blocks.
 std::string body_of(const std::string& html) { return html.substr(html.find("<body>")); }
 
-TEST(Html, EscapesText) {
-  EXPECT_EQ(html_text("<a href=\"x\" id='y'>&amp;"), "&lt;a href=&quot;x&quot; id=&#39;y&#39;&gt;&amp;amp;");
-  EXPECT_EQ(html_text("a\nb"), "a\uFFFDb");
-  EXPECT_EQ(html_lines("a<\n\nb\n"), "a&lt;\n\nb\n");
-  EXPECT_EQ(html_lines(""), "");
-}
-
-TEST(Html, KeepsUrlsBelowThePage) {
-  EXPECT_EQ(html_url("strips/a b#1?.png"), "strips/a%20b%231%3F.png");
-  EXPECT_EQ(html_url("a..b/c.png"), "a..b/c.png");
-  EXPECT_EQ(html_url("javascript:alert(1)"), "javascript%3Aalert%281%29");  // a file name, not a scheme
-  for (const char* bad : {"", "/etc/passwd", "//host/x", "../x", "a/../../x", "a/.."})
-    EXPECT_EQ(html_url(bad), "") << bad;
-}
-
 TEST(Report, NamesNewFailuresFirst) {
   const std::string html = report_html(page({row_of("joint_range", "a", "new", true)}));
   EXPECT_TRUE(contains(html, "<h1>1 new failure</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict bad'"));
   EXPECT_TRUE(contains(html, "In 1 family"));
-}
-
-TEST(Report, CountsCausesAndCleanCasesFirst) {
-  ReportModel model =
-      page({row_of("a", "x", "new", true), row_of("b", "x", "new", true), row_of("c", "x", "open", false)});
-  model.causes.resize(2);
-  model.causes[0].buckets = {model.rows[0].bucket, model.rows[1].bucket};
-  model.causes[1].buckets = {model.rows[2].bucket};
-  model.search.cases = 300, model.search.failing = 1;
-  const std::string html = report_html(model);
-  EXPECT_TRUE(contains(html, "<h1>2 new failures</h1>"));
-  EXPECT_TRUE(contains(html, "By 1 cause. Known, not gating: 1 open.")) << "the other cause does not gate";
-  EXPECT_TRUE(contains(html, "<dt>of them clean</dt><dd>99.6 %</dd>"));
-  EXPECT_TRUE(contains(html, "<dt>causes</dt><dd>2</dd>"));
-  EXPECT_TRUE(contains(html, "<dt>failures</dt><dd>3</dd>"));
-  model.search.failing = 0;
-  EXPECT_TRUE(contains(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
 }
 
 TEST(Report, SaysOfAFailureThatNoCaseShowedWhereItWasMet) {
