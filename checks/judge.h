@@ -29,7 +29,7 @@ struct Evaluation {
   bool operator==(const Evaluation&) const = default;
 };
 
-// How near a motion came to the limits of one check: the smallest margin of each subject, in the subject's unit;
+// The distance of a motion from the limits of one check: the smallest margin of each subject, in the subject's unit;
 // +infinity if it was not judged.
 struct SmallestMargins {
   const CheckDef* check = nullptr;

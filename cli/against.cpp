@@ -80,7 +80,7 @@ std::optional<AgainstRow> row_of(const std::string& folder) {
   return AgainstRow{std::move(minimal).value(), path, worse};
 }
 
-// Those that broke first, then the deepest.
+// Families that broke come first, then those that got worse; the deepest of each first.
 std::vector<AgainstRow> rows_of(const RunResult& result) {
   std::vector<AgainstRow> rows;
   for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})

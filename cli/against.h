@@ -44,7 +44,8 @@ std::string comparison_counts(const RunResult& result);
 // Whether something broke or got worse, or moved where that counts.
 bool comparison_gates(const RunResult& result, const AgainstOptions& options);
 
-// Of a minimal case of such a corpus: "new since the base; the base passes this case by 0.84"; "" of other cases.
+// A sentence about a minimal case of such a corpus: "new since the base; the base passes this case by 0.84"; "" of
+// other cases.
 std::string sentence_about_base(const Provenance& from);
 
 // The base refused every case, so that nothing was compared.

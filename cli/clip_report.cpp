@@ -220,7 +220,7 @@ std::string names_text(const std::vector<std::string>& names) {
   return names.size() <= kMostLines ? text : text + " and " + std::to_string(names.size() - kMostLines) + " more";
 }
 
-// Those that left out more than is plain, most first, as lines; of many the first few.
+// Prints what left out more than is plain, the greatest first; at most kMostLines lines, and how many are left.
 void print_left_out(std::vector<LeftOut> left_out, double LeftOut::*amount, double plain,
                     const std::function<std::string(const LeftOut&)>& text) {
   std::erase_if(left_out, [&](const LeftOut& l) { return !(l.*amount > plain); });

@@ -221,7 +221,7 @@ int exit_code_of(const RunResult& result, bool gates) {
   return gates ? kFindings : kClean;
 }
 
-// Whoever wants to go on with a run, and has built anew or changed an option since, begins another one.
+// --resume after a new build or with other options begins another run: say so, if the corpus has the state of one.
 void warn_of_other_states(const RunConfig& config, const Corpus& corpus) {
   namespace fs = std::filesystem;
   RunRecord record;

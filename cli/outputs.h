@@ -27,7 +27,7 @@ struct OutputRequest {
 void add_output_options(CLI::App& command, OutputRequest& request);
 void add_baseline_option(CLI::App& command, std::string& baseline);
 
-// Nothing is known without a baseline.
+// Without a path, the baseline is empty.
 Result<Baseline> load_baseline(const std::string& path);
 
 // Whether what is wanted could be written, before the work is done; code file.unwritable.

@@ -120,7 +120,7 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
   return all;
 }
 
-// Those of the command line, or spread over the shortest of the motions.
+// The frames of the command line, or frames spread over the shortest of the motions.
 std::vector<int> frames_of(const RenderOptions& options, const std::vector<Performed>& all) {
   if (!options.frames.empty()) return options.frames;
   int first = all.front().made.motion.first_frame, shortest = all.front().made.motion.frame_count;

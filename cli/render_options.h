@@ -40,7 +40,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options);
 // The options, without files, that the parsed command line has, for a program that declares the same ones.
 std::vector<std::string> given_options(const CLI::App& command);
 
-// Those of contort-render.
+// The options of contort-render.
 struct RenderOptions : PictureOptions {
   std::vector<std::string> files;
   std::vector<std::string> libraries;

@@ -101,7 +101,7 @@ std::vector<std::string> disturbances_of(const Spec& spec) {
   return names;
 }
 
-// How sentences name surroundings.
+// Surroundings as sentences name them.
 std::string setting_in_words(const std::string& name) {
   static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"ground", "on uneven ground"},        {"impact", "after an impact"},

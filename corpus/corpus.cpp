@@ -30,7 +30,7 @@ Result<Case> case_in(const Result<std::string>& text, const std::string& path) {
   return issue;
 }
 
-// Whoever packed the corpus may have made them links to somebody else's folders.
+// A corpus from somebody else may hold links that lead to other folders.
 Result<Done> check_own_folders(const std::string& folder) {
   for (const char* own : {"/buckets", "/leads", "/runs", "/invalid", "/.lock"})
     if (const Result<Done> inside = check_inside(folder, folder + own); !inside) return inside;

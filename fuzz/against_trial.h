@@ -16,7 +16,7 @@ class AgainstTrial final : public Trial {
   AgainstTrial(Trial& inner, const Expectation& expect, BaseBuild& base, const CompareRules& rules,
                std::function<bool()> alive);
   TrialResult run(const Spec& spec, int most_frames) override;
-  // Of the other families only those that break or get worse against the base.
+  // Keeps only those of the other families that break or get worse against the base.
   std::vector<Case> others(const Spec& spec) override;
 
  private:

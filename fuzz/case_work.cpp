@@ -71,7 +71,7 @@ std::string CaseWork::operator()(const std::string& text, WorkerSlot& slot) {
   return std::visit(Doing{*this, slot}, parse_task(text));
 }
 
-// Where there is a base, both builds work at the same time.
+// With a base, both builds work at the same time.
 EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   EvaluateReport report;
   const Spec spec = spec_of(config_, generator_, task.lineage);

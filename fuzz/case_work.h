@@ -21,7 +21,7 @@ namespace contort {
 // The case of a failure that did not show again. Nobody wrote down its depth, so that is no number.
 Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
 
-// Which group each subject falls to (islands.h). Remembered, by all that names it: naming and hashing them for each
+// The group of each subject (islands.h). Remembered, by all that names it: naming and hashing them for each
 // case was 1 % of a run.
 class TargetGroups {
  public:

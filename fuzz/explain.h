@@ -1,4 +1,4 @@
-// Which fields of a minimal spec could as well have other values.
+// Finds the fields of a minimal spec that could as well have other values.
 #pragma once
 
 #include <string>

@@ -129,7 +129,8 @@ void FailureQueue::take_settled(const SettledLead& settled) {
   for (const Lead& lead : settled.incidental_unconfirmed) note(lead);
 }
 
-// Which families of the case need no bucket of their own, a shard leaves to `merge`: it shrinks more than a whole run.
+// A shard leaves it to `merge` to find the families of the case that need no bucket of their own: it shrinks more than
+// a whole run.
 void FailureQueue::settle_no_more(const SettleTask& of_case, const std::set<Family>& families) {
   const auto is_settled = [&](const SettleTask& task) {
     return task.lineage == of_case.lineage && families.contains(task.family);

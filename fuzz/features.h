@@ -1,4 +1,4 @@
-// Which features a case may have: what its profile allows, less what the case itself leaves out.
+// The features that a case may have: those that its profile allows, without those that the case itself leaves out.
 //
 // Leaving out half of all features in each case is swarm testing (Groce et al., ISSTA 2012): some faults show only where
 // others features do not get in the way.

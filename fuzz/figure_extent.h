@@ -1,4 +1,4 @@
-// How far a figure reaches to its sides.
+// The reach of a figure to its sides.
 #pragma once
 
 #include "model/character/character.h"

@@ -22,7 +22,7 @@ std::string path_of(const Corpus& corpus, const RunRecord& record, const std::st
   return corpus.folder() + "/runs/" + record_name(record) + ending;
 }
 
-// Whoever holds a lock removes its file at the end: a lock on a file that is no longer there is worth nothing.
+// The holder of a lock removes its file at the end: a lock on a file that is no longer there is worth nothing.
 bool is_still_there(int file, const std::string& path) {
   struct stat held {
   }, present{};

@@ -29,8 +29,9 @@ struct RunState {
 std::string state_path(const Corpus& corpus, const RunRecord& record);
 Result<Done> keep_state(const Corpus& corpus, const RunState& state);
 
-// Nothing where none was kept. Whoever made the corpus may have made the state: it names nothing outside. Codes
-// state.wrong_format (of another version), state.other_plan, state.other_run, file.*, json.*.
+// Returns no state if none was kept. A corpus from somebody else may hold a state from somebody else, so that paths in
+// it must stay inside. Codes state.wrong_format (of another version), state.other_plan, state.other_run, file.*,
+// json.*.
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
 void drop_state(const Corpus& corpus, const RunRecord& record);
 

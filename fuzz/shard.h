@@ -1,4 +1,4 @@
-// Which share of a run this process does.
+// The share of a run that this process does.
 #pragma once
 
 #include <functional>

@@ -25,8 +25,8 @@ struct SpecField {
   bool operator==(const SpecField&) const = default;
 };
 
-// Those that are not at their defaults, in the spec's order. The generator says the limits and defaults of parameters.
-// Without the character they are not known: then parameters have no limits, and 0 stands for the default.
+// Returns the fields that are not at their defaults, in the spec's order. The generator says the limits and defaults of
+// parameters. Without the character they are not known: then parameters have no limits, and 0 stands for the default.
 std::vector<SpecField> spec_fields_of(const Spec& spec, Generator& generator, const Character* character);
 
 // Back to their defaults.

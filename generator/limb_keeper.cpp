@@ -16,7 +16,7 @@ bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   return s_.added[p] != 0;
 }
 
-// What it did is over, and it is still on its way to its base.
+// The limb's last action is over, and the limb is still on its way to its base.
 bool LimbKeeper::comes_back(std::size_t p) const {
   return s_.behind[p] != 0 && s_.stacks[p].overwrite().action < 0 && s_.stacks[p].ik().action < 0;
 }
@@ -107,8 +107,9 @@ void LimbKeeper::place(const Leg& leg, const Posture& posture) {
   for (const int j : leg.joints) forward_kinematics(*stage_.character, posture.coords, j, j + 1, s_.rules.world());
 }
 
-// Nothing moves the limb any more: its feet go to where its base posture has them, by the greatest share of that way in
-// which joints move smoothly and bodies have room. False for a limb without feet of its own, and where no share does.
+// For a limb that no action moves any more: its feet go to where its base posture has them, by the greatest share of
+// that way in which joints move smoothly and bodies have room. False for a limb without feet of its own, and where no
+// share does.
 bool LimbKeeper::land(const Limb& limb) {
   constexpr std::array kShares = {0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.02};
   const bool has_feet = std::ranges::any_of(limb.legs, [&](int i) { return limb.is_its_own(stage_.legs[at(i)]); });

@@ -153,7 +153,7 @@ std::vector<Vec3> posed_vertices(const Skin& skin, std::span<const Rigid> world)
   return positions_m;
 }
 
-// Those of triangles around, each by its area; of vertices in one place together.
+// Sums the normals of the triangles around each vertex, weighted by area. Vertices in one place share theirs.
 std::vector<Vec3> vertex_normals(const Skin& skin, const std::vector<Vec3>& positions_m) {
   std::vector<Vec3> normals(positions_m.size(), Vec3(0.0));
   for (std::size_t i = 0; i + 2 < skin.indices.size(); i += 3) {

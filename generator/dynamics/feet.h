@@ -1,4 +1,4 @@
-// Which soles bear on the ground, and on which corners.
+// Finds the soles that bear on the ground, and the corners on which they do.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace contort {
 
 inline constexpr std::uint8_t kAllCorners = 0xF;
 
-// How a sole bears on the ground.
+// The way in which a sole bears on the ground.
 struct Bearing {
   std::uint8_t corners = 0;  // bit k: on corner k of Sole::corners_m
   double depth = 1.0;        // from these towards the other corners, as a share of the way: toes and heels give way

@@ -89,7 +89,7 @@ Vec3 GroundShare::middle_of(const Sole& sole, const Bearing& bearing) {
   return middle;
 }
 
-// How easily a sole gives moments, world axes: less about the axis about which its ankle is weaker.
+// The ease with which a sole gives moments, world axes: less about the axis about which its ankle is weaker.
 Mat3 GroundShare::moment_ease(const Sole& sole, const DynamicsScratch& dynamics) {
   const double weaker = std::max(1.0, sole.flex_N_m / std::max(sole.tilt_N_m, 1e-6));
   const double tilt_price = std::min(kMomentPrice * weaker * weaker, kMostMomentPrice);

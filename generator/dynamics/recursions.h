@@ -20,7 +20,7 @@ struct RecursionSet {
                      const Vec3& root_m, SpatialInertia& out);
 };
 
-// Those that this machine can run, the fastest last.
+// Returns the variants that this machine can run, the fastest last.
 std::span<const RecursionSet> recursion_sets();
 
 }  // namespace contort

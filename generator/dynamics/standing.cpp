@@ -67,7 +67,7 @@ bool Standing::stand(EquationOfMotion& equation, FootContacts& contacts, std::sp
   return reached.margin_m > -kTips_m && outside_s_ < kTips_s && lost_m(equation, contacts) < kLost_m;
 }
 
-// How far the capture point is outside the support area, m, as far as it is not meant to be there: in a walk it runs
+// The distance of the capture point from the support area, m, as far as it is not meant to be there: in a walk it runs
 // ahead.
 double Standing::lost_m(const EquationOfMotion& equation, const FootContacts& contacts) {
   corners_m_ = area_.corners_m;

@@ -1,7 +1,7 @@
-// Where the ground's force should act so that a figure's centre of mass goes where its target's goes. The capture point
-// c + c' / w, w = sqrt(g / h), runs away from the zero moment point at the rate w; put behind it by more than the
-// target's is, the point is led back (J. Pratt et al., "Capture point", Humanoids 2006; J. Englsberger et al.,
-// "Three-dimensional bipedal walking control based on divergent component of motion", 2015).
+// Finds the point where the ground's force should act so that a figure's centre of mass goes where its target's goes.
+// The capture point c + c' / w, w = sqrt(g / h), runs away from the zero moment point at the rate w; put behind it by
+// more than the target's is, the point is led back (J. Pratt et al., "Capture point", Humanoids 2006; J. Englsberger et
+// al., "Three-dimensional bipedal walking control based on divergent component of motion", 2015).
 #pragma once
 
 #include "generator/dynamics/equation_of_motion.h"

@@ -16,7 +16,7 @@ double area_above(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 double length_above(const Vec3& v) { return std::sqrt(v.x * v.x + v.z * v.z); }
 
-// How far p is inside of the edge from a to b, seen from above.
+// Returns the distance of p to the inside of the edge from a to b, seen from above.
 double inside_by(const Vec3& a, const Vec3& b, const Vec3& p) { return area_above(a, b, p) / length_above(b - a); }
 
 Vec3 nearest_on(const Vec3& a, const Vec3& b, const Vec3& p) {

@@ -51,7 +51,7 @@ void track_joint(const Link& link, const TargetMotion& target, double then, doub
     acceleration[0] = cubic_acceleration(now[0], velocity[0], goal[0], rates[0], ahead_s);
 }
 
-// What the cubic from the target itself to the goal misses of the target's own acceleration.
+// The difference between the acceleration of the cubic, from the target itself to the goal, and the target's own.
 void add_missed(const Link& link, const TargetMotion& target, double frame, double then, double ahead_s,
                 double* acceleration) {
   double now[4], rates[3], goal[4], goal_rates[3], own[3];

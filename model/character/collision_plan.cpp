@@ -1,4 +1,4 @@
-// Which colliders form a body, and which bodies may not touch.
+// Finds out which colliders form a body, and which bodies may not touch.
 #include <algorithm>
 #include <map>
 

@@ -135,7 +135,7 @@ Descriptor make_new(const std::string& path) {
   return Descriptor(::open(path.c_str(), kFlags, 0666));
 }
 
-// Whoever could read and write the old file still can, as far as the file system and our rights allow it.
+// Gives the new file the owner and permissions of the old one, as far as the file system and our rights allow it.
 void take_over_permissions(int file, const struct stat& old) {
   [[maybe_unused]] const int given = ::fchown(file, old.st_uid, old.st_gid);
   [[maybe_unused]] const int allowed = ::fchmod(file, old.st_mode & 0777);

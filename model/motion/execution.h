@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// How much of the root's path an execution knows.
+// The part of the root's path that an execution knows.
 enum class RootPath : std::uint8_t {
   told,         // all of it
   on_the_spot,  // only its height; the figure walks on the spot, as in clips that an engine moves
