@@ -176,6 +176,21 @@ Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>
                                           : " holds what differs between two builds; name another --corpus")};
 }
 
+Result<Done> check_same_pair(std::span<const Corpus> corpora) {
+  std::optional<std::string> pair;  // of all runs so far; "": no comparison
+  std::vector<Issue> damaged;
+  for (const Corpus& corpus : corpora)
+    for (const RunRecord& run : runs_of(corpus, damaged)) {
+      const std::string own = run.against ? run.against->base + "\n" + run.against->build : "";
+      if (pair.value_or(own) != own)
+        return Issue{"against.other_corpus", "",
+                     corpus.folder() + " holds runs of other builds than the corpora before it; merge the corpora of one "
+                                       "pair of builds, or of no comparison, at a time"};
+      pair = own;
+    }
+  return Done{};
+}
+
 void print_comparison(const RunResult& result, const AgainstConfig& against,
                       const std::vector<std::string>& library_folders) {
   for (const AgainstRow& row : rows_of(result)) std::printf("%s\n", text_of_row(row, library_folders).c_str());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ std::string folder_of_pair(const AgainstConfig& against);
 // Refuses a corpus that is not of this pair of builds, and without a comparison one that is of any. Code
 // against.other_corpus.
 Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>& against);
+
+// Refuses to put runs of different pairs of builds, or of a pair and of no comparison, into one corpus. Code
+// against.other_corpus.
+Result<Done> check_same_pair(std::span<const Corpus> corpora);
 
 // Rows, counts and what was not compared, for people.
 void print_comparison(const RunResult& result, const AgainstConfig& against,

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/print.h"
 #include "model/core/inside_folder.h"
@@ -37,8 +38,12 @@ void run(const MergeOptions& options, Context& context) {
     if (!corpus) return context.fail(corpus.issue());
     sources.push_back(std::move(corpus).value());
   }
+  if (const Result<Done> fit = check_same_pair(sources); !fit) return context.fail(fit.issue());
   const Result<Corpus> into = Corpus::create(options.output);
   if (!into) return context.fail(into.issue(), exit_of(into.issue()));
+  std::vector<Corpus> all = sources;
+  all.push_back(*into);
+  if (const Result<Done> fit = check_same_pair(all); !fit) return context.fail(fit.issue());
   const Result<Merged> merged = merge(sources, *into);
   if (!merged) return context.fail(merged.issue(), kInternal);
   std::vector<Issue> damaged = merged->damaged;

@@ -152,6 +152,24 @@ TEST_F(AgainstCommand, KeepsTheCorporaOfPairsApart) {
   EXPECT_EQ(fuzz(kProgram, "plain").code, 2);
 }
 
+TEST_F(AgainstCommand, MergesOnlyTheCorporaOfOnePair) {
+  const auto merge = [&](const std::vector<std::string>& corpora, const std::string& into) {
+    std::vector<std::string> arguments = {"merge", "-o", folder_ / into};
+    for (const std::string& corpus : corpora) arguments.push_back(folder_ / corpus);
+    return contort_program(arguments);
+  };
+  fuzz(kProgram, "equal", {}, "2"), fuzz(kProgram, "equal_too", {}, "2");
+  fuzz(flawless(), "other", {}, "2"), fuzz("", "plain", {}, "2");
+  EXPECT_EQ(merge({"equal", "equal_too"}, "good").code, 0);
+  for (const char* other : {"other", "plain"}) {
+    const Ran refused = merge({"equal", other}, "bad");
+    EXPECT_EQ(refused.code, 2) << other;
+    EXPECT_NE(refused.err.find("against.other_corpus"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "bad")) << other;
+    EXPECT_EQ(merge({other}, "good").code, 2) << "what is there already counts, too: " << other;
+  }
+}
+
 TEST_F(AgainstCommand, MeasuresALineForEachLine) {
   const std::string spec = print_spec(bent_elbow(170));
   spill(folder_ / "requests", spec + "\nnonsense\n\n{\"id\":5,\"spec\":" + spec + ",\"check\":\"joint_range\"}");
