@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "generator/execute.h"
 #include "generator/motion/limb_room.h"
@@ -198,6 +199,52 @@ TEST(LimbRoom, AHandMayTouchWhatItHoldsUntilTheNextMotion) {
   EXPECT_GT(room.room_m(arm, world), 0.0);
   begun.begin(human);
   EXPECT_LT(room.room_m(arm, world), -kTooNear_m);
+}
+
+// On a hill, beside a box: bodies are near to each other, to the ground and to the box by turns.
+EnvironmentDesc hill_with_box() {
+  EnvironmentDesc desc;
+  HeightGround hill;
+  hill.columns = 3, hill.rows = 3, hill.spacing_m = 0.8;
+  hill.heights_m = {0.0, 0.2, 0.0, 0.1, 0.3, 0.4, 0.0, 0.1, 0.0};
+  desc.ground = hill;
+  desc.obstacles = {{"box", Box{Vec3(0.5, 1.0, 0.2), Vec3(0.2, 0.3, 0.2), Vec3(0.0)}}};
+  return desc;
+}
+
+TEST(LimbRoom, ANarrowRangeTellsTheSameWithinIt) {
+  const Result<Character> human = build_character({"human", {}, {}}, stock_library());
+  const Result<Environment> environment = build_environment(hill_with_box());
+  ASSERT_TRUE(human && environment);
+  StandingFeet feet;
+  LimbRoom room;
+  room.begin(*human, *environment, feet);
+  std::vector<double> coords(human->rest_coords().begin(), human->rest_coords().end());
+  std::vector<Rigid> world(human->joints().size());
+  std::mt19937_64 random(4);
+  int below = 0, within = 0, above = 0;
+  for (int round = 0; round < 300; ++round) {
+    for (const Joint& joint : human->joints())
+      if (joint.kind == JointKind::hinge)
+        coords[at(joint.coord)] = std::uniform_real_distribution(joint.low, joint.high)(random);
+    Rigid root = human->rest_root();
+    root.p_m.y += std::uniform_real_distribution(-0.1, 0.6)(random);
+    forward_kinematics(*human, root, coords, world);
+    room.begin_frame(world);
+    for (const Limb& limb : room.limbs()) {
+      const std::size_t part = at(limb.parts.back());
+      const double whole_m = room.room_m(part, world), low_m = -0.01, high_m = 0.02;
+      const double told_m = room.room_m(part, world, {low_m, high_m});
+      EXPECT_EQ(room.has_room(part, world, 0.005), whole_m >= 0.005);
+      ++(whole_m < low_m ? below : whole_m < high_m ? within : above);
+      if (whole_m < low_m) {
+        EXPECT_LT(told_m, low_m);
+      } else {
+        EXPECT_EQ(told_m, std::min(whole_m, high_m));
+      }
+    }
+  }
+  EXPECT_GT(std::min({below, within, above}), 20) << below << " " << within << " " << above;
 }
 
 }  // namespace
