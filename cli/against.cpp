@@ -107,8 +107,8 @@ namespace {
 
 std::string text_of_row(const AgainstRow& row, const std::vector<std::string>& library_folders) {
   return std::string(row.is_worse ? "WORSE  " : "BROKE  ") + printable(print_family(family_of(row.minimal))) +
-         "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " + sentence_about_base(row.minimal.provenance) + "  " +
-         replay_command(row.path, library_folders);
+         "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " +
+         sentence_about_base(row.minimal.provenance) + "  " + replay_command(row.path, library_folders);
 }
 
 std::string firsts_text(const AgainstCounts& counts) {
@@ -126,8 +126,8 @@ std::string firsts_text(const AgainstCounts& counts) {
 
 void add_against_options(CLI::App& command, AgainstOptions& options) {
   CLI::Option* base = command.add_option("--against", options.base,
-                                         "Another contort program, as a path or a name in PATH: only failures that it does not show "
-                                         "count");
+                                         "Another contort program, as a path or a name in PATH: only failures that it does "
+                                         "not show count");
   base->type_name("BASE");
   command.add_flag("--moved", options.moved, "Motions that differ from those of the base gate, too")->needs(base);
   command

@@ -353,6 +353,8 @@ void add_fuzz(CLI::App& app, Context& context) {
                    "Exit with 1 only for a cause at least so severe, from 0 to 100, that is not in the baseline and that "
                    "nobody acknowledged (docs/causes.md); 0: for any failure")
       ->check(CLI::Range(0.0, 100.0))
+      ->check(refuse_nan)
+      ->excludes("--against")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort fuzz --character mech --time 10m --seed 7 --report contort-out/report");

@@ -101,8 +101,8 @@ std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& insid
   out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
          fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
          fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("cause", row.cause) +
-         fact("needs", row.needs) + fact("comes with", also_fact(row)) + fact("in the base", row.since_base) + fact("known", row.note) +
-         fact("bucket", row.bucket) + "</dl>\n";
+         fact("needs", row.needs) + fact("comes with", also_fact(row)) +
+         fact("in the base", row.since_base) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
   room.spec_bytes -= row.spec_json.size();
@@ -211,7 +211,7 @@ std::string count_of(const FamilyCard& card) {
   std::int64_t cases = 0;
   for (const ReportRow* row : card.rows) cases = std::max(cases, row->cases_seen);
   const auto buckets = static_cast<std::int64_t>(card.rows.size());
-  const std::string of_cases = cases > 0 ? counted(cases, "case", "cases") : "met only while another failure was shrunk";
+  const std::string of_cases = cases > 0 ? counted(cases, "case", "cases") : "no case of a recorded run showed it";
   return of_cases + (buckets > 1 ? ", " + counted(buckets, "bucket", "buckets") : "");
 }
 

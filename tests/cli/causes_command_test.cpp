@@ -61,6 +61,9 @@ TEST_F(CausesCommand, FailARunFromTheSeverityOnThatIsAskedFor) {
   EXPECT_EQ(code_for(0.99 * severity), 1);
   EXPECT_EQ(code_for(1.01 * severity), 0);
   EXPECT_EQ(code_for(101.0), 2);
+  EXPECT_EQ(fuzz(folder_ / "c", 12, {"--fail-on", "nan"}).code, 2);
+  const Ran compared = fuzz(folder_ / "c", 12, {"--fail-on", "1", "--against", "contort"});
+  EXPECT_NE(compared.err.find("excludes"), std::string::npos) << "a comparison has its own gate: " << compared.err;
   fuzz(folder_ / "other", 12);
   EXPECT_EQ(fuzz(folder_ / "third", 12, {"--fail-on", "0.001", "--baseline", folder_ / "other"}).code, 0);
 }
