@@ -42,7 +42,7 @@ std::vector<double> any_row(const Character& c) {
   return row;
 }
 
-struct Limb {
+struct PosedLimb {
   Character character;
   ReachChain chain;
   Rigid root;
@@ -59,11 +59,11 @@ struct Limb {
   }
 };
 
-Limb any_limb() {
+PosedLimb any_limb() {
   const std::string name = *rc::gen::element<std::string>("human", "human", "mech_arm_slim", "mech_arm_shield",
                                                           "mech_arm_extend", "mech_leg_human", "mech_leg_reverse");
   const std::string limb = name == "human" ? *rc::gen::element<std::string>("arm", "leg") : name.substr(5, 3);
-  Limb made{limbed(name), {}, any_rigid(2), {}, {}};
+  PosedLimb made{limbed(name), {}, any_rigid(2), {}, {}};
   const std::string slot = limb + *rc::gen::element<std::string>("_left", "_right");
   made.chain = made.character.parts()[static_cast<std::size_t>(made.character.find_part(slot))].reach.at(0);
   made.row = any_row(made.character);
@@ -72,13 +72,13 @@ Limb any_limb() {
   return made;
 }
 
-double& middle_of(Limb& limb) {
+double& middle_of(PosedLimb& limb) {
   return limb.row[static_cast<std::size_t>(limb.character.joints()[static_cast<std::size_t>(limb.chain.middle)].coord)];
 }
 
 // Distances from the upper joint that the tip can have, with the joints beyond the middle one as they are.
-std::pair<double, double> reachable(const Limb& limb) {
-  Limb probe = limb;
+std::pair<double, double> reachable(const PosedLimb& limb) {
+  PosedLimb probe = limb;
   std::pair<double, double> range{1e9, 0.0};
   for (int i = 0; i < 720; ++i) {
     middle_of(probe) = i * kPi / 360;
@@ -91,7 +91,7 @@ std::pair<double, double> reachable(const Limb& limb) {
 
 // Worst measured over 3000 targets for each limb: 1.4e-14 m.
 RC_GTEST_PROP(Ik, ReachPutsTheTipOnEveryReachableTarget, ()) {
-  Limb limb = any_limb();
+  PosedLimb limb = any_limb();
   const auto [near_m, far_m] = reachable(limb);
   const Vec3 target_m = limb.upper_m() + any_unit() * lattice_number(near_m + 1e-4, far_m - 1e-4);
   const std::vector<double> before = limb.row;
@@ -111,7 +111,7 @@ RC_GTEST_PROP(Ik, ReachPutsTheTipOnEveryReachableTarget, ()) {
 // The case in which the smallest rotation is not unique. The elbow's bend follows from the distance alone, so a first
 // reach tells where the tip is when the shoulder is at rest.
 TEST(Ik, ReachWorksOppositeToRest) {
-  Limb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
+  PosedLimb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());
   limb.place();
   limb.reach(limb.upper_m() + Vec3(0.5, 0, 0), 0.0);
@@ -127,7 +127,7 @@ TEST(Ik, ReachWorksOppositeToRest) {
 }
 
 RC_GTEST_PROP(Ik, SwivelTurnsTheElbowAboutTheLineToTheTarget, ()) {
-  Limb limb = any_limb();
+  PosedLimb limb = any_limb();
   const auto [near_m, far_m] = reachable(limb);
   const Vec3 target_m = limb.upper_m() + any_unit() * (0.5 * (near_m + far_m));
   limb.reach(target_m, 0.0);
@@ -141,7 +141,7 @@ RC_GTEST_PROP(Ik, SwivelTurnsTheElbowAboutTheLineToTheTarget, ()) {
 }
 
 RC_GTEST_PROP(Ik, TargetsTooFarAreFacedAtFullStretch, ()) {
-  Limb limb = any_limb();
+  PosedLimb limb = any_limb();
   const double far_m = reachable(limb).second;
   const Vec3 target_m = limb.upper_m() + any_unit() * (far_m + lattice_number(0.01, 5));
   limb.reach(target_m, 0.0);
@@ -151,7 +151,7 @@ RC_GTEST_PROP(Ik, TargetsTooFarAreFacedAtFullStretch, ()) {
 }
 
 RC_GTEST_PROP(Ik, TargetsTooNearAreFacedAtFullBend, ()) {
-  Limb limb = any_limb();
+  PosedLimb limb = any_limb();
   const double near_m = reachable(limb).first;
   RC_PRE(near_m > 0.02);
   const Vec3 target_m = limb.upper_m() + any_unit() * (near_m * lattice_number(0.1, 0.9));
@@ -162,7 +162,7 @@ RC_GTEST_PROP(Ik, TargetsTooNearAreFacedAtFullBend, ()) {
 }
 
 TEST(Ik, ReachDoesNotStopAtLimits) {
-  Limb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
+  PosedLimb limb{human(), human().parts()[3].reach.at(0), {}, {}, std::vector<Rigid>(human().joints().size())};
   limb.row.assign(human().rest_coords().begin(), human().rest_coords().end());
   limb.place();
   limb.reach(limb.upper_m() + Vec3(0, 0.05, 0), 0.0);  // 5 cm: an elbow of more than 150 degrees
