@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "fuzz/compose_params.h"
 #include "fuzz/dice.h"
+#include "fuzz/evaluators.h"
 #include "fuzz/figure_extent.h"
 #include "fuzz/parallel.h"
 #include "model/character/character.h"
@@ -93,15 +93,6 @@ void add_rows(const AuditOptions& options, const Variant& variant, const Charact
       for (const std::string& point : points_of(action, character, variant))
         if (wanted(options.actions, action.name))
           rows.push_back({variant.choice, part.slot, part.name, action.name, point, 0, 0, 0, {}, {}, 0.0});
-  }
-}
-
-// One in four is at an end of its range, or as it is where a spec does not say it.
-void take_corners(const OfferedAction& action, Dice& dice, ActionUse& use) {
-  for (const ParamDef& def : action.params) {
-    if (def.type != ParamType::number || def.domain != Domain::uniform || !dice.one_in(4)) continue;
-    const std::array<ParamValue, 3> corners{def.low, def.high, def.preset};
-    use.params[def.name] = corners[static_cast<std::size_t>(dice.below(3))];
   }
 }
 
@@ -202,22 +193,6 @@ Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index)
   return spec;
 }
 
-// Each worker's own generator and memory.
-class Workers {
- public:
-  Workers(const Generator& generator, const CheckSettings& settings, int jobs) {
-    for (int i = 0; i < jobs; ++i) {
-      generators_.push_back(generator.another());
-      evaluators_.push_back(std::make_unique<Evaluator>(*generators_.back(), settings));
-    }
-  }
-  Evaluator& evaluator(int worker) { return *evaluators_[static_cast<std::size_t>(worker)]; }
-
- private:
-  std::vector<std::unique_ptr<Generator>> generators_;
-  std::vector<std::unique_ptr<Evaluator>> evaluators_;
-};
-
 void fold(const Outcome& outcome, const Offered& on, std::int64_t seed, int index, AuditRow& row) {
   const bool is_unmet = !outcome.reasons.empty();
   const bool first_unmet = is_unmet && row.unmet == 0 && row.depth == 0.0;
@@ -231,10 +206,10 @@ void fold(const Outcome& outcome, const Offered& on, std::int64_t seed, int inde
   row.depth = std::max(row.depth, outcome.depth);
 }
 
-Result<Done> audit_row(const AuditOptions& options, const Offered& on, Workers& workers, AuditRow& row) {
+Result<Done> audit_row(const AuditOptions& options, const Offered& on, Evaluators& evaluators, AuditRow& row) {
   std::vector<Result<Outcome>> outcomes(static_cast<std::size_t>(options.draws), Outcome{});
   parallel_for(options.jobs, options.draws, [&](int worker, int index) {
-    Evaluator& evaluator = workers.evaluator(worker);
+    Evaluator& evaluator = evaluators.of(worker);
     const Result<Evaluation> evaluation = evaluator.run(drawn(row, on, options.seed, index));
     outcomes[static_cast<std::size_t>(index)] =
         evaluation ? Result<Outcome>(outcome_of(*evaluation, evaluator.execution(), on.action.layer))
@@ -307,10 +282,10 @@ Spec audit_spec(const AuditRow& row, Generator& generator, std::int64_t seed, in
 
 Result<Done> audit(const AuditOptions& options, const CheckSettings& settings, Generator& generator,
                    std::vector<AuditRow>& rows, const std::function<void(int)>& progress) {
-  Workers workers(generator, settings, options.jobs);
+  Evaluators evaluators(generator, settings, options.jobs);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress(static_cast<int>(i));
-    if (const Result<Done> done = audit_row(options, offered(rows[i], generator), workers, rows[i]); !done)
+    if (const Result<Done> done = audit_row(options, offered(rows[i], generator), evaluators, rows[i]); !done)
       return done.issue();
   }
   return Done{};

@@ -139,4 +139,12 @@ void draw_params(const Character& character, const Part& part, const OfferedActi
   }
 }
 
+void take_corners(const OfferedAction& action, Dice& dice, ActionUse& use) {
+  for (const ParamDef& def : action.params) {
+    if (def.type != ParamType::number || def.domain != Domain::uniform || !dice.one_in(4)) continue;
+    const std::array<ParamValue, 3> corners{def.low, def.high, def.preset};
+    use.params[def.name] = corners[static_cast<std::size_t>(dice.below(3))];
+  }
+}
+
 }  // namespace contort

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "fuzz/dice.h"
 #include "fuzz/profile.h"
 #include "fuzz/raw.h"
 #include "model/generator.h"
@@ -12,5 +13,8 @@ namespace contort {
 // Fills use.params. Whole degrees, centimetres, 0.1 m/s (steps_per_unit), so that specs are short and read well.
 void draw_params(const Character& character, const Part& part, const OfferedAction& action, const Profile& profile,
                  const std::array<int, kRawValues>& raw, ActionUse& use);
+
+// Moves one number in four to an end of its range, or to its value where a spec does not say it.
+void take_corners(const OfferedAction& action, Dice& dice, ActionUse& use);
 
 }  // namespace contort
