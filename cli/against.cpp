@@ -139,12 +139,14 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
       ->needs(base);
 }
 
+Result<std::string> own_build() { return build_text(CONTORT_VERSION, "/proc/self/exe"); }
+
 Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
                                                  const Context& context) {
   if (options.base.empty()) return std::optional<AgainstConfig>();
   const std::string program = program_path(options.base);
   const std::vector<std::string> command = base_command(program, context);
-  const Result<std::string> build = build_text(CONTORT_VERSION, "/proc/self/exe");
+  const Result<std::string> build = own_build();
   if (!build) return build.issue();
   if (const Result<std::string> there = build_text("", program); !there) return there.issue();
   const Result<MeasureHello> hello = greet(command, limits);

@@ -24,6 +24,9 @@ void add_against_options(CLI::App& command, AgainstOptions& options);
 Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
                                                  const Context& context);
 
+// Version and content hash of this program.
+Result<std::string> own_build();
+
 // "contort-out/against-0123abcd": the corpus of this pair of builds.
 std::string folder_of_pair(const AgainstConfig& against);
 

@@ -91,10 +91,7 @@ std::string causes_json(std::span<const CauseRow> rows, const CausesText& about)
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-namespace {
-
-// Members of all buckets that are not fixed; what cannot be read is told, and makes the exit code 2.
-std::vector<CauseMember> members_of(const Corpus& corpus, Context& context) {
+std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context) {
   std::vector<Issue> damaged;
   std::vector<Bucket> buckets = corpus.buckets(damaged);
   std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
@@ -102,6 +99,8 @@ std::vector<CauseMember> members_of(const Corpus& corpus, Context& context) {
   for (const Issue& issue : damaged) context.fail(issue);
   return members;
 }
+
+namespace {
 
 Result<std::set<std::string>> causes_known_in(const std::string& baseline, const std::vector<CauseMember>& members) {
   if (baseline.empty()) return cause_ids(members);
@@ -113,7 +112,7 @@ Result<std::set<std::string>> causes_known_in(const std::string& baseline, const
 void run_causes(const CausesOptions& options, Context& context) {
   const Result<Corpus> corpus = Corpus::open(options.corpus);
   if (!corpus) return context.fail(corpus.issue());
-  std::vector<CauseMember> members = members_of(*corpus, context);
+  std::vector<CauseMember> members = unfixed_members(*corpus, context);
   const Result<std::set<std::string>> known = causes_known_in(options.baseline, members);
   if (!known) return context.fail(known.issue());
   std::vector<Issue> damaged;

@@ -11,6 +11,12 @@
 
 namespace contort::cli {
 
+struct Context;
+
+// The members of the causes of a corpus: of all buckets that are not fixed. What cannot be read is told, and sets the
+// exit code to that of bad input.
+std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context);
+
 struct CausesText {
   std::int64_t cases = 0;       // of the runs
   std::set<std::string> known{};  // ids of causes that were there before; the others are new

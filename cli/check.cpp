@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/judged_text.h"
+#include "cli/known.h"
 #include "cli/print.h"
 #include "cli/unmet_text.h"
 #include "corpus/evaluator.h"
@@ -18,6 +19,11 @@ namespace contort::cli {
 namespace {
 
 using json_fields::Json;
+
+struct SpecOptions {
+  std::string level;
+  std::string known;  // a corpus whose rules are asked; "": the motion is made and checked
+};
 
 Json spec_json(const std::string& file, const Execution& made, const CheckSettings& settings, const Evaluation& evaluation,
                const std::vector<Circumstances>& at_worst) {
@@ -77,12 +83,23 @@ void check_spec(const std::string& file, const std::string& level, bool as_json,
 std::string option_for_animations(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && !option->get_positional() && option->get_name() != "--json" &&
-        option->get_name() != "--level")
+        option->get_name() != "--level" && option->get_name() != "--known")
       return option->get_name();
   return "";
 }
 
-void run(const ClipCheckOptions& options, const std::string& level, const CLI::App& command, Context& context) {
+// --known CORPUS: asks the rules of the corpus instead of making the motion.
+void ask_rules(const std::string& file, const std::string& level, const std::string& corpus, bool as_json,
+               Context& context) {
+  const Result<SpecInput> input = read_spec_input(file, level);
+  if (!input) return context.fail(input.issue());
+  check_known(*input, corpus, as_json, context);
+}
+
+void run(const ClipCheckOptions& options, const SpecOptions& of_spec, const CLI::App& command, Context& context) {
+  const auto& [level, known] = of_spec;
+  if (!known.empty() && (options.all_clips || is_animation(options.files.front())))
+    return context.fail({"usage.for_specs", "", "--known is for specs and cases"});
   if (!level.empty() && (options.all_clips || is_animation(options.files.front())))
     return context.fail({"usage.for_specs", "", "--level is for specs and cases"});
   if (options.all_clips) return check_clips(options, context);
@@ -93,14 +110,15 @@ void run(const ClipCheckOptions& options, const std::string& level, const CLI::A
     return context.fail(
         {"usage.for_animations", "",
          option + " is for animations, and " + options.files.front() + " is none: .glb, .gltf, .bvh and .amc are"});
-  check_spec(options.files.front(), level, options.json, context);
+  known.empty() ? check_spec(options.files.front(), level, options.json, context)
+                : ask_rules(options.files.front(), level, known, options.json, context);
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Context& context) {
   auto options = std::make_shared<ClipCheckOptions>();
-  auto level = std::make_shared<std::string>();
+  auto of_spec = std::make_shared<SpecOptions>();
   CLI::App* command =
       app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .gltf, .bvh, .amc)");
   command
@@ -154,10 +172,14 @@ void add_check(CLI::App& app, Context& context) {
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
       "         contort check captures --all-clips");
-  add_level_option(*command, *level);
-  command->callback([options, level, command, rate, &context] {
+  add_level_option(*command, of_spec->level);
+  command
+      ->add_option("--known", of_spec->known,
+                   "Make no motion: say whether the rules of this corpus (contort explain) tell that the spec fails")
+      ->type_name("CORPUS");
+  command->callback([options, of_spec, command, rate, &context] {
     if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
-    run(*options, *level, *command, context);
+    run(*options, *of_spec, *command, context);
   });
 }
 

@@ -70,6 +70,7 @@ void add_report(CLI::App& app, Context& context);
 void add_merge(CLI::App& app, Context& context);
 void add_corpus(CLI::App& app, Context& context);
 void add_causes(CLI::App& app, Context& context);
+void add_explain(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_tables(CLI::App& app, Context& context);

@@ -10,6 +10,7 @@
 #include "cli/usage_text.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
+#include "corpus/condition.h"
 #include "fuzz/profile.h"
 #include "model/character/skin_desc.h"
 #include "model/core/json_fields.h"
@@ -95,7 +96,8 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
                                                                           {"settings", settings_schema},
                                                                           {"bucket", bucket_schema},
                                                                           {"profile", profile_schema},
-                                                                          {"skin", skin_schema}};
+                                                                          {"skin", skin_schema},
+                                                                          {"rules", conditions_schema}};
   return all;
 }
 

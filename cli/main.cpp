@@ -93,8 +93,8 @@ int run(int argc, char** argv) {
       "4 inconclusive, 75 interrupted. 'contort COMMAND --help' and 'contort help COMMAND' explain one command.");
   for (const auto add :
        {add_fuzz, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
-        add_corpus, add_causes, add_merge, add_import, add_contacts, add_list, add_schema, add_tables, add_serve, add_version,
-        add_help})
+        add_corpus, add_causes, add_explain, add_merge, add_import, add_contacts, add_list, add_schema, add_tables,
+        add_serve, add_version, add_help})
     add(app, context);
   try {
     app.parse(argc, argv);

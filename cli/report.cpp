@@ -22,6 +22,7 @@
 #include "corpus/corpus.h"
 #include "process/program.h"
 #include "corpus/causes.h"
+#include "corpus/condition.h"
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
@@ -163,6 +164,19 @@ void add_causes(std::vector<CauseMember> members, const std::vector<RunRecord>& 
     if (const auto at = headlines.find(row.bucket); at != headlines.end()) row.cause = at->second;
 }
 
+// The sentences of rules that were learned from what are still minimal cases of their cause.
+Result<Done> add_conditions(const Corpus& corpus, const std::vector<CauseMember>& members, ReportModel& model) {
+  const Result<std::vector<Condition>> conditions = conditions_of(corpus);
+  if (!conditions) return conditions.issue();
+  std::set<std::string> specs;
+  for (const CauseMember& member : members) specs.insert(spec_id(member.minimal.spec));
+  for (const Condition& condition : *conditions)
+    for (ReportCause& cause : model.causes)
+      if (cause.id == condition.cause && has_rule(condition) && specs.contains(condition.learned_from))
+        cause.conditions[condition.character] = condition_text(condition);
+  return Done{};
+}
+
 void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
                    const std::string& out, std::vector<Issue>& damaged) {
   const std::set<Family> known = known_families(buckets, with.context.day(), with.known);
@@ -186,7 +200,8 @@ void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, 
   std::vector<CauseMember> members = add_bucket_rows(buckets, with, model, media, out, damaged);
   add_lead_rows(buckets, with, model, media, out, damaged);
   std::vector<Issue> of_runs;  // add_runs tells them
-  add_causes(std::move(members), runs_of(corpus, of_runs), model);
+  add_causes(members, runs_of(corpus, of_runs), model);
+  if (const Result<Done> added = add_conditions(corpus, members, model); !added) damaged.push_back(added.issue());
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   order_rows(model.rows);
 }

@@ -4,6 +4,7 @@
 //                                  min-<spec16>.json   smallest failing spec: what people look at
 //                                  worst-<spec16>.json deepest violation seen
 //                                  orig-<spec16>.json  the spec that min was shrunk from
+//   DIR/rules.json  when its causes show (condition.h)
 //   DIR/leads/   found, not in a bucket yet (leads.h)
 //   DIR/runs/    what each run did (runs.h)
 //   DIR/invalid/ what `contort corpus fsck --repair` put aside (fsck.h)

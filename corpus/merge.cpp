@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "corpus/condition.h"
 #include "corpus/leads.h"
 
 namespace contort {
@@ -136,6 +137,20 @@ Result<Done> complete_run(const Corpus& corpus, const std::vector<RunRecord>& re
   return Done{};
 }
 
+// Rules are all taken along: one that was learned from another minimal case is learned anew when it is asked for.
+Result<Done> merge_conditions(const std::vector<Corpus>& sources, const Corpus& into, Merged& merged) {
+  std::vector<Condition> all;
+  for (const std::vector<Corpus>& corpora : {sources, {into}})
+    for (const Corpus& corpus : corpora) {
+      const Result<std::vector<Condition>> conditions = conditions_of(corpus);
+      if (conditions)
+        all.insert(all.end(), conditions->begin(), conditions->end());
+      else
+        merged.damaged.push_back(conditions.issue());
+    }
+  return all.empty() ? Result<Done>(Done{}) : keep_conditions(into, merged_conditions(std::move(all)));
+}
+
 }  // namespace
 
 Result<Merged> merge(const std::vector<Corpus>& sources, const Corpus& into) {
@@ -150,6 +165,7 @@ Result<Merged> merge(const std::vector<Corpus>& sources, const Corpus& into) {
   }
   for (const auto& [name, records] : by_name(runs_of(into, merged.damaged)))
     if (const Result<Done> completed = complete_run(into, records, merged); !completed) return completed.issue();
+  if (const Result<Done> kept = merge_conditions(sources, into, merged); !kept) return kept.issue();
   merged.leads = static_cast<int>(leads_of(into, merged.damaged).size());
   return merged;
 }

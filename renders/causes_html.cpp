@@ -24,12 +24,20 @@ std::string severity_text(double severity) {
   return text;
 }
 
+// When it fails, below its headline: a line for each character.
+std::string conditions_html(const ReportCause& cause) {
+  std::string out;
+  for (const auto& [character, sentence] : cause.conditions)
+    out += "<p class='when'>" + html_text(character + ": " + sentence) + "</p>";
+  return out;
+}
+
 std::string row_html(const ReportCause& cause, const PageFiles& inside) {
   std::string characters;
   for (const std::string& name : cause.characters) characters += (characters.empty() ? "" : ", ") + name;
-  return "<tr><th scope='row'>" + headline_html(cause, inside) + "</th><td>" + html_text(characters) + "</td><td>" +
-         html_text(count_text(cause.cases)) + "</td><td>" + html_text(count_text(std::ssize(cause.buckets))) +
-         "</td><td>" + severity_text(cause.severity) + "</td></tr>\n";
+  return "<tr><th scope='row'>" + headline_html(cause, inside) + conditions_html(cause) + "</th><td>" +
+         html_text(characters) + "</td><td>" + html_text(count_text(cause.cases)) + "</td><td>" +
+         html_text(count_text(std::ssize(cause.buckets))) + "</td><td>" + severity_text(cause.severity) + "</td></tr>\n";
 }
 
 }  // namespace

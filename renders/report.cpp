@@ -52,7 +52,8 @@ Json row_json(const ReportRow& row) {
 
 Json cause_json(const ReportCause& cause) {
   return {{"id", cause.id},       {"headline", cause.headline},     {"severity", cause.severity},
-          {"cases", cause.cases}, {"characters", cause.characters}, {"buckets", cause.buckets}};
+          {"cases", cause.cases}, {"characters", cause.characters}, {"buckets", cause.buckets},
+          {"conditions", cause.conditions}};
 }
 
 Json search_json(const SearchProgress& search) {

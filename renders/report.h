@@ -58,6 +58,8 @@ struct ReportCause {
   std::vector<std::string> characters;  // sorted
   std::vector<std::string> buckets;     // ids, the deepest first
   std::string key;                      // of the row of its deepest case, if that has a motion; else ""
+  // Sentences that say when it fails, by character (docs/conditions.md); empty where none were learned.
+  std::map<std::string, std::string> conditions{};
 };
 
 struct ReportModel {

@@ -25,5 +25,6 @@ seed=$(date -u +%Y%m%d)
 go_on contort fuzz --time 6h --seed "$seed" --corpus "$corpus"
 go_on contort replay "$corpus" --update --time 1h
 contort corpus prune "$corpus"
+go_on contort explain "$corpus" >"$folder/conditions.txt"
 contort report "$corpus" -o "$folder/report" --markdown "$folder/summary.md" --gate
 exit "$late"

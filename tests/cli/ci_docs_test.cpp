@@ -146,7 +146,7 @@ class NightScript : public testing::Test {
     std::filesystem::permissions(folder_ / "contort", std::filesystem::perms::owner_all);
   }
 
-  // "4: fuzz replay corpus report"
+  // "4: fuzz replay corpus explain report"
   std::string night(int fuzz, int replay, int report) {
     std::filesystem::remove(folder_ / "calls");
     const std::string codes =
@@ -163,12 +163,12 @@ class NightScript : public testing::Test {
 };
 
 TEST_F(NightScript, ReportsWhateverItsPartsSay) {
-  EXPECT_EQ(night(0, 0, 0), "0: fuzz replay corpus report");
-  EXPECT_EQ(night(1, 1, 0), "0: fuzz replay corpus report") << "the report says what gates";
-  EXPECT_EQ(night(1, 1, 1), "1: fuzz replay corpus report");
-  EXPECT_EQ(night(4, 0, 0), "4: fuzz replay corpus report") << "something was not the same twice";
-  EXPECT_EQ(night(1, 2, 0), "2: fuzz replay corpus report") << "something does not build any more";
-  EXPECT_EQ(night(4, 0, 1), "1: fuzz replay corpus report");
+  EXPECT_EQ(night(0, 0, 0), "0: fuzz replay corpus explain report");
+  EXPECT_EQ(night(1, 1, 0), "0: fuzz replay corpus explain report") << "the report says what gates";
+  EXPECT_EQ(night(1, 1, 1), "1: fuzz replay corpus explain report");
+  EXPECT_EQ(night(4, 0, 0), "4: fuzz replay corpus explain report") << "something was not the same twice";
+  EXPECT_EQ(night(1, 2, 0), "2: fuzz replay corpus explain report") << "something does not build any more";
+  EXPECT_EQ(night(4, 0, 1), "1: fuzz replay corpus explain report");
 }
 
 TEST_F(NightScript, EndsWhereItCannotGoOn) {

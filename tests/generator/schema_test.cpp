@@ -8,6 +8,7 @@
 #include "checks/joint_map.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
+#include "corpus/condition.h"
 #include "fuzz/profile.h"
 #include "model/character/library.h"
 #include "model/character/skin_desc.h"
@@ -36,6 +37,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("skin"), skin_schema());
   EXPECT_EQ(published("bucket"), bucket_schema());
   EXPECT_EQ(published("profile"), profile_schema());
+  EXPECT_EQ(published("rules"), conditions_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.

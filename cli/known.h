@@ -1,0 +1,14 @@
+// Says of a spec whether it is known to go wrong, by the rules of a corpus (docs/conditions.md).
+#pragma once
+
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/input.h"
+
+namespace contort::cli {
+
+// Prints each rule that holds for the spec, and sets the exit code: kFindings if there is one. Makes no motion.
+void check_known(const SpecInput& input, const std::string& corpus, bool as_json, Context& context);
+
+}  // namespace contort::cli

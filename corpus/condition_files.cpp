@@ -1,0 +1,109 @@
+// The file rules.json of a corpus.
+#include <algorithm>
+#include <filesystem>
+
+#include "corpus/condition.h"
+#include "corpus/lock.h"
+#include "model/core/files.h"
+#include "model/core/json_fields.h"
+
+namespace contort {
+
+struct StoredConditions {
+  std::vector<Condition> conditions;
+};
+
+namespace {
+
+using json_fields::Rule;
+using json_fields::Text;
+
+constexpr std::string_view kQuantityNames[] = {"value", "magnitude", "per_second", "magnitude_per_second",
+                                               "times_seconds"};
+constexpr std::string_view kOpNames[] = {"below", "above", "is", "is_not"};
+const Rule kRuleLabel{.text = Text::label, .may_be_empty = true};
+const Rule kCaseCount{.low = 0, .high = 1e6};
+
+}  // namespace
+
+template <class V>
+void fields(V& v, const ConditionTerm*) {
+  v.field("name", &ConditionTerm::name, {.text = Text::label, .required = true}, "The value that is compared.");
+  v.field("quantity", &ConditionTerm::quantity, {.names = kQuantityNames}, "The number that is made of it.");
+  v.field("mirrored", &ConditionTerm::is_mirrored, {}, "On the right side it counts with the opposite sign.");
+  v.field("op", &ConditionTerm::op, {.names = kOpNames, .required = true}, "How it is compared.");
+  v.field("limit", &ConditionTerm::limit, {.low = -1e12, .high = 1e12}, "Of below and above.");
+  v.field("lowest", &ConditionTerm::lowest, {.low = -1e12, .high = 1e12}, "The limit may be anywhere from this");
+  v.field("highest", &ConditionTerm::highest, {.low = -1e12, .high = 1e12}, "to this.");
+  v.field("word", &ConditionTerm::word, kRuleLabel, "Of is and is_not.");
+}
+
+template <class V>
+void fields(V& v, const RuleTrial*) {
+  v.field("inside", &RuleTrial::inside, kCaseCount, "Fresh cases for which the rule holds.");
+  v.field("inside_failing", &RuleTrial::inside_failing, kCaseCount, "Failing ones of them.");
+  v.field("outside", &RuleTrial::outside, kCaseCount, "Fresh cases for which the rule does not hold.");
+  v.field("outside_failing", &RuleTrial::outside_failing, kCaseCount, "Failing ones of them.");
+  v.field("inside_share", &RuleTrial::inside_share, {.low = 0, .high = 1}, "Share of draws for which the rule holds.");
+}
+
+template <class V>
+void fields(V& v, const Condition*) {
+  v.field("cause", &Condition::cause, {.text = Text::label, .required = true}, "Id of the cause.");
+  v.field("headline", &Condition::headline, {.text = Text::prose, .may_be_empty = true}, "Of the cause.");
+  v.field("character", &Condition::character, {.text = Text::label, .required = true}, "Name of the character.");
+  v.field("character_hash", &Condition::character_hash, kRuleLabel, "Of the minimal case.");
+  v.field("tool", &Condition::tool, {.text = Text::prose, .may_be_empty = true}, "Build that learned the rule.");
+  v.field("learned_from", &Condition::learned_from, kRuleLabel, "Content id of the minimal spec.");
+  v.field("needs", &Condition::needs, {.max_count = 64, .text = Text::label}, "Values that a request must have.");
+  v.field("any_of", &Condition::any_of, {.max_count = kMostComparisons},
+          "Conjunctions of comparisons; one has to hold. None: no rule was found.");
+  v.field("drawn", &Condition::drawn, kCaseCount, "Cases that it was learned from.");
+  v.field("failing", &Condition::failing, kCaseCount, "Failing ones of them.");
+  v.field("trial", &Condition::trial, {}, "Fresh cases that it was tried on.");
+}
+
+template <class V>
+void fields(V& v, const StoredConditions*) {
+  v.constant("format", "contort.rules/1");
+  v.field("rules", &StoredConditions::conditions, {.max_count = 10'000}, "One for each cause and character.");
+}
+
+namespace {
+
+std::string path_in(const Corpus& corpus) { return corpus.folder() + "/rules.json"; }
+
+}  // namespace
+
+Result<std::vector<Condition>> parse_conditions(std::string_view json) {
+  Result<StoredConditions> stored = json_fields::read_document<StoredConditions>(json, "rules");
+  if (!stored) return stored.issue();
+  return std::move(stored).value().conditions;
+}
+
+std::string print_conditions(std::vector<Condition> conditions) {
+  std::ranges::stable_sort(conditions, [](const Condition& a, const Condition& b) {
+    return std::tie(a.cause, a.character) < std::tie(b.cause, b.character);
+  });
+  return json_fields::write_pretty(StoredConditions{std::move(conditions)});
+}
+
+std::string conditions_schema() { return json_fields::write_schema<StoredConditions>("Contort rules"); }
+
+Result<std::vector<Condition>> conditions_of(const Corpus& corpus) {
+  std::error_code error;
+  if (!std::filesystem::exists(path_in(corpus), error)) return std::vector<Condition>{};
+  const Result<std::string> text = read_file(path_in(corpus));
+  if (!text) return text.issue();
+  Result<std::vector<Condition>> conditions = parse_conditions(*text);
+  if (!conditions) return about_file(path_in(corpus), conditions.issue());
+  return conditions;
+}
+
+Result<Done> keep_conditions(const Corpus& corpus, const std::vector<Condition>& conditions) {
+  const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
+  if (!lock) return lock.issue();
+  return write_file(path_in(corpus), print_conditions(conditions));
+}
+
+}  // namespace contort
