@@ -1,5 +1,6 @@
 // residue: what an additive action adds must be gone when it is over. Judged where nothing else moved the part from the
-// frame before it to the frame after it: then the part must be where it was.
+// frame before it to the frame after it: then the part must be where it was. A leg whose foot stands also moves with the
+// trunk that it carries, and an arm with a walk; a part may still be on its way back from an earlier action.
 #include <algorithm>
 
 #include "checks/joint_steps.h"
@@ -33,6 +34,35 @@ ActionSpan merged(const CheckInput& in, ActionSpan span) {
   return span;
 }
 
+// Whether a part hangs on another one, directly or by way of others.
+bool hangs_on(const Character& character, int part, int other) {
+  const Part& lower = character.parts()[static_cast<std::size_t>(part)];
+  if (lower.joint_count == 0) return false;
+  for (int j = lower.first_joint; j >= 0; j = character.joints()[static_cast<std::size_t>(j)].parent)
+    if (character.joints()[static_cast<std::size_t>(j)].part == other) return true;
+  return false;
+}
+
+bool are_one_limb(const Character& character, int part, int other) {
+  return part != other && (hangs_on(character, part, other) || hangs_on(character, other, part));
+}
+
+// Whether an action of a part that this one hangs on, or that hangs on this one, may have moved it between these frames:
+// what is not additive stays where it went, and an additive counts while it is in force in one of them.
+bool moves_with_others(const CheckInput& in, int part, int before, int after) {
+  return std::ranges::any_of(in.motion.spans, [&](const ActionSpan& span) {
+    if (!are_one_limb(in.character, part, span.part)) return false;
+    const IntendedAction* action = action_of(*in.intent, span);
+    const auto covers = [&](int frame) { return span.first_frame <= frame && frame <= span.last_frame; };
+    if (action == nullptr || action->layer == Layer::additive) return covers(before) || covers(after);
+    return span.first_frame <= after && span.last_frame >= before;
+  });
+}
+
+bool is_at_rest(const CheckInput& in, const Part& part, int frame) {
+  return frame == 0 || difference_rad(in, part, frame - 1, frame) == 0.0;
+}
+
 }  // namespace
 
 int residue_subject_count(const Character& character) { return static_cast<int>(character.parts().size()); }
@@ -53,6 +83,7 @@ void residue_measure(const CheckInput& in, MarginFold& fold) {
         has_layer(in, first.part, Layer::additive, before, before))
       continue;
     const Part& part = in.character.parts()[static_cast<std::size_t>(first.part)];
+    if (!is_at_rest(in, part, before) || moves_with_others(in, first.part, before, after)) continue;
     fold.report(first.part, after, kLeft_rad - difference_rad(in, part, before, after));
   }
 }

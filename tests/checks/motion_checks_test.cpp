@@ -185,6 +185,41 @@ TEST(Residue, IsFoundWhereAnAdditiveStays) {
   EXPECT_NEAR(findings[0].worst_margin, 0.1 * kRadPerDeg - 0.01, 1e-9);
 }
 
+// Foot and leg are one limb: what the foot's action has moved is not what the leg's additive leaves behind.
+TEST(Residue, IsNotJudgedWhereAnotherPartOfTheLimbActsBeforeOrAfter) {
+  const auto left_by = [](const std::string& actions) {
+    const Stage stage = staged(playing(actions));
+    Motion motion = generate(stage);
+    const int hip = stage.character->find_joint("leg_left/hip_flex");
+    const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(hip)].coord);
+    const int after = motion.spans.back().last_frame + 1;
+    for (int frame = after; frame < motion.frame_count; ++frame) motion.row(frame)[coord] += 0.01;
+    const Intent intent = intent_of(stage);
+    return StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent).size();
+  };
+  const std::string leg = R"({"action": "hit_reaction", "slot": "leg_left", "start_frame": 5, "params": {"strength_deg": 5}})";
+  EXPECT_EQ(left_by(leg), 1U);
+  EXPECT_EQ(left_by(R"({"action": "pose", "slot": "head", "duration_frames": 60}, )" + leg), 1U) << "no part of the limb";
+  EXPECT_EQ(left_by(R"({"action": "pose", "slot": "foot_left", "duration_frames": 60}, )" + leg), 0U);
+  EXPECT_EQ(left_by(R"({"action": "pose", "slot": "foot_left", "start_frame": 8, "duration_frames": 4}, )" + leg), 0U)
+      << "in between, and it stays there";
+  EXPECT_EQ(left_by(R"({"action": "hit_reaction", "slot": "torso", "start_frame": 8, "duration_frames": 8}, )" + leg), 1U)
+      << "legs do not hang on the torso";
+}
+
+// A part that is still on its way when the additive begins was not left there by it.
+TEST(Residue, IsNotJudgedFromAFrameInWhichThePartMoves) {
+  const Stage stage = staged(playing(R"({"action": "recoil", "slot": "arm_right", "start_frame": 5})"));
+  Motion motion = generate(stage);
+  const int elbow = stage.character->find_joint("arm_right/elbow");
+  const auto coord = static_cast<std::size_t>(stage.character->joints()[static_cast<std::size_t>(elbow)].coord);
+  for (int frame = 0; frame < 5; ++frame) motion.row(frame)[coord] += 0.01 * (5 - frame);
+  const Intent intent = intent_of(stage);
+  EXPECT_TRUE(StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent).empty());
+  for (int frame = 0; frame < 4; ++frame) motion.row(frame)[coord] = motion.row(4)[coord];
+  EXPECT_EQ(StageEvaluator().judge(*stage.character, motion, "residue", stage.environment, &intent).size(), 1U);
+}
+
 std::string reach_to(const std::string& target, const std::string& more = "") {
   return playing(R"({"action": "reach", "slot": "arm_left", "duration_frames": 40, "params": {"target_m": )" + target +
                  "}}" + more);
