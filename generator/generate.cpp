@@ -15,6 +15,8 @@ namespace contort {
 
 namespace {
 
+constexpr double kHurry = 0.6;  // of the time that a limb takes for a way at ease (way.h)
+
 class Generation {
  public:
   Generation(const Stage& stage, GenerateScratch& scratch, Motion& motion)
@@ -51,6 +53,8 @@ class Generation {
     for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
       s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);
     s_.shift.assign(character_.parts().size(), Shift::none), s_.shift_count = 0;
+    s_.legs_taken = -1;
+    s_.rest_world.resize(character_.joints().size());
     stand_up();
   }
 
@@ -172,6 +176,7 @@ class Generation {
       for (const int other : limb_at(p).parts)
         if (at(other) > p) copy_part(character_, at(other), s_.past.before, from);
     if (p != 0 || !moves_legs(playback, hold)) return;
+    s_.legs_taken = playback.frame();
     std::array<Rigid, kMaxLegs>& seen = s_.rules.body(planned(playback, hold)).seen_soles;
     seen = s_.carry.soles_in(s_.rules.world());
     s_.shift_count += seen != s_.carry.soles();
@@ -190,6 +195,7 @@ class Generation {
     move(playback, hold, p, s_.postures.from_ik, s_.postures.base, s_.postures.plain);
     if (begins && takes_its_time(planned(playback, hold))) s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
     if (p == 0) remember_soles(playback);
+    if (p == 0 && moves_legs(playback, hold)) take_time_to_fade(playback, hold);
     fade(playback, hold, p);
   }
 
@@ -219,6 +225,21 @@ class Generation {
     return static_cast<int>(std::ceil(longest_s * stage_.rate_hz));
   }
 
+  // A course that fades out has its legs go home from wherever they are then; it begins as early as they need.
+  void take_time_to_fade(const Playback& playback, const LayerHold& hold) {
+    const PlannedAction& course = planned(playback, hold);
+    if (hold.fade_frames >= 0 || !(course.blend_out > 0.0)) return;
+    double way_home_s = 0.0;
+    for (const Leg& leg : stage_.legs)
+      for (const int part : {leg.part, leg.foot_part})
+        way_home_s = std::max(way_home_s, way_s(character_, at(part), s_.past.before, s_.postures.base));
+    const double needs = std::ceil(kHurry * way_home_s * stage_.rate_hz);
+    if (needs <= course.blend_out || course.end - content(playback, hold) > needs) return;
+    for (LayerStack& stack : s_.stacks)
+      if (stack.ik().action >= 0 && planned(playback, stack.ik()).use == course.use)
+        stack.set_ik_fade(static_cast<int>(needs));
+  }
+
   void fade(const Playback& playback, const LayerHold& hold, std::size_t p) {
     if (places_foot(playback, hold, p)) return;
     const double left = left_of(playback, hold);
@@ -243,10 +264,17 @@ class Generation {
 
   void add(const Playback& playback, std::size_t p, const RuleCall& call, double weight) {
     Posture& shown = s_.postures.shown;
+    if (is_taken_in(p, call.action)) return;
     s_.spans.additive(playback.frame(), call.action);
     s_.added[p] = 1;
     const Posture& moved = s_.rules.run(playback, call, p, shown, shown, s_.carry.stands_at());
     blend_part(character_, p, shown, moved, weight * freedom(playback, p), shown);
+  }
+
+  // A course has taken the leg over as it was seen, with what this additive had made of it.
+  bool is_taken_in(std::size_t p, int additive) const {
+    const int began = s_.spans.additive_began(additive);
+    return began >= 0 && began < s_.legs_taken && is_of_leg(stage_.legs, static_cast<int>(p));
   }
 
   // The share of an additive that a part shows.

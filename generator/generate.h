@@ -56,6 +56,8 @@ struct GenerateScratch {
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
   Posture wanted;                  // of a limb that lands
   Posture between;                 // on its way
+  std::vector<Rigid> rest_world;   // by joint: where its leg would be if nothing but the base moved what carries it
+  int legs_taken = -1;             // the frame in which the latest course took the legs over
   int shift_count = 0;             // of limbs in frames, and of courses that began with a foot elsewhere
   RootCarry carry;
   SpanRecorder spans;

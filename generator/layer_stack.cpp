@@ -1,5 +1,6 @@
 #include "generator/layer_stack.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace contort {
@@ -59,7 +60,10 @@ double come_in(const Playback& playback, const LayerHold& hold) {
 }
 
 double left_of(const Playback& playback, const LayerHold& hold) {
-  return not_blended_out(planned(playback, hold), content(playback, hold));
+  const PlannedAction& action = planned(playback, hold);
+  if (hold.fade_frames < 0) return not_blended_out(action, content(playback, hold));
+  const double left = (action.end - content(playback, hold)) / hold.fade_frames;
+  return left < 1.0 ? ease(std::max(0.0, left)) : 1.0;
 }
 
 double covered(const Playback& playback, const LayerHold& hold) {

@@ -16,6 +16,7 @@ struct LayerHold {
   double eased = 0.0;     // [0, 1]
   int restarts = 0;       // of this hold, by restart_ik
   int blend_frames = -1;  // over which an action comes in that takes its time; -1: not known yet
+  int fade_frames = -1;   // over which a course of legs fades out that needs longer than it says; -1: it does not
   double since = -1e30;   // when the last action that had the layer began, in frames of the motion
   int since_action = -1;  // that action: none that began earlier gets the layer
   bool operator==(const LayerHold&) const = default;
@@ -56,6 +57,9 @@ class LayerStack {
 
   // Sets the frames in which the action that has just begun comes in, if it takes its time.
   void set_ik_blend(int frames) { ik_.blend_frames = frames; }
+
+  // Sets the frames in which the course that has the layer ik fades out before its end.
+  void set_ik_fade(int frames) { ik_.fade_frames = frames; }
 
   // Has the action that has the layer ik come in once more, from where its part is, in the next frame.
   void restart_ik() { restarts_ = ik_.action >= 0; }

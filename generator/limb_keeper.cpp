@@ -9,6 +9,18 @@
 
 namespace contort {
 
+namespace {
+
+constexpr double kComfortable_m = 1.0;  // between bodies: the gap that they have elsewhere (LimbRoom)
+constexpr double kNarrow_m = 0.001;
+
+bool carries(const Character& character, int joint, int other) {
+  while (other > joint) other = character.joint(other).parent;
+  return other == joint;
+}
+
+}  // namespace
+
 // Poses are taken as their authors give them, and walking legs as their gait has them.
 bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
@@ -111,19 +123,25 @@ void LimbKeeper::place(const Leg& leg, const Posture& posture) {
 // that way in which joints move smoothly and bodies have room. False for a limb without feet of its own, and where no
 // share does.
 bool LimbKeeper::land(const Limb& limb) {
-  constexpr std::array kShares = {0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.02};
   const bool has_feet = std::ranges::any_of(limb.legs, [&](int i) { return limb.is_its_own(stage_.legs[at(i)]); });
   if (!has_feet) return false;
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
+  // A hand that waits beside the thigh, and for which the thigh waits, would keep the leg in the air for good.
+  if (land(limb, kComfortable_m) || land(limb, kNarrow_m)) return true;
+  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
+  return false;
+}
+
+bool LimbKeeper::land(const Limb& limb, double gap_m) {
+  constexpr std::array kShares = {0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.02};
   for (const double share : kShares) {
     const bool is_there = step_to_base(limb, share);
-    if (!is_smooth(limb) || !has_room_on_the_way(limb)) continue;
+    if (!is_smooth(limb) || !has_room_on_the_way(limb, gap_m)) continue;
     if (is_there) return arrive(limb), true;
     shift(limb, Shift::lifted);
     for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
     return true;
   }
-  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
   return false;
 }
 
@@ -133,14 +151,24 @@ bool LimbKeeper::step_to_base(const Limb& limb, double share) {
   for (const int i : limb.legs) {
     const Leg& leg = stage_.legs[at(i)];
     if (!limb.is_its_own(leg)) continue;
-    place(leg, s_.postures.base);
-    const Rigid there = world_from_socket(*stage_.character, s_.rules.world(), leg.sole);
+    const Rigid there = rest_sole(leg);
     place(leg, s_.past.before);
     for (const int p : {leg.part, leg.foot_part})
       copy_part(*stage_.character, at(p), s_.past.before, s_.postures.shown);
     is_there = s_.rules.feet().land(at(i), there, share, s_.rules.world(), s_.postures.shown.coords) && is_there;
   }
   return is_there;
+}
+
+// Additives and ik of a trunk that carries the leg do not count: the foot would land on the move, and slide.
+Rigid LimbKeeper::rest_sole(const Leg& leg) {
+  const Character& character = *stage_.character;
+  std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
+  const int hip = leg.joints.front();
+  for (int j = 1; j < hip; ++j)  // carriers first
+    if (carries(character, j, hip)) forward_kinematics(character, s_.postures.base.coords, j, j + 1, s_.rest_world);
+  for (const int j : leg.joints) forward_kinematics(character, s_.postures.base.coords, j, j + 1, s_.rest_world);
+  return world_from_socket(character, s_.rest_world, leg.sole);
 }
 
 bool LimbKeeper::is_smooth(const Limb& limb) const {
@@ -150,7 +178,7 @@ bool LimbKeeper::is_smooth(const Limb& limb) const {
 }
 
 // From where the limb was in the frame before to where it is shown now.
-bool LimbKeeper::has_room_on_the_way(const Limb& limb) {
+bool LimbKeeper::has_room_on_the_way(const Limb& limb, double gap_m) {
   const Character& character = *stage_.character;
   const std::span<Rigid> world = s_.rules.world();
   return std::ranges::all_of(std::array{0.25, 0.5, 0.75, 1.0}, [&](double share) {
@@ -159,8 +187,8 @@ bool LimbKeeper::has_room_on_the_way(const Limb& limb) {
     for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, world);
     LimbRoom& room = s_.rules.room();
     const std::size_t part = at(limb.parts.back());
-    if (share == 1.0) return room.has_room(part, world);
-    return room.apart_m(part, world, {-kTooNear_m, -kTooNear_m}) >= -kTooNear_m;
+    if (share == 1.0) return room.has_room(part, world, -kTooNear_m, gap_m);
+    return room.apart_m(part, world, {-kTooNear_m, -kTooNear_m, gap_m}) >= -kTooNear_m;
   });
 }
 

@@ -27,9 +27,11 @@ class LimbKeeper {
   void plant(const Limb& limb);
   void place(const Leg& leg, const Posture& posture);
   bool land(const Limb& limb);
+  bool land(const Limb& limb, double gap_m);
+  Rigid rest_sole(const Leg& leg);
   bool step_to_base(const Limb& limb, double share);
   bool is_smooth(const Limb& limb) const;
-  bool has_room_on_the_way(const Limb& limb);
+  bool has_room_on_the_way(const Limb& limb, double gap_m);
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
   void try_again(const Playback& playback, const Limb& limb);

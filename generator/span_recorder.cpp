@@ -40,6 +40,11 @@ void SpanRecorder::additive(int frame, int action) {
   latest_[at(timeline_->actions[at(action)].part)] = {entry, frame};
 }
 
+int SpanRecorder::additive_began(int action) const {
+  const int entry = additives_[at(action)];
+  return entry < 0 ? -1 : motion_->spans[at(entry)].first_frame;
+}
+
 void SpanRecorder::linger(int frame, int part, int most_frames) {
   const auto [entry, ended] = latest_[at(part)];
   if (is_over(motion_->spans, entry, frame) || frame > ended + most_frames) return;

@@ -21,6 +21,9 @@ class SpanRecorder {
   // An additive moves its part in this frame: one entry for as long as it does so without a break.
   void additive(int frame, int action);
 
+  // The frame in which an additive began to move its part; -1: it has not yet.
+  int additive_began(int action) const;
+
   // A part whose additives are over is still on its way back: the latest of them goes on, for `most_frames` at most.
   void linger(int frame, int part, int most_frames);
 

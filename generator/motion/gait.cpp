@@ -50,6 +50,10 @@ double half_cycle_share(const GaitParams& params, double time_s) {
 
 }  // namespace
 
+bool is_of_leg(std::span<const Leg> legs, int part) {
+  return std::ranges::any_of(legs, [part](const Leg& leg) { return leg.part == part || leg.foot_part == part; });
+}
+
 double freedom_of(const GaitFrame& frame, std::span<const Leg> legs, const Environment& environment, int part) {
   constexpr double kFree_m = 0.05;  // above the ground
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {

@@ -37,6 +37,7 @@ struct GaitFrame {
 
 // The share of an additive that a part may show, [0, 1]: a foot that the course has put down stays, with the leg above
 // it, and one that swings is the freer the higher it is. 1 for parts that are neither leg nor foot.
+bool is_of_leg(std::span<const Leg> legs, int part);
 double freedom_of(const GaitFrame& frame, std::span<const Leg> legs, const Environment& environment, int part);
 
 // The gait that is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.

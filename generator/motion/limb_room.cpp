@@ -250,7 +250,7 @@ double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world, const R
     if (least < range.low_m) return least;
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
-      least = std::min(least, distance_m(p, band_below(least, p)) - safe_m_[at(p)]);
+      least = std::min(least, distance_m(p, band_below(least, p)) - std::min(range.gap_m, safe_m_[at(p)]));
   }
   return least;
 }

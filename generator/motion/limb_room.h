@@ -36,6 +36,7 @@ inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measu
 struct RoomRange {
   double low_m = -std::numeric_limits<double>::infinity();
   double high_m = kRoomBand_m;  // <= kRoomBand_m
+  double gap_m = 1.0;  // that bodies of the figure must have, or as much as at rest; never more than is comfortable
 };
 
 // The hand, by the joint that it and all beyond it hang on, and the body of the object; -1: nothing is held.
@@ -73,9 +74,9 @@ class LimbRoom {
   // The same between bodies of the figure alone, without the ground, obstacles and feet.
   double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
 
-  // Whether room_m() is no less than this, at most 0.08 m.
-  bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m) {
-    return room_m(part, world, {least_m, least_m}) >= least_m;
+  // Whether room_m() is no less than this, at most 0.08 m, with such a gap between bodies of the figure.
+  bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m, double gap_m = 1.0) {
+    return room_m(part, world, {least_m, least_m, gap_m}) >= least_m;
   }
 
   // The same where all joints are as in `world`, with a hand that holds an object; without the ground and feet.

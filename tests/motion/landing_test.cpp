@@ -50,6 +50,69 @@ TEST(Landing, ALegThatWasHitIsBackWithinHalfASecond) {
   }
 }
 
+bool shows(const Spec& spec, StageEvaluator& evaluator, const std::string& check) {
+  return std::ranges::any_of(findings_in(spec, evaluator), [&](const Finding& finding) { return finding.check == check; });
+}
+
+// The hand cannot go up because the thigh is too near, and the thigh cannot go back because of the hand: the leg stayed in
+// the air for good.
+TEST(Landing, ALegComesBackPastAHandThatWaitsForIt) {
+  ActionUse hit = use("hit_reaction", "leg_left", 1, 30, {});
+  hit.blend_in_frames = ActionUse{}.blend_in_frames;
+  Spec spec = spec_with("human", hit, 60);
+  ActionUse reach = use("reach", "arm_left", 0, 62, {{"target_m", Vec3(-0.05, 1.93, 0.07)}});
+  reach.blend_in_frames = ActionUse{}.blend_in_frames;
+  spec.sequences.front().clips.front().actions.push_back(reach);
+  StageEvaluator evaluator;
+  EXPECT_FALSE(shows(spec, evaluator, "residue"));
+  const Motion& motion = evaluator.motion();
+  const Character human = fixtures::built({"human", {}, {}});
+  const Joint& hip = human.joint(human.find_joint("leg_left/hip_flex"));
+  EXPECT_NEAR(motion.row(motion.frame_count - 1)[at(hip.coord)], 0.0, 1e-9);
+  EXPECT_FALSE(shows(spec, evaluator, "self_collision"));
+}
+
+// The crouch takes the foot over as it was seen: turned by the hit, which must not turn it once more.
+TEST(Landing, ACourseThatTakesOverAFootThatWasHitDoesNotPutItIntoTheGround) {
+  StageEvaluator evaluator;
+  for (const std::string course : {"crouch", "run", "walk"})
+    for (const double azimuth_deg : {-120.0, 120.0, 0.0}) {
+      ActionUse hit = use("hit_reaction", "foot_right", 0, 30, {{"azimuth_deg", azimuth_deg}, {"strength_deg", 34.0}});
+      hit.blend_in_frames = ActionUse{}.blend_in_frames;
+      Spec spec = spec_with("human", hit, 10);
+      ActionUse taking = use(course, "waist", 4, 60, {});
+      taking.blend_in_frames = ActionUse{}.blend_in_frames;
+      spec.sequences.front().clips.front().actions.push_back(taking);
+      EXPECT_FALSE(shows(spec, evaluator, "ground_penetration")) << course << " " << azimuth_deg;
+    }
+}
+
+// The trunk that carries the leg swings back while the paw comes down: the paw lands where it will stand.
+TEST(Landing, APawDoesNotSlideWhenTheTrunkIsHitWhileItLands) {
+  StageEvaluator evaluator;
+  for (const int start : {10, 19, 25}) {
+    ActionUse leg = use("hit_reaction", "leg_fore_right", 0, 30, {});
+    ActionUse trunk = use("hit_reaction", "trunk", start, 30, {{"azimuth_deg", 170.0}});
+    leg.blend_in_frames = trunk.blend_in_frames = ActionUse{}.blend_in_frames;
+    Spec spec = spec_with("quadruped", leg, 40);
+    spec.sequences.front().clips.front().actions.push_back(trunk);
+    EXPECT_FALSE(shows(spec, evaluator, "foot_slide")) << start;
+  }
+}
+
+// Three frames are not enough to stand up from a squat.
+TEST(Landing, ASquatThatIsToFadeFasterThanLegsMoveBeginsToFadeEarlier) {
+  StageEvaluator evaluator;
+  for (const std::string name : {"human", "mech"})
+    for (const int fade : {1, 3, 6}) {
+      ActionUse squat = use("squat", "waist", 0, 30, {});
+      squat.speed = 0.7, squat.blend_out_frames = fade, squat.blend_in_frames = ActionUse{}.blend_in_frames;
+      const Spec spec = spec_with(name, squat, 10);
+      for (const std::string check : {"angular_velocity", "pop", "foot_slide"})
+        EXPECT_FALSE(shows(spec, evaluator, check)) << name << " " << fade << " " << check;
+    }
+}
+
 // Ankles tilt less far than the ground, and a leg need not become straight.
 TEST(Landing, FiguresAtRestStandOnSlopesOfAnyHeading) {
   StageEvaluator evaluator;
