@@ -15,7 +15,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kHurry = 0.6;  // of the time that a limb takes for a way at ease (way.h)
+constexpr double kHurry = 0.7;  // of the time that a limb takes for a way at ease (way.h)
 
 class Generation {
  public:
@@ -112,7 +112,8 @@ class Generation {
 
   // Held back by its joints' speeds, or kept clear of bodies or of the ground.
   bool is_on_its_way(std::size_t p) const {
-    return s_.behind[p] != 0 || s_.shift[p] == Shift::lifted || s_.shift[p] == Shift::held_off;
+    return s_.behind[p] != 0 || s_.shift[p] == Shift::lifted || s_.shift[p] == Shift::held_off ||
+           s_.shift[p] == Shift::over_feet;
   }
   int linger_frames() const { return static_cast<int>(std::ceil(0.5 * stage_.rate_hz)); }
 
@@ -229,11 +230,11 @@ class Generation {
   void take_time_to_fade(const Playback& playback, const LayerHold& hold) {
     const PlannedAction& course = planned(playback, hold);
     if (hold.fade_frames >= 0 || !(course.blend_out > 0.0)) return;
-    double way_home_s = 0.0;
+    double way_home_s = kLeastWay_s;
     for (const Leg& leg : stage_.legs)
       for (const int part : {leg.part, leg.foot_part})
         way_home_s = std::max(way_home_s, way_s(character_, at(part), s_.past.before, s_.postures.base));
-    const double needs = std::ceil(kHurry * way_home_s * stage_.rate_hz);
+    const double needs = std::ceil(kHurry * (way_home_s - kLeastWay_s) * stage_.rate_hz);
     if (needs <= course.blend_out || course.end - content(playback, hold) > needs) return;
     for (LayerStack& stack : s_.stacks)
       if (stack.ik().action >= 0 && planned(playback, stack.ik()).use == course.use)

@@ -34,6 +34,7 @@ enum class Shift : char {
   planted,   // its foot stays where it stood
   lifted,    // its foot is lifted over the ground
   held_off,  // bodies would have come too near
+  over_feet,  // feet that stand on legs that it carries would not have reached the ground
 };
 
 // Memory that generate() reuses from call to call; any Stage may follow any other. After the first frame of a motion

@@ -30,6 +30,10 @@ class LimbKeeper {
   bool land(const Limb& limb, double gap_m);
   Rigid rest_sole(const Leg& leg);
   bool step_to_base(const Limb& limb, double share);
+  void hold_over_feet(const Limb& limb);
+  bool is_carried_and_stands(const Limb& limb, int leg) const;
+  bool has_moved(const Limb& limb) const;
+  bool feet_reach(const Limb& limb, double steps);
   bool is_smooth(const Limb& limb) const;
   bool has_room_on_the_way(const Limb& limb, double gap_m);
   void arrive(const Limb& limb);

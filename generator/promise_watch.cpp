@@ -28,6 +28,7 @@ std::optional<Shortfall> PromiseWatch::shortfall_of(const Playback& playback, st
   const bool has_ik = ik.action >= 0;
   if (told.failed) return Shortfall::rule_failed;
   if (s_.shift[p] == Shift::held_off) return Shortfall::clearance;
+  if (s_.shift[p] == Shift::over_feet) return Shortfall::out_of_reach;
   if (s_.behind[p] != 0 || (has_ik && told.is_slower)) return Shortfall::joint_speed;
   if (has_ik && told.at_range_end) return Shortfall::joint_range;
   if (!falls_short(p)) return std::nullopt;

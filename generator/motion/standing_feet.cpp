@@ -87,6 +87,10 @@ bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<doub
   return !is_there;
 }
 
+double StandingFeet::off_m(std::size_t leg, std::span<const Rigid> world) const {
+  return length(world_from_socket(*character_, world, legs_[leg].sole).p_m - stood_[leg]->p_m);
+}
+
 double StandingFeet::spare_m(std::size_t leg, const Rigid& sole) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& corner : corners_of(legs_[leg])) {

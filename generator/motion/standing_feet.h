@@ -41,6 +41,9 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
+  // The distance of the foot from where it stood, m. It must have stood.
+  double off_m(std::size_t leg, std::span<const Rigid> world) const;
+
   // Lifts the foot by the height that it lacks to move over the ground without sliding. False if it lacks none.
   bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 

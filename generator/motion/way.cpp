@@ -11,13 +11,12 @@ namespace {
 
 constexpr double kPeak = 1.875;       // of a minimum-jerk blend, in its mean speed (timeline.h)
 constexpr double kEase = 0.5;         // of a joint's greatest speed
-constexpr double kLeast_s = 0.1;      // that any way takes
 constexpr double kStays = 1e-6;       // rad or m: the joint counts as being there already
 constexpr double kPlace_m_s = 1.0;    // of the root or a foot, at most
 constexpr double kTurn_rad_s = 2.0;
 
 double time_s(double way, double greatest_speed) {
-  return way > kStays ? kLeast_s + kPeak * way / greatest_speed : 0.0;
+  return way > kStays ? kLeastWay_s + kPeak * way / greatest_speed : 0.0;
 }
 
 }  // namespace

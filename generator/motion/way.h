@@ -6,6 +6,8 @@
 
 namespace contort {
 
+inline constexpr double kLeastWay_s = 0.1;  // the time that any way takes, however short
+
 // The distance between two postures of a joint: rad, or m of a travel; 0 for the root. `a` and `b` are the joint's own
 // coordinates.
 double joint_way(const Joint& joint, const double* a, const double* b);

@@ -100,6 +100,24 @@ TEST(Landing, APawDoesNotSlideWhenTheTrunkIsHitWhileItLands) {
   }
 }
 
+// The trunk bends until the fore legs can bend no further, and no paw leaves its place. It is told as unmet.
+TEST(Landing, ATrunkGoesOnlyAsFarAsTheLegsThatItCarriesReach) {
+  StageEvaluator evaluator;
+  for (const auto& [joint, angle_deg] : {std::pair("lumbar_flex_deg", -29.0), std::pair("lumbar_flex_deg", 30.0),
+                                         std::pair("lumbar_rot_deg", -25.0), std::pair("lumbar_lat_deg", 25.0)})
+    for (const int frames : {20, 45, 90}) {
+      const Spec spec = spec_with("quadruped", use("pose", "trunk", 0, frames, {{joint, angle_deg}}), 20);
+      for (const Finding& finding : findings_in(spec, evaluator))
+        ADD_FAILURE() << joint << " " << frames << ": " << finding.check << " " << finding.subject;
+    }
+  const Spec too_far = spec_with("quadruped", use("pose", "trunk", 0, 90, {{"lumbar_flex_deg", -29.0}}), 20);
+  const Result<Stage> stage = build_stage(too_far, stock_library());
+  ASSERT_TRUE(stage);
+  const std::vector<UnmetRequest> unmet = intent_of(*stage).unmet;
+  ASSERT_EQ(unmet.size(), 1U);
+  EXPECT_EQ(unmet.front().why, Shortfall::out_of_reach);
+}
+
 // Three frames are not enough to stand up from a squat.
 TEST(Landing, ASquatThatIsToFadeFasterThanLegsMoveBeginsToFadeEarlier) {
   StageEvaluator evaluator;
