@@ -11,6 +11,7 @@ namespace contort {
 namespace {
 
 constexpr double kLeft_rad = 0.1 * kRadPerDeg;
+constexpr double kRests_rad = 0.01 * kLeft_rad;  // in a frame: what moves less is at rest, but for its generator's rounding
 
 double difference_rad(const CheckInput& in, const Part& part, int before, int after) {
   double most = 0.0;
@@ -60,7 +61,7 @@ bool moves_with_others(const CheckInput& in, int part, int before, int after) {
 }
 
 bool is_at_rest(const CheckInput& in, const Part& part, int frame) {
-  return frame == 0 || difference_rad(in, part, frame - 1, frame) == 0.0;
+  return frame == 0 || difference_rad(in, part, frame - 1, frame) <= kRests_rad;
 }
 
 }  // namespace
