@@ -102,6 +102,17 @@ class Explainer {
     return Done{};
   }
 
+  // Removes the rules of causes that the corpus does not have any more: of what is fixed, nothing is known to go wrong.
+  Result<Done> forget_others(const std::vector<CauseRow>& rows) {
+    const auto is_gone = [&rows](const Condition& condition) {
+      return std::ranges::none_of(rows, [&](const CauseRow& row) {
+        return row.id == condition.cause && row.characters.contains(condition.character);
+      });
+    };
+    if (std::ranges::none_of(conditions_, is_gone)) return Done{};
+    return change([&is_gone](std::vector<Condition>& stored) { std::erase_if(stored, is_gone); });
+  }
+
   Result<Done> read() {
     Result<std::vector<Condition>> stored = conditions_of(corpus_);
     if (!stored) return stored.issue();
@@ -121,11 +132,19 @@ class Explainer {
   }
 
   Result<Done> keep(const Condition& found) {
-    std::erase_if(conditions_, [&](const Condition& condition) {
-      return condition.cause == found.cause && condition.character == found.character;
+    return change([&found](std::vector<Condition>& stored) {
+      std::erase_if(stored, [&](const Condition& condition) {
+        return condition.cause == found.cause && condition.character == found.character;
+      });
+      stored.push_back(found);
     });
-    conditions_.push_back(found);
-    return keep_conditions(corpus_, conditions_);
+  }
+
+  Result<Done> change(const ConditionsChange& how) {
+    Result<std::vector<Condition>> stored = change_conditions(corpus_, how);
+    if (!stored) return stored.issue();
+    conditions_ = std::move(stored).value();
+    return Done{};
   }
 
   const ExplainOptions& options_;
@@ -166,6 +185,9 @@ void run_explain(const ExplainOptions& options, Context& context) {
   if (const Result<Done> read = explainer.read(); !read) return context.fail(read.issue());
   if (const Result<Done> writable = options.header.empty() ? Done{} : check_output(options.header); !writable)
     return context.fail(writable.issue(), exit_of(writable.issue()));
+  if (!options.stored_only && options.causes.empty())
+    if (const Result<Done> forgot = explainer.forget_others(*rows); !forgot)
+      return context.fail(forgot.issue(), exit_of(forgot.issue()));
   if (!options.stored_only)
     if (const Result<Done> learned = explainer.learn(questions_of(*rows)); !learned)
       return context.fail(learned.issue(), exit_of(learned.issue()));

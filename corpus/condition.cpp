@@ -54,6 +54,17 @@ auto key_of(const Condition& condition) { return std::tie(condition.cause, condi
 
 }  // namespace
 
+std::span<const std::string_view> quantity_names() {
+  static constexpr std::string_view kNames[] = {"value", "magnitude", "per_second", "magnitude_per_second",
+                                                "times_seconds"};
+  return kNames;
+}
+
+std::span<const std::string_view> op_names() {
+  static constexpr std::string_view kNames[] = {"below", "above", "is", "is_not"};
+  return kNames;
+}
+
 double precision_of(const RuleTrial& trial) { return share(trial.inside_failing, trial.inside); }
 
 double failing_outside(const RuleTrial& trial) { return share(trial.outside_failing, trial.outside); }

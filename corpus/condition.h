@@ -2,6 +2,8 @@
 // on others. docs/conditions.md describes it; fuzz/condition_search.h learns it.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,10 @@
 namespace contort {
 
 inline constexpr std::size_t kMostComparisons = 4;  // of a rule
+
+// In the order of the enums.
+std::span<const std::string_view> quantity_names();
+std::span<const std::string_view> op_names();
 
 struct ConditionTerm {
   std::string name;
@@ -90,10 +96,13 @@ Result<std::vector<Condition>> parse_conditions(std::string_view json);
 std::string print_conditions(std::vector<Condition> conditions);  // sorted by cause and character
 std::string conditions_schema();
 
-// The conditions of a corpus; none if it has no such file.
+// The conditions of a corpus; none if it has no such file. Codes json.*, and file.outside if the file is a link that
+// leads out of the corpus.
 Result<std::vector<Condition>> conditions_of(const Corpus& corpus);
-// Replaces them. Code file.unwritable.
-Result<Done> keep_conditions(const Corpus& corpus, const std::vector<Condition>& conditions);
+// Reads them, changes them and writes them while no other process writes. Returns those that are now stored. Codes of
+// conditions_of, and file.unwritable; then nothing changes.
+using ConditionsChange = std::function<void(std::vector<Condition>&)>;
+Result<std::vector<Condition>> change_conditions(const Corpus& corpus, const ConditionsChange& change);
 
 // The conditions of several corpora. Of two for the same cause and character, the one with the better F1 on fresh cases
 // stays, of equally good ones the one whose text comes first, so that the order of merging does not matter.

@@ -5,6 +5,7 @@
 #include "corpus/condition.h"
 #include "corpus/lock.h"
 #include "model/core/files.h"
+#include "model/core/inside_folder.h"
 #include "model/core/json_fields.h"
 
 namespace contort {
@@ -18,9 +19,6 @@ namespace {
 using json_fields::Rule;
 using json_fields::Text;
 
-constexpr std::string_view kQuantityNames[] = {"value", "magnitude", "per_second", "magnitude_per_second",
-                                               "times_seconds"};
-constexpr std::string_view kOpNames[] = {"below", "above", "is", "is_not"};
 const Rule kRuleLabel{.text = Text::label, .may_be_empty = true};
 const Rule kCaseCount{.low = 0, .high = 1e6};
 
@@ -29,9 +27,9 @@ const Rule kCaseCount{.low = 0, .high = 1e6};
 template <class V>
 void fields(V& v, const ConditionTerm*) {
   v.field("name", &ConditionTerm::name, {.text = Text::label, .required = true}, "The value that is compared.");
-  v.field("quantity", &ConditionTerm::quantity, {.names = kQuantityNames}, "The number that is made of it.");
+  v.field("quantity", &ConditionTerm::quantity, {.names = quantity_names()}, "The number that is made of it.");
   v.field("mirrored", &ConditionTerm::is_mirrored, {}, "On the right side it counts with the opposite sign.");
-  v.field("op", &ConditionTerm::op, {.names = kOpNames, .required = true}, "How it is compared.");
+  v.field("op", &ConditionTerm::op, {.names = op_names(), .required = true}, "How it is compared.");
   v.field("limit", &ConditionTerm::limit, {.low = -1e12, .high = 1e12}, "Of below and above.");
   v.field("lowest", &ConditionTerm::lowest, {.low = -1e12, .high = 1e12}, "The limit may be anywhere from this");
   v.field("highest", &ConditionTerm::highest, {.low = -1e12, .high = 1e12}, "to this.");
@@ -71,7 +69,9 @@ void fields(V& v, const StoredConditions*) {
 
 namespace {
 
-std::string path_in(const Corpus& corpus) { return corpus.folder() + "/rules.json"; }
+constexpr const char* kRulesFile = "rules.json";
+
+std::string path_in(const Corpus& corpus) { return corpus.folder() + "/" + kRulesFile; }
 
 }  // namespace
 
@@ -92,18 +92,25 @@ std::string conditions_schema() { return json_fields::write_schema<StoredConditi
 
 Result<std::vector<Condition>> conditions_of(const Corpus& corpus) {
   std::error_code error;
-  if (!std::filesystem::exists(path_in(corpus), error)) return std::vector<Condition>{};
-  const Result<std::string> text = read_file(path_in(corpus));
+  if (std::filesystem::symlink_status(path_in(corpus), error).type() == std::filesystem::file_type::not_found)
+    return std::vector<Condition>{};
+  const Result<std::string> text = read_inside(corpus.folder(), kRulesFile, json_fields::kMaxDocumentBytes);
   if (!text) return text.issue();
   Result<std::vector<Condition>> conditions = parse_conditions(*text);
   if (!conditions) return about_file(path_in(corpus), conditions.issue());
   return conditions;
 }
 
-Result<Done> keep_conditions(const Corpus& corpus, const std::vector<Condition>& conditions) {
+Result<std::vector<Condition>> change_conditions(const Corpus& corpus, const ConditionsChange& change) {
   const Result<CorpusLock> lock = CorpusLock::take(corpus.folder());
   if (!lock) return lock.issue();
-  return write_file(path_in(corpus), print_conditions(conditions));
+  Result<std::vector<Condition>> read = conditions_of(corpus);
+  if (!read) return read;
+  std::vector<Condition> conditions = std::move(read).value();
+  change(conditions);
+  if (const Result<Done> written = write_file(path_in(corpus), print_conditions(conditions)); !written)
+    return written.issue();
+  return conditions;
 }
 
 }  // namespace contort

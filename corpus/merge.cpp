@@ -139,16 +139,20 @@ Result<Done> complete_run(const Corpus& corpus, const std::vector<RunRecord>& re
 
 // Rules are all taken along: one that was learned from another minimal case is learned anew when it is asked for.
 Result<Done> merge_conditions(const std::vector<Corpus>& sources, const Corpus& into, Merged& merged) {
-  std::vector<Condition> all;
-  for (const std::vector<Corpus>& corpora : {sources, {into}})
-    for (const Corpus& corpus : corpora) {
-      const Result<std::vector<Condition>> conditions = conditions_of(corpus);
-      if (conditions)
-        all.insert(all.end(), conditions->begin(), conditions->end());
-      else
-        merged.damaged.push_back(conditions.issue());
-    }
-  return all.empty() ? Result<Done>(Done{}) : keep_conditions(into, merged_conditions(std::move(all)));
+  std::vector<Condition> more;
+  for (const Corpus& corpus : sources)
+    if (const Result<std::vector<Condition>> conditions = conditions_of(corpus))
+      more.insert(more.end(), conditions->begin(), conditions->end());
+    else
+      merged.damaged.push_back(conditions.issue());
+  if (more.empty()) return Done{};
+  const auto changed = change_conditions(into, [&more](std::vector<Condition>& conditions) {
+    conditions.insert(conditions.end(), more.begin(), more.end());
+    conditions = merged_conditions(std::move(conditions));
+  });
+  if (!changed && changed.issue().code == "file.unwritable") return changed.issue();
+  if (!changed) merged.damaged.push_back(changed.issue());
+  return Done{};
 }
 
 }  // namespace

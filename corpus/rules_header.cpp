@@ -32,31 +32,17 @@ std::string number(double value) {
   return text;
 }
 
-std::string quantity(known::Quantity quantity) {
-  switch (quantity) {
-    case known::Quantity::value: return "Quantity::value";
-    case known::Quantity::magnitude: return "Quantity::magnitude";
-    case known::Quantity::per_second: return "Quantity::per_second";
-    case known::Quantity::magnitude_per_second: return "Quantity::magnitude_per_second";
-    case known::Quantity::times_seconds: return "Quantity::times_seconds";
-  }
-  return "";
-}
-
-std::string op(known::Op op) {
-  switch (op) {
-    case known::Op::below: return "Op::below";
-    case known::Op::above: return "Op::above";
-    case known::Op::is: return "Op::is";
-    case known::Op::is_not: return "Op::is_not";
-  }
-  return "";
+// "Op::below"
+template <class E>
+std::string enumerator(const std::string& type, std::span<const std::string_view> names, E value) {
+  return type + "::" + std::string(names[static_cast<std::size_t>(value)]);
 }
 
 std::string comparison_line(const known::Term& comparison) {
-  return "    {" + literal(comparison.name) + ", " + quantity(comparison.quantity) + ", " +
-         (comparison.is_mirrored ? "true" : "false") + ", " + op(comparison.op) + ", " + number(comparison.limit) +
-         ", " + literal(comparison.word) + "},\n";
+  return "    {" + literal(comparison.name) + ", " +
+         enumerator("Quantity", quantity_names(), comparison.quantity) + ", " +
+         (comparison.is_mirrored ? "true" : "false") + ", " + enumerator("Op", op_names(), comparison.op) + ", " +
+         number(comparison.limit) + ", " + literal(comparison.word) + "},\n";
 }
 
 // An array of constants; no line at all where it would be empty, which C++ does not have.

@@ -53,6 +53,20 @@ TEST_F(ExplainCommand, LearnsStoresAndAsks) {
   EXPECT_EQ(contort_program({"explain", folder_ / "c", "--json"}).out, stored);
 }
 
+TEST_F(ExplainCommand, TheReportTellsTheRuleAndWhatIsFixedIsForgotten) {
+  store(kBent);
+  ASSERT_EQ(contort_program({"explain", folder_ / "c", "--draws", "100"}).code, 0);
+  contort_program({"--gl", "none", "report", folder_ / "c", "-o", folder_ / "report"});
+  EXPECT_NE(slurp(folder_ / "report/index.html").find("fresh cases where pose.elbow_deg &gt; "), std::string::npos);
+  const nlohmann::json report = nlohmann::json::parse(slurp(folder_ / "report/report.json"));
+  EXPECT_FALSE(report["causes"][0]["conditions"]["human"].get<std::string>().empty());
+
+  std::filesystem::remove_all(folder_ / "c/buckets");
+  std::filesystem::create_directory(folder_ / "c/buckets");
+  EXPECT_TRUE(contort_program({"explain", folder_ / "c"}).out.ends_with("RESULT causes=0 with_rule=0\n"));
+  EXPECT_EQ(slurp(folder_ / "c/rules.json").find("elbow"), std::string::npos);
+}
+
 TEST_F(ExplainCommand, ACheckAgainstRulesMakesNoMotionAndSaysWhatIsKnown) {
   store(kBent);
   ASSERT_EQ(contort_program({"explain", folder_ / "c", "--draws", "100"}).code, 0);

@@ -231,13 +231,44 @@ TEST(Conditions, MergeInAnyOrderToTheBestOfEachCauseAndCharacter) {
   EXPECT_EQ(merged_conditions({any_condition(), worse, other, worse}), merged);
 }
 
+void store(const Corpus& corpus, const Condition& condition) {
+  ASSERT_TRUE(change_conditions(corpus, [&](std::vector<Condition>& stored) { stored.push_back(condition); }));
+}
+
+// Two programs that learn at the same time both read before either writes.
+TEST(Conditions, AChangeKeepsWhatWasStoredSinceTheyWereRead) {
+  const TempFolder folder;
+  const Result<Corpus> corpus = Corpus::create(folder / "a");
+  ASSERT_TRUE(corpus);
+  ASSERT_TRUE(conditions_of(*corpus)->empty());
+  Condition other = any_condition();
+  other.character = "mech";
+  store(*corpus, any_condition()), store(*corpus, other);
+  EXPECT_EQ(*conditions_of(*corpus), (std::vector<Condition>{any_condition(), other}));
+}
+
+TEST(Conditions, AreNotReadFromOutsideTheCorpusNorOverwrittenWhereTheyAreDamaged) {
+  const TempFolder folder;
+  const Result<Corpus> corpus = Corpus::create(folder / "a"), from = Corpus::create(folder / "b");
+  ASSERT_TRUE(corpus && from);
+  store(*from, any_condition());
+  std::filesystem::create_symlink(folder / "b/rules.json", folder / "a/rules.json");
+  EXPECT_EQ(conditions_of(*corpus).issue().code, "file.outside");
+  std::filesystem::remove(folder / "a/rules.json");
+  spill(folder / "a/rules.json", "{");
+  const Result<Merged> merged = merge({*from}, *corpus);
+  ASSERT_TRUE(merged);
+  EXPECT_EQ(merged->damaged.size(), 1U);
+  EXPECT_EQ(slurp(folder / "a/rules.json"), "{");
+}
+
 TEST(Conditions, ComeAlongWhenCorporaMerge) {
   const TempFolder folder;
   const Result<Corpus> a = Corpus::create(folder / "a"), b = Corpus::create(folder / "b"), into = Corpus::create(folder / "c");
   ASSERT_TRUE(a && b && into);
   Condition other = any_condition();
   other.character = "mech";
-  ASSERT_TRUE(keep_conditions(*a, {any_condition()}) && keep_conditions(*b, {other}));
+  store(*a, any_condition()), store(*b, other);
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(merge({*b, *a}, *into));
     const Result<std::vector<Condition>> merged = conditions_of(*into);

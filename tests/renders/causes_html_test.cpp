@@ -55,6 +55,14 @@ TEST(CausesHtml, AreCountedInTheHeadWithTheShareOfCleanCases) {
   EXPECT_TRUE(holds(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
 }
 
+TEST(CausesHtml, SayWhenTheyFailInTextThatIsEscaped) {
+  ReportCause cause = elbow_cause();
+  cause.conditions = {{"human", "Fails where a < 1."}, {"mech", kMarkupInCause}};
+  const std::string html = causes_html(model_with({cause}), {});
+  EXPECT_TRUE(holds(html, "<p class='when'>human: Fails where a &lt; 1.</p>"));
+  EXPECT_FALSE(holds(html, "<script>"));
+}
+
 TEST(CausesHtml, OpenTheirDeepestCase) {
   const std::string html = causes_html(model_with({elbow_cause()}), {});
   EXPECT_TRUE(holds(html, "<a href='#case=key-1'>Left elbow leaves its range during aim</a>"));
