@@ -25,7 +25,7 @@ Issue issue_of_ending(const Ending& ending) {
 }  // namespace
 
 void BaseProgram::start(const std::function<void()>& on_wait) {
-  program_ = std::make_unique<LineProgram>(command_, limits_, true);
+  program_ = std::make_unique<LineProgram>(command_, limits_, Messages::dropped);
   (void)program_->read_line(on_wait, kGreetingSeconds);  // the hello, which the run has judged before
 }
 
@@ -59,7 +59,7 @@ Measurement BaseProgram::answer(const std::function<void()>& on_wait) {
 }
 
 Result<MeasureHello> greet(const std::vector<std::string>& command, const WorkerLimits& limits) {
-  LineProgram program(command, limits, false);
+  LineProgram program(command, limits, Messages::shown);
   const Ending first = program.read_line({}, kGreetingSeconds);
   if (first.kind == Ending::Kind::crash && first.signal == "exit 127")
     return Issue{"against.cannot_start", "", command[0] + " cannot be run; expected a contort program"};

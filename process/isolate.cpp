@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "model/core/assert.h"
+#include "process/ended.h"
 #include "process/kernel.h"
 
 namespace contort {
@@ -22,6 +23,7 @@ namespace {
 
 constexpr int kLookEvery_ms = 5;  // at its memory
 constexpr char kEndMark = '.';    // after the result: a child that leaves by exit(0) half way has none
+constexpr char kEndedMark = '!';  // after the ending of a program that the work needed
 
 // Whatever handlers we have, or a sanitizer has, a crash must end the child by its signal; Ctrl-C is for us to answer.
 void reset_signals() {
@@ -41,6 +43,14 @@ void write_all(int file, const std::string& text) {
   }
 }
 
+std::string outcome_of(const std::function<std::string()>& work) {
+  try {
+    return work() + kEndMark;
+  } catch (const ProgramEnded& ended) {
+    return print_ending(ended.ending()) + kEndedMark;
+  }
+}
+
 // noexcept: an exception must not unwind into the caller's copy of the stack; it ends the child by SIGABRT.
 [[noreturn]] void live_as_child(const std::function<std::string()>& work, const Isolation& isolation, int pipe,
                                 pid_t parent) noexcept {
@@ -51,7 +61,7 @@ void write_all(int file, const std::string& text) {
   ::setrlimit(RLIMIT_CORE, &no_core);
   if (isolation.silent) ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
   ::alarm(static_cast<unsigned>(isolation.seconds));  // the kernel's clock ends it, whatever it does
-  write_all(pipe, work() + kEndMark);
+  write_all(pipe, outcome_of(work));
   ::_exit(0);
 }
 
@@ -89,9 +99,11 @@ Ending ending_of(Heard heard, int status) {
   if (heard.too_large) return {Ending::Kind::memory, "", ""};
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return {Ending::Kind::timeout, "", ""};
   if (WIFSIGNALED(status)) return {Ending::Kind::crash, signal_name(WTERMSIG(status)), ""};
-  if (WEXITSTATUS(status) != 0 || heard.text.empty() || heard.text.back() != kEndMark)
+  const char mark = WEXITSTATUS(status) != 0 || heard.text.empty() ? '\0' : heard.text.back();
+  if (mark != kEndMark && mark != kEndedMark)
     return {Ending::Kind::crash, "exit " + std::to_string(WEXITSTATUS(status)), ""};
   heard.text.pop_back();
+  if (mark == kEndedMark) return parse_ending(heard.text);
   return {Ending::Kind::finished, "", std::move(heard.text)};
 }
 

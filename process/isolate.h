@@ -15,12 +15,15 @@ struct Isolation {
   bool silent = false;                                  // what it prints on stderr goes nowhere
 };
 
+inline constexpr std::size_t kMostPrinted = 4000;
+
 // The way in which the work came to its end.
 struct Ending {
   enum class Kind { finished, crash, timeout, memory };
   Kind kind = Kind::finished;
   std::string signal;  // crash: "SIGSEGV"; "exit 1" where it left without a signal
   std::string result;  // finished: what the work returned
+  std::string printed{};  // the last output of a program that ended (ended.h), at most kMostPrinted bytes
   bool operator==(const Ending&) const = default;
 };
 

@@ -18,6 +18,7 @@
 
 #include "model/core/assert.h"
 #include "process/clock.h"
+#include "process/ended.h"
 #include "process/kernel.h"
 #include "process/whole_bytes.h"
 
@@ -69,9 +70,9 @@ std::string how_it_ended(int status) {
 Ending ending_of(const WorkerEvent& event) {
   CONTORT_ASSERT(event.end != WorkerEnd::replied);
   switch (event.end) {
-    case WorkerEnd::timed_out: return {Ending::Kind::timeout, {}, {}};
-    case WorkerEnd::out_of_memory: return {Ending::Kind::memory, {}, {}};
-    default: return {Ending::Kind::crash, event.text, {}};
+    case WorkerEnd::timed_out: return {Ending::Kind::timeout, {}, {}, event.printed};
+    case WorkerEnd::out_of_memory: return {Ending::Kind::memory, {}, {}, event.printed};
+    default: return {Ending::Kind::crash, event.text, {}, event.printed};
   }
 }
 
@@ -84,6 +85,11 @@ void WorkerSlot::note(std::string_view text) {
   if (!text.empty() && text.size() <= kMostNote) std::memcpy(text_, text.data(), text.size());
   std::atomic_signal_fence(std::memory_order_seq_cst);
   if (text.size() <= kMostNote) length_ = text.size();
+}
+
+void WorkerSlot::end(std::string_view ending) {
+  ending_length_ = std::min(ending.size(), sizeof ending_);
+  std::memcpy(ending_, ending.data(), ending_length_);
 }
 
 WorkerPool::WorkerPool(int workers, const WorkerLimits& limits, Work work)
@@ -133,8 +139,12 @@ void WorkerPool::serve(int socket, WorkerSlot& slot) noexcept {
   ::signal(SIGINT, SIG_IGN);
   ::signal(SIGTERM, SIG_DFL);
   std::string task;
-  while (receive_message(socket, task))
-    if (!send_message(socket, work_(task, slot))) break;
+  try {
+    while (receive_message(socket, task))
+      if (!send_message(socket, work_(task, slot))) break;
+  } catch (const ProgramEnded& ended) {
+    slot.end(print_ending(ended.ending()));
+  }
   ::_exit(0);
 }
 
@@ -207,6 +217,14 @@ WorkerEvent WorkerPool::bury(int index, WorkerEnd end) {
   while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
   }
   WorkerEvent event{index, end, end == WorkerEnd::crashed ? how_it_ended(status) : "", worker.slot->note()};
+  if (const std::string ended = worker.slot->ended(); end == WorkerEnd::crashed && !ended.empty()) {
+    const Ending ending = parse_ending(ended);
+    event.end = ending.kind == Ending::Kind::timeout  ? WorkerEnd::timed_out
+                : ending.kind == Ending::Kind::memory ? WorkerEnd::out_of_memory
+                                                      : WorkerEnd::crashed;
+    event.text = ending.signal, event.printed = ending.printed;
+  }
+  worker.slot->end({});
   ::close(worker.socket);
   worker.socket = -1;
   start(worker);

@@ -25,12 +25,18 @@ class WorkerSlot {
   void beat() { beats_.fetch_add(1, std::memory_order_relaxed); }
 
   std::string note() const { return std::string(text_, length_); }
+
+  // Says how a program ended on which the work depended, before the worker ends (ended.h).
+  void end(std::string_view ending);
+  std::string ended() const { return std::string(ending_, ending_length_); }
   std::uint64_t beats() const { return beats_.load(std::memory_order_relaxed); }
 
  private:
   std::atomic<std::uint64_t> beats_{0};
   std::size_t length_ = 0;
   char text_[kMostNote] = {};
+  std::size_t ending_length_ = 0;
+  char ending_[kMostPrinted + 100] = {};
 };
 
 struct WorkerLimits {
@@ -45,6 +51,7 @@ struct WorkerEvent {
   WorkerEnd end = WorkerEnd::replied;
   std::string text;  // the reply; of a crash the signal: "SIGSEGV", or "exit 3"
   std::string note;  // where it did not reply: what it was doing
+  std::string printed{};  // the last output of a program that ended and took the worker with it
 };
 
 // Not of a reply.

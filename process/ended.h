@@ -1,0 +1,30 @@
+// The end of a program on which some work depends, such as a generator that runs as a program of its own.
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "process/isolate.h"
+
+namespace contort {
+
+// Work throws this when a program that it needs has ended, so that the work has no result. A worker pool and `isolate`
+// tell it as if the process of the work had ended in the same way.
+class ProgramEnded : public std::exception {
+ public:
+  // `ending` is not `finished`.
+  explicit ProgramEnded(Ending ending) : ending_(std::move(ending)), text_(describe(ending_)) {}
+  const Ending& ending() const { return ending_; }
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  static std::string describe(const Ending& ending);
+  Ending ending_;
+  std::string text_;
+};
+
+// One line of text for a socket or shared memory, and back. Text that is no ending gives a crash without a signal.
+std::string print_ending(const Ending& ending);
+Ending parse_ending(const std::string& text);
+
+}  // namespace contort

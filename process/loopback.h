@@ -1,0 +1,17 @@
+// Connections from programs on this machine, over TCP on 127.0.0.1.
+#pragma once
+
+#include <string>
+
+namespace contort {
+
+// Listens on a free port, which it tells. -1 where the system has no socket.
+int listen_on_loopback(int& port);
+
+// The first connection that waits, without Nagle's delay; -1 where there is none.
+int accept_on_loopback(int listener);
+
+// 32 hex digits that nobody can guess.
+std::string random_word();
+
+}  // namespace contort
