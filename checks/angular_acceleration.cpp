@@ -41,7 +41,7 @@ Subject angular_acceleration_subject(const Character& character, int subject) {
 void angular_acceleration_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const Joint> joints = in.character.joints();
   for (int frame = 2; frame < in.motion.frame_count; ++frame) {
-    if (is_struck(in.motion, frame)) continue;
+    if (is_struck(in.motion, frame) || in.may_jump_into(frame) || in.may_jump_into(frame - 1)) continue;
     for (std::size_t j = 1; j < joints.size(); ++j)
       if (const double change = change_of_speed(in.motion, joints[j], frame); change >= 0.0)
         fold.report(static_cast<int>(j) - 1, frame, joints[j].max_speed / kShortestRise_s - change);

@@ -57,7 +57,9 @@ void bind_pose_flash_measure(const CheckInput& in, MarginFold& fold) {
     if (!flash.is_at_rest(first)) continue;
     int last = first;
     while (last + 1 < in.motion.frame_count && flash.is_at_rest(last + 1)) ++last;
-    const bool is_short = last - first < kLongest && last + 1 < in.motion.frame_count && !flash.is_at_rest(first - 1);
+    const bool is_meant = in.may_jump_into(first) || in.may_jump_into(last + 1);
+    const bool is_short = !is_meant && last - first < kLongest && last + 1 < in.motion.frame_count &&
+                          !flash.is_at_rest(first - 1);
     if (is_short)
       for (int frame = first; frame <= last; ++frame) fold.report(0, frame, flash.margin_rad(first, last));
     first = last;

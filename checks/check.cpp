@@ -67,6 +67,7 @@ std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& in
       return has_response ? "dynamics moves the figure, so that tracking_error judges" : "";
     case Needs::response: return has_response ? "" : "the motion has no dynamics";
     case Needs::clip: return "the motion is no clip of an animation file";
+    case Needs::foreign: return input.foreign != nullptr ? "" : "the generator is no program of its own";
   }
   return {};
 }

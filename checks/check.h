@@ -29,6 +29,7 @@ enum class Needs : std::uint8_t {
   kinematic_intent,  // the same, and that dynamics did not move the figure away from it
   response,          // the data that dynamics recorded
   clip,              // instead of all that, a clip as it is in its file
+  foreign,           // the data of a generator that is a program of its own
 };
 
 // The kind of what is wrong, for grouping failures (docs/causes.md).
@@ -60,6 +61,9 @@ struct CheckInput {
   const Environment& environment;
   const Intent* intent = nullptr;  // the generator's intent; null if it gives none
   RootPath path = RootPath::told;
+  const ForeignFacts* foreign = nullptr;  // of a generator that is a program of its own
+
+  bool may_jump_into(int frame) const { return foreign != nullptr && foreign->may_jump_into(frame); }
 
   std::span<const Rigid> world_at(int frame) const {
     const std::size_t joints = character.joints().size();

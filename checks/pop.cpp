@@ -54,7 +54,7 @@ Subject pop_subject(const Character& character, int subject) {
 void pop_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const Joint> joints = in.character.joints();
   for (int frame = 1; frame < in.motion.frame_count; ++frame)
-    for (std::size_t j = 1; j < joints.size(); ++j) {
+    for (std::size_t j = 1; j < joints.size() && !in.may_jump_into(frame); ++j) {
       const double speed = speed_into(in.motion, joints[j], frame);
       double limit = joints[j].max_speed;
       if (speed > limit) limit = std::max(limit, explained_speed(in.motion, joints[j], frame));

@@ -1,6 +1,7 @@
 // reach_error: a limb that was sent to a point must be there in the frames that the generator says (Intent::goals).
 // Judged only where nothing is added to the limb and dynamics does not move it (there tracking_error judges). Where the
 // limb is follows from the pose alone; a point out of reach is found here.
+#include <algorithm>
 #include <cmath>
 
 #include "checks/plan.h"
@@ -18,6 +19,7 @@ Vec3 place_of(const CheckInput& in, int socket, int frame) {
 
 Vec3 target_of(const CheckInput& in, const Goal& goal, int frame) {
   if (goal.target_socket >= 0) return place_of(in, goal.target_socket, frame);
+  if (goal.in_world) return goal.target_m;
   return in.world_at(frame)[0] * inverse(in.character.rest_root()) * goal.target_m;
 }
 
@@ -42,7 +44,8 @@ void reach_error_measure(const CheckInput& in, MarginFold& fold) {
     for (int frame = goal.first_frame; frame <= goal.last_frame; ++frame) {
       if (is_disturbed(in, goal, frame)) continue;
       const Vec3 missing = place_of(in, goal.socket, frame) - target_of(in, goal, frame);
-      fold.report(goal.socket, frame, kReachLimit_m - std::sqrt(glm::dot(missing, missing)));
+      const double limit_m = std::max(kReachLimit_m, goal.within_m);
+      fold.report(goal.socket, frame, limit_m - std::sqrt(glm::dot(missing, missing)));
     }
 }
 

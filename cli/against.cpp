@@ -11,6 +11,7 @@
 
 #include "cli/input.h"
 #include "cli/print.h"
+#include "cli/tested.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
@@ -45,9 +46,9 @@ std::string program_path(const std::string& name) {
   return name;
 }
 
-std::vector<std::string> base_command(const std::string& base, const Context& context) {
+std::vector<std::string> base_command(const std::string& base, const Sources& sources, const Context& context) {
   std::vector<std::string> command = {base};
-  for (const std::string& folder : context.library_folders) command.insert(command.end(), {"--library", folder});
+  for (const std::string& argument : sources.arguments()) command.push_back(argument);
   if (!context.settings_file.empty()) command.insert(command.end(), {"--settings", context.settings_file});
   command.insert(command.end(), {"--today", context.day(), "measure"});
   return command;
@@ -105,10 +106,10 @@ std::string sentence_about_base(const Provenance& from) {
 
 namespace {
 
-std::string text_of_row(const AgainstRow& row, const std::vector<std::string>& library_folders) {
+std::string text_of_row(const AgainstRow& row, const Sources& sources) {
   return std::string(row.is_worse ? "WORSE  " : "BROKE  ") + printable(print_family(family_of(row.minimal))) +
          "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " +
-         sentence_about_base(row.minimal.provenance) + "  " + replay_command(row.path, library_folders);
+         sentence_about_base(row.minimal.provenance) + "  " + replay_command(row.path, sources);
 }
 
 std::string firsts_text(const AgainstCounts& counts) {
@@ -126,8 +127,8 @@ std::string firsts_text(const AgainstCounts& counts) {
 
 void add_against_options(CLI::App& command, AgainstOptions& options) {
   CLI::Option* base = command.add_option("--against", options.base,
-                                         "Another contort program, as a path or a name in PATH: only failures that it does "
-                                         "not show count");
+                                         "Another contort program, as a path or a name in PATH, or with --generator another "
+                                         "generator: only failures that it does not show count");
   base->type_name("BASE");
   command.add_flag("--moved", options.moved, "Motions that differ from those of the base gate, too")->needs(base);
   command
@@ -141,22 +142,60 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
 
 Result<std::string> own_build() { return build_text(CONTORT_VERSION, "/proc/self/exe"); }
 
-Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
-                                                 const Context& context) {
-  if (options.base.empty()) return std::optional<AgainstConfig>();
-  const std::string program = program_path(options.base);
-  const std::vector<std::string> command = base_command(program, context);
+namespace {
+
+// Two builds to compare: how the base is started, and how each is named.
+struct Pair {
+  std::vector<std::string> command;
+  std::string base;
+  std::string build;
+  MeasureHello hello;  // of the base
+};
+
+Result<Pair> pair_of_contorts(const std::string& base, const WorkerLimits& limits, const Context& context) {
+  const std::string program = program_path(base);
+  const std::vector<std::string> command = base_command(program, context.sources, context);
   const Result<std::string> build = own_build();
   if (!build) return build.issue();
   if (const Result<std::string> there = build_text("", program); !there) return there.issue();
   const Result<MeasureHello> hello = greet(command, limits);
   if (!hello) return hello.issue();
-  const Result<std::string> base = build_text(hello->version, program);
-  if (!base) return base.issue();
+  const Result<std::string> named = build_text(hello->version, program);
+  if (!named) return named.issue();
+  return Pair{command, *named, *build, *hello};
+}
+
+Result<std::string> build_of_generator(const Sources& sources) {
+  const Result<Tested> tested = load_tested(sources);
+  if (!tested) return tested.issue();
+  const Manifest& manifest = tested->generator->manifest();
+  return manifest.name + " " + manifest.build;
+}
+
+// This program measures the motions of both generators.
+Result<Pair> pair_of_generators(const std::string& base, const WorkerLimits& limits, const Context& context) {
+  const Sources other{{}, base};
+  const Result<std::string> named = build_of_generator(other), build = build_of_generator(context.sources);
+  if (!named) return named.issue();
+  if (!build) return build.issue();
+  const std::vector<std::string> command = base_command("/proc/self/exe", other, context);
+  const Result<MeasureHello> hello = greet(command, limits);
+  if (!hello) return hello.issue();
+  return Pair{command, *named, *build, *hello};
+}
+
+}  // namespace
+
+Result<std::optional<AgainstConfig>> choose_base(const AgainstOptions& options, const WorkerLimits& limits,
+                                                 const Context& context) {
+  if (options.base.empty()) return std::optional<AgainstConfig>();
+  const Result<Pair> pair = context.sources.generator.empty() ? pair_of_contorts(options.base, limits, context)
+                                                              : pair_of_generators(options.base, limits, context);
+  if (!pair) return pair.issue();
   AgainstConfig against;
-  against.start = [command, limits] { return std::make_unique<BaseProgram>(command, limits); };
-  against.base = *base, against.build = *build;
-  against.rules = {options.tolerance, in_both(own_hello(CONTORT_VERSION).checks, hello->checks)};
+  against.start = [command = pair->command, limits] { return std::make_unique<BaseProgram>(command, limits); };
+  against.base = pair->base, against.build = pair->build;
+  against.rules = {options.tolerance, in_both(own_hello(CONTORT_VERSION).checks, pair->hello.checks)};
   return std::optional(std::move(against));
 }
 
@@ -194,8 +233,8 @@ Result<Done> check_same_pair(std::span<const Corpus> corpora) {
 }
 
 void print_comparison(const RunResult& result, const AgainstConfig& against,
-                      const std::vector<std::string>& library_folders) {
-  for (const AgainstRow& row : rows_of(result)) std::printf("%s\n", text_of_row(row, library_folders).c_str());
+                      const Sources& sources) {
+  for (const AgainstRow& row : rows_of(result)) std::printf("%s\n", text_of_row(row, sources).c_str());
   const std::vector<std::string> missing = not_compared(against);
   for (const std::string& name : missing) std::printf("not compared: %s, a check that the base lacks\n", name.c_str());
   const AgainstCounts& counts = *result.record.against;
@@ -209,7 +248,7 @@ void print_comparison(const RunResult& result, const AgainstConfig& against,
 }
 
 std::string comparison_json(const RunResult& result, const AgainstConfig& against,
-                            const std::vector<std::string>& library_folders) {
+                            const Sources& sources) {
   const AgainstCounts& counts = *result.record.against;
   Json rows = Json::array();
   for (const AgainstRow& row : rows_of(result))
@@ -220,7 +259,7 @@ std::string comparison_json(const RunResult& result, const AgainstConfig& agains
                     {"base_margin", row.minimal.provenance.base_margin},
                     {"index", row.minimal.provenance.index},
                     {"case", row.path},
-                    {"command", replay_command(row.path, library_folders)}});
+                    {"command", replay_command(row.path, sources)}});
   const Json first_moved = {{"index", counts.first_moved}, {"frame", counts.first_moved_frame}};
   const Json first_refused = {{"index", counts.first_refused}, {"reason", counts.first_refusal}};
   return json_fields::compact_text({{"base", counts.base},

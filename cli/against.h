@@ -40,11 +40,11 @@ Result<Done> check_same_pair(std::span<const Corpus> corpora);
 
 // Rows, counts and what was not compared, for people.
 void print_comparison(const RunResult& result, const AgainstConfig& against,
-                      const std::vector<std::string>& library_folders);
+                      const Sources& sources);
 
 // The same as a JSON object.
 std::string comparison_json(const RunResult& result, const AgainstConfig& against,
-                            const std::vector<std::string>& library_folders);
+                            const Sources& sources);
 
 // " broke=1 worse=0 mended=2 moved=3 refused=0 same=250", for the last line; "" without a comparison.
 std::string comparison_counts(const RunResult& result);

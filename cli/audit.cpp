@@ -73,7 +73,8 @@ std::string command_of(const AuditCommand& options, const Context& context) {
   const auto add = [&](const char* name, const std::vector<std::string>& values) {
     for (const std::string& value : values) command += std::string(" ") + name + " " + shell_quoted(value);
   };
-  add("--library", context.library_folders), add("--character", options.audit.characters);
+  for (const std::string& argument : context.sources.arguments()) command += " " + shell_quoted(argument);
+  add("--character", options.audit.characters);
   add("--action", options.audit.actions), add("--slot", options.audit.slots);
   if (options.audit.dynamics != Mode::kinematic) command += " --dynamics " + options.dynamics;
   return command + " --page " + shell_quoted(options.page);

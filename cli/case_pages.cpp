@@ -130,7 +130,7 @@ void write_case_pages(const std::vector<CasePage>& pages, const std::string& fol
   if (const Result<Done> copied = copy_viewer(folder + "/viewer"); !copied)
     warn("the report has no viewer", copied.issue());
   if (const Result<Done> made = make_folder(folder + "/cases"); !made) return context.fail(made.issue(), kInternal);
-  const std::string surroundings = surroundings_id(context);
+  const std::string surroundings = surroundings_id(context, generator.manifest());
   std::set<std::string> wanted;
   std::vector<Stamped> missing;
   for (const CasePage& page : pages) {

@@ -45,7 +45,7 @@ std::string row_text(const CauseRow& row, std::size_t place, const CausesText& a
   text += row.id + ": severity " + decimal(row.severity, 1);
   if (about.cases > 0) text += ", " + count_text(row.cases) + " of " + counted(about.cases, "case", "cases");
   text += ", " + counted(std::ssize(row.members), "bucket", "buckets") + " (" + joined(row.characters) + ")  ";
-  return text + replay_command(absolute(row.members.front().path), about.library_folders) + "\n";
+  return text + replay_command(absolute(row.members.front().path), about.sources) + "\n";
 }
 
 Json row_json(const CauseRow& row, const CausesText& about) {
@@ -118,7 +118,7 @@ void run_causes(const CausesOptions& options, Context& context) {
   std::vector<Issue> damaged;
   const std::vector<RunRecord> runs = runs_of(*corpus, damaged);
   for (const Issue& issue : damaged) context.fail(issue);
-  CausesText about{.known = *known, .corpus = options.corpus, .library_folders = context.library_folders};
+  CausesText about{.known = *known, .corpus = options.corpus, .sources = context.sources};
   for (const RunRecord& run : runs) about.cases += run.cases;
   const auto buckets = std::ssize(members);
   const std::vector<CauseRow> rows = causes_of(std::move(members), runs);

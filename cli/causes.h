@@ -22,7 +22,7 @@ struct CausesText {
   std::set<std::string> known{};  // ids of causes that were there before; the others are new
   std::size_t most = 12;        // rows that are printed
   std::string corpus{};         // for the command that shows the others
-  const std::vector<std::string>& library_folders;
+  const Sources& sources;
 };
 
 // Two lines for each cause: its headline, and how severe and frequent it is with the command that shows its deepest

@@ -14,7 +14,7 @@ namespace {
 // The map that `import` left beside the character, or "".
 Result<std::string> own_map(const std::string& character, const Context& context) {
   std::error_code error;
-  for (const std::string& folder : context.library_folders)
+  for (const std::string& folder : context.sources.libraries)
     if (const std::string path = folder + "/maps/" + character + ".json";
         is_file_name(character) && std::filesystem::exists(path, error)) {
       const Result<Done> inside = check_inside(folder, path);

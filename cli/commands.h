@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "checks/settings.h"
+#include "cli/sources.h"
 #include "model/generator.h"
 #include "model/core/result.h"
 
@@ -31,8 +32,7 @@ Exit exit_of(const Issue& issue);
 
 struct Context {
   int exit_code = kClean;
-  std::vector<std::string> library_folders;  // --library
-  const Library* library = nullptr;          // stock and folders, made on first use
+  Sources sources;                           // --library, --generator
   std::string settings_file;                 // --settings
   std::string today;                         // --today, for waivers and quarantines
   std::string gl = "auto";                   // --gl: who draws; "none": nobody
@@ -40,7 +40,8 @@ struct Context {
   // The library, or nothing with the reason printed and the exit code set.
   const Library* load_library();
 
-  // The generator under test, over that library; nothing where load_library gives nothing.
+  // The generator under test: the program of --generator with its own characters, or the built-in one over that library.
+  // Nothing where it cannot be had, with the reason printed.
   Generator* load_generator();
 
   // The settings of checks; the defaults without --settings.
@@ -56,6 +57,7 @@ struct Context {
   void fail(const Issue& issue, Exit code = kBadInput);
 };
 
+void add_generator(CLI::App& app, Context& context);
 void add_fuzz(CLI::App& app, Context& context);
 void add_replay(CLI::App& app, Context& context);
 void add_generate(CLI::App& app, Context& context);

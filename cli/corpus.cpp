@@ -140,7 +140,7 @@ void show(const CorpusOptions& options, Context& context) {
     for (const Family& other : minimal->co_failures) line("comes with", print_family(other));
   for (const std::string& file : files_of(bucket))
     line(file.substr(0, file.find('-')).c_str(),
-         replay_command(corpus->folder_of(bucket) + "/" + file, context.library_folders));
+         replay_command(corpus->folder_of(bucket) + "/" + file, context.sources));
 }
 
 // Returns the buckets of the one cause whose id begins with `prefix`. A fixed bucket belongs to no cause.

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
+#include "cli/tested.h"
 #include "corpus/causes.h"
 #include "corpus/rules_header.h"
 #include "fuzz/condition_search.h"
@@ -80,6 +81,7 @@ class Explainer {
     const Result<CheckSettings> settings = context_.load_settings();
     if (generator == nullptr) return Done{};  // told already
     if (!settings) return settings.issue();
+    if (const Result<Done> same = check_generator(corpus_, generator->manifest()); !same) return same;
     const Result<std::string> build = own_build();
     if (!build) return build.issue();
     ConditionSearch search{.draws = options_.draws, .tool = *build};

@@ -22,6 +22,7 @@
 #include "cli/report_folder.h"
 #include "cli/seeds.h"
 #include "cli/surroundings.h"
+#include "cli/tested.h"
 #include "corpus/leads.h"
 #include "corpus/lifecycle.h"
 #include "fuzz/run.h"
@@ -166,6 +167,7 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
   config.jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   if (const Result<Done> chosen = choose_shrinking(options, config); !chosen) return chosen.issue();
   config.tool = CONTORT_VERSION;
+  config.generator = program_name(generator.manifest()), config.generator_build = generator.manifest().build;
   return config;
 }
 
@@ -262,12 +264,13 @@ void run(FuzzOptions options, Context& context) {
   std::signal(SIGTERM, on_interrupt);
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
+  if (options.profile.empty() && !context.sources.generator.empty()) options.profile = "guest";
   const Result<CheckSettings> settings = context.load_settings();
   if (!settings) return context.fail(settings.issue());
   Result<RunConfig> configured = configure(options, *settings, *generator);
   if (!configured) return context.fail(configured.issue());
   RunConfig config = std::move(configured).value();
-  config.surroundings = surroundings_id(context);
+  config.surroundings = surroundings_id(context, generator->manifest());
   Result<std::optional<AgainstConfig>> base = choose_base(options.against, config.limits, context);
   if (!base) return context.fail(base.issue());
   config.against = std::move(base).value();
@@ -294,7 +297,7 @@ void run(FuzzOptions options, Context& context) {
   const int code = exit_code_of(result, !gates || *gates);
   context.exit_code = code;
   print_totals(result, {options.json, options.corpus, options.report, options.shrinks_per_case, *settings,
-                        context.library_folders, config.against, known->causes});
+                        context.sources, config.against, known->causes});
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
   if (result.record.discarded > 0)

@@ -62,7 +62,7 @@ void print_causes(const RunResult& result, const TotalsRequest& request) {
               causes_text(causes.rows, {.cases = result.record.cases,
                                         .known = causes.known,
                                         .corpus = request.corpus,
-                                        .library_folders = request.library_folders})
+                                        .sources = request.sources})
                   .c_str());
 }
 
@@ -71,7 +71,7 @@ constexpr std::size_t kMostUnsteady = 5;  // that are printed; the others are on
 void print_unsteady(const RunResult& result, const TotalsRequest& request) {
   for (std::size_t i = 0; i < std::min(result.unconfirmed.size(), kMostUnsteady); ++i)
     std::printf("NOT CONFIRMED (a second run differed)  %s\n",
-                replay_command(result.unconfirmed[i], request.library_folders).c_str());
+                replay_command(result.unconfirmed[i], request.sources).c_str());
   if (result.unconfirmed.size() > kMostUnsteady)
     std::printf("and %zu more that were not confirmed, in %s/leads\n", result.unconfirmed.size() - kMostUnsteady,
                 request.corpus.c_str());
@@ -79,7 +79,7 @@ void print_unsteady(const RunResult& result, const TotalsRequest& request) {
 
 void print_found(const RunResult& result, const TotalsRequest& request) {
   if (request.against)
-    print_comparison(result, *request.against, request.library_folders);
+    print_comparison(result, *request.against, request.sources);
   else
     print_causes(result, request);
   print_unsteady(result, request);
@@ -109,7 +109,7 @@ void print_totals_json(const RunResult& result, const TotalsRequest& request) {
                            {"waivers", json_fields::Json::parse(waivers_json(request.settings, result.waivers))},
                            {"tested", t.tested}};
   if (request.against)
-    out["against"] = json_fields::Json::parse(comparison_json(result, *request.against, request.library_folders));
+    out["against"] = json_fields::Json::parse(comparison_json(result, *request.against, request.sources));
   if (!request.report.empty()) out["report"] = request.report + "/index.html";
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }

@@ -24,7 +24,7 @@ struct TotalsRequest {
   std::string report;  // folder of the report; empty if no report was asked for
   int shrinks_per_case = 4;
   const CheckSettings& settings;
-  const std::vector<std::string>& library_folders;
+  const Sources& sources;
   const std::optional<AgainstConfig>& against;
   const std::set<std::string>& known_causes;  // of the baseline: they are not new
 };

@@ -137,9 +137,16 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders) {
+std::vector<std::string> Sources::arguments() const {
+  std::vector<std::string> out;
+  for (const std::string& folder : libraries) out.insert(out.end(), {"--library", folder});
+  if (!generator.empty()) out.insert(out.end(), {"--generator", generator});
+  return out;
+}
+
+std::string replay_command(const std::string& case_path, const Sources& sources) {
   std::string command = "contort replay " + shell_quoted(case_path);
-  for (const std::string& folder : library_folders) command += " --library " + shell_quoted(folder);
+  for (const std::string& argument : sources.arguments()) command += " " + shell_quoted(argument);
   return command;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "checks/settings.h"
+#include "cli/sources.h"
 #include "corpus/case.h"
 #include "corpus/replay_scope.h"
 #include "model/character/library.h"
@@ -51,8 +52,8 @@ Result<double> parse_time_s(const std::string& text);
 // Why a number on the command line is none, "" where it is one: CLI::Range lets NaN pass.
 std::string refuse_nan(const std::string& text);
 
-// The command that shows a case again, quoted for a shell, with the libraries it needs.
-std::string replay_command(const std::string& case_path, const std::vector<std::string>& library_folders);
+// The command that shows a case again, quoted for a shell, with the libraries and the generator that it needs.
+std::string replay_command(const std::string& case_path, const Sources& sources);
 std::string shell_quoted(const std::string& text);
 
 }  // namespace contort::cli

@@ -7,6 +7,7 @@
 #include "checks/joint_map.h"
 #include "cli/catalogue_fields.h"
 #include "cli/commands.h"
+#include "guest/manifest.h"
 #include "cli/usage_text.h"
 #include "corpus/bucket.h"
 #include "corpus/case.h"
@@ -97,7 +98,8 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
                                                                           {"bucket", bucket_schema},
                                                                           {"profile", profile_schema},
                                                                           {"skin", skin_schema},
-                                                                          {"rules", conditions_schema}};
+                                                                          {"rules", conditions_schema},
+                                                                          {"generator", manifest_schema}};
   return all;
 }
 

@@ -6,8 +6,8 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/start.h"
+#include "cli/tested.h"
 #include "cli/usage_text.h"
-#include "generator/built_in.h"
 
 namespace contort::cli {
 
@@ -32,18 +32,17 @@ std::string refuse_no_day(const std::string& text) {
 Exit exit_of(const Issue& issue) { return issue.code == "file.unwritable" ? kInternal : kBadInput; }
 
 const Library* Context::load_library() {
-  if (library != nullptr) return library;
-  if (library_folders.empty()) return library = &stock_library();
-  static Result<Library> merged = load_libraries(library_folders);
-  if (!merged) return fail(merged.issue()), nullptr;
-  return library = &*merged;
+  const Generator* generator = load_generator();
+  return generator != nullptr ? generator->manifest().library : nullptr;
 }
 
 Generator* Context::load_generator() {
-  const Library* known = load_library();
-  if (known == nullptr) return nullptr;
-  static BuiltInGenerator built_in(*known);
-  return &built_in;
+  static std::optional<Tested> tested;
+  if (tested) return tested->generator.get();
+  Result<Tested> loaded = load_tested(sources);
+  if (!loaded) return fail(loaded.issue()), nullptr;
+  tested.emplace(std::move(loaded).value());
+  return tested->generator.get();
 }
 
 Result<CheckSettings> Context::load_settings() const {
@@ -74,9 +73,12 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App app("Contort finds the motions that your animation generator should never produce.", "contort");
   Context context;
-  app.add_option("--library", context.library_folders,
+  app.add_option("--library", context.sources.libraries,
                  "Folder with parts, objects, characters and actions (*.json) of your own; may be repeated")
       ->type_name("DIR");
+  app.add_option("--generator", context.sources.generator,
+                 "Test this program instead of the built-in generator (docs/guests.md)")
+      ->type_name("CMD");
   app.add_option("--settings", context.settings_file, "Limits to move and findings to waive (contort.settings/1)")
       ->type_name("FILE");
   app.add_option("--today", context.today, "Judge waivers and quarantines as on this day (default: today, UTC)")
@@ -92,7 +94,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 nothing gating, 1 gating findings, 2 bad usage or input, 3 internal error,\n"
       "4 inconclusive, 75 interrupted. 'contort COMMAND --help' and 'contort help COMMAND' explain one command.");
   for (const auto add :
-       {add_fuzz, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
+       {add_fuzz, add_generator, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
         add_corpus, add_causes, add_explain, add_merge, add_import, add_contacts, add_list, add_schema, add_tables,
         add_serve, add_version, add_help})
     add(app, context);

@@ -23,7 +23,7 @@ std::string renderer_path() {
 
 std::vector<std::string> renderer_call(const Context& context) {
   std::vector<std::string> call = {renderer_path(), "--gl", context.gl};
-  for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+  for (const std::string& argument : context.sources.arguments()) call.push_back(argument);
   if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
   return call;
 }

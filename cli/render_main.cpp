@@ -12,9 +12,9 @@
 #include "cli/input.h"
 #include "cli/render_options.h"
 #include "cli/start.h"
+#include "cli/tested.h"
 #include "cli/usage_text.h"
 #include "corpus/evaluator.h"
-#include "generator/built_in.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "renders/divergence.h"
@@ -77,7 +77,7 @@ StripInput strip_of(const Shown& shown, const RenderOptions& options, const std:
   strip.finding = subject_of(shown.input, shown.evaluation.findings);
   if (plays_another_motion(shown.input, shown.evaluation)) strip.note = "NOT THE STORED MOTION";
   strip.replay_command =
-      shown.input.stored ? replay_command(file, options.libraries) : "contort check " + shell_quoted(file);
+      shown.input.stored ? replay_command(file, options.sources) : "contort check " + shell_quoted(file);
   strip.tiles = options.tiles;
   strip.environment = &execution.environment;
   strip.dynamics = &shown.input.spec.dynamics;
@@ -142,7 +142,7 @@ std::string command_of(const RenderOptions& options, const std::vector<int>& fra
   if (options.colliders) command += " --colliders";
   if (!options.level.empty()) command += " --level " + shell_quoted(options.level);
   for (const std::string& label : options.labels) command += " --label " + shell_quoted(label);
-  for (const std::string& folder : options.libraries) command += " --library " + shell_quoted(folder);
+  for (const std::string& argument : options.sources.arguments()) command += " " + shell_quoted(argument);
   return command;
 }
 
@@ -292,17 +292,16 @@ int draw_what_is_asked(Studio& studio) {
 }
 
 int run(RenderOptions options) {
-  const Result<Library> library = load_libraries(options.libraries);
-  if (!library) return fail(library.issue(), kBadInput);
+  const Result<Tested> tested = load_tested(options.sources);
+  if (!tested) return fail(tested.issue(), kBadInput);
   Result<CheckSettings> settings = load_settings_file(options.settings_file);
   if (!settings) return fail(settings.issue(), kBadInput);
   options.settings = std::move(settings).value();
   options.settings.waivers.clear();  // what is waived is still there to be seen
   Result<StripRenderer> renderer = StripRenderer::create(*gl_source(options.gl));
   if (!renderer) return fail(renderer.issue(), kInternal);
-  Wardrobe wardrobe(options.libraries);
-  BuiltInGenerator generator(*library);
-  Studio studio{std::move(renderer).value(), generator, std::move(options), std::move(wardrobe)};
+  Wardrobe wardrobe(options.sources.libraries);
+  Studio studio{std::move(renderer).value(), *tested->generator, std::move(options), std::move(wardrobe)};
   const int code = draw_what_is_asked(studio);
   for (const Issue& note : studio.notes) std::fprintf(stderr, "contort: %s\n", to_line(note).c_str());
   return code;
@@ -313,8 +312,10 @@ int parse_and_run(int argc, char** argv) {
   RenderOptions options;
   app.add_option("FILE", options.files, "Case or spec; with --many: FILE PNG pairs")->required();
   add_picture_options(app, options);
-  app.add_option("--library", options.libraries, "Folder with parts, objects, characters and actions; may be repeated")
+  app.add_option("--library", options.sources.libraries,
+                 "Folder with parts, objects, characters and actions; may be repeated")
       ->allow_extra_args(false);
+  app.add_option("--generator", options.sources.generator, "Program that makes the motions");
   app.add_flag("--clips", options.clips, "With --many, a moving picture beside each strip");
   app.add_flag("--views", options.views, "With --many, beside each strip a script that says from where it is seen");
   app.add_option("--settings", options.settings_file, "Limits that are not the default ones");

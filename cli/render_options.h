@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "checks/settings.h"
+#include "cli/sources.h"
 #include "renders/divergence.h"
 
 namespace CLI {
@@ -43,7 +44,7 @@ std::vector<std::string> given_options(const CLI::App& command);
 // The options of contort-render.
 struct RenderOptions : PictureOptions {
   std::vector<std::string> files;
-  std::vector<std::string> libraries;
+  Sources sources;
   std::string gl = "auto";
   std::string settings_file;
   CheckSettings settings{};

@@ -13,6 +13,7 @@
 #include "cli/limits.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
+#include "cli/tested.h"
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
 #include "corpus/verify.h"
@@ -91,8 +92,8 @@ struct Totals {
 // One call of the command.
 class ReplayCommand {
  public:
-  ReplayCommand(const ReplayOptions& options, RunCase replay, Context& context)
-      : options_(options), replay_(std::move(replay), options.limits.limits()), context_(context) {}
+  ReplayCommand(const ReplayOptions& options, RunCase replay, const Manifest& manifest, Context& context)
+      : options_(options), replay_(std::move(replay), options.limits.limits()), manifest_(manifest), context_(context) {}
 
   Result<Done> prepare() {
     const Result<Baseline> known = load_baseline(options_.baseline);
@@ -113,6 +114,11 @@ class ReplayCommand {
       ++totals_.verdicts[Verdict::refused];
       return;
     }
+    if (const Result<Done> same = check_generator(*stored, manifest_); !same) {
+      context_.fail(about_file(path, same.issue()));
+      ++totals_.verdicts[Verdict::refused];
+      return;
+    }
     const Replay result = replay_(*stored);
     ++totals_.verdicts[result.verdict];
     raise(exit_code_of(result.verdict));
@@ -120,12 +126,13 @@ class ReplayCommand {
       list_.push_back(as_json(path, family_of(*stored), result));
     else
       std::printf("%-11s  %s  %s\n", std::string(verdict_name(result.verdict)).c_str(), path.c_str(),
-                  explain(*stored, result).c_str());
+                  (explain(*stored, result) + change_of_build(*stored)).c_str());
   }
 
   void run_corpus(const std::string& folder) {
     const Result<Corpus> corpus = Corpus::open(folder);
     if (!corpus) return context_.fail(corpus.issue());
+    if (const Result<Done> same = check_generator(*corpus, manifest_); !same) return context_.fail(same.issue());
     has_corpus_ = true;
     std::vector<Issue> damaged;
     const std::vector<Bucket> buckets = corpus->buckets(damaged);
@@ -156,6 +163,12 @@ class ReplayCommand {
   }
 
  private:
+  std::string change_of_build(const Case& stored) const {
+    const std::string& before = stored.provenance.generator_build;
+    if (before.empty() || before == manifest_.build) return "";
+    return ", the generator has changed from build " + before + " to " + manifest_.build;
+  }
+
   // Bad input says more than findings, and findings say more than a replay that was not steady.
   void raise(int code) {
     const auto weight = [](int c) { return c == kInternal ? 4 : c == kBadInput ? 3 : c == kFindings ? 2 : c != 0; };
@@ -210,7 +223,8 @@ class ReplayCommand {
     text += "  " + print_family(ran.bucket.family);
     if (const CaseReplay* one = shown_case(ran)) {
       if (one->result.verdict == Verdict::refused) text += "  " + to_line(one->result.issue);
-      text += "  " + replay_command(one->path, context_.library_folders);
+      if (const Result<Case> stored = read_case_input(one->path); stored) text += change_of_build(*stored);
+      text += "  " + replay_command(one->path, context_.sources);
     }
     const std::string verdict(ran.shown == Shown::unsteady ? "unsteady" : verdict_name(ran.verdict));
     std::printf("%-11s  %s  %s\n", verdict.c_str(), folder_name(ran.bucket).c_str(), printable(text).c_str());
@@ -230,6 +244,7 @@ class ReplayCommand {
 
   const ReplayOptions& options_;
   GuardedReplay replay_;
+  const Manifest& manifest_;
   Context& context_;
   Baseline known_;
   std::optional<Clock::time_point> end_;
@@ -251,7 +266,7 @@ void run(const ReplayOptions& options, Context& context) {
   const auto replay_one = [&](const Case& stored) {
     return replay(stored, evaluator, *scope, isolation_of(options.limits.limits()));
   };
-  ReplayCommand replays(options, replay_one, context);
+  ReplayCommand replays(options, replay_one, generator->manifest(), context);
   if (const Result<Done> ready = replays.prepare(); !ready) return context.fail(ready.issue());
   for (const std::string& path : options.paths) {
     std::error_code error;

@@ -17,6 +17,7 @@
 #include "cli/render.h"
 #include "cli/report_folder.h"
 #include "cli/single_file.h"
+#include "cli/tested.h"
 #include "cli/variants.h"
 #include "corpus/baseline.h"
 #include "corpus/corpus.h"
@@ -85,7 +86,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.worst_margin = stored.expect.worst_margin;
   row.case_file = location_of(with.corpus, path);
   row.spec_json = pretty_spec(stored.spec);
-  row.replay_command = replay_command(path, with.context.library_folders);
+  row.replay_command = replay_command(path, with.context.sources);
   if (row.has_motion && with.context.gl != "none") {
     const std::string name = picture_name(row, stored, with.settings);
     row.strip = name + ".png", row.clip = name + ".webp";
@@ -314,6 +315,8 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
 void make_report(const ReportRequest& request, Generator& generator, Context& context) {
   const Result<Corpus> corpus = Corpus::open(request.corpus);
   if (!corpus) return context.fail(corpus.issue());
+  if (const Result<Done> same = check_generator(*corpus, generator.manifest()); !same)
+    return context.fail(same.issue());
   if (const Result<CheckSettings> settings = context.load_settings(); !settings) return context.fail(settings.issue());
   const Result<Baseline> known = load_baseline(request.outputs.baseline);
   if (!known) return context.fail(known.issue());

@@ -79,7 +79,7 @@ std::string catalogue(Generator& generator, const ServeOptions& options) {
 std::vector<std::string> own_call(const Context& context) {
   std::error_code error;
   std::vector<std::string> call = {fs::read_symlink("/proc/self/exe", error).string(), "--gl", context.gl};
-  for (const std::string& folder : context.library_folders) call.insert(call.end(), {"--library", folder});
+  for (const std::string& argument : context.sources.arguments()) call.push_back(argument);
   if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
   if (!context.today.empty()) call.insert(call.end(), {"--today", context.today});
   return call;

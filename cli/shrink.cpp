@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/print.h"
+#include "cli/tested.h"
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
 #include "fuzz/profile_violations.h"
@@ -37,6 +38,8 @@ std::optional<Case> failing_now(const ShrinkOptions& options, Generator& generat
   if (!stored) return context.fail(stored.issue()), std::nullopt;
   Evaluator evaluator(generator, settings);
   GuardedReplay guarded([&](const Case& c) { return replay(c, evaluator); }, {});
+  if (const Result<Done> same = check_generator(*stored, generator.manifest()); !same)
+    return context.fail(about_file(options.input, same.issue())), std::nullopt;
   const Replay now = guarded(*stored);
   if (now.verdict == Verdict::refused) return context.fail(about_file(options.input, now.issue)), std::nullopt;
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
@@ -89,7 +92,7 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
   for (const Family& other : shrunk.minimal.co_failures) std::printf("comes with it: %s\n", print_family(other).c_str());
   if (shrunk.precursor) std::printf("a run files it under: %s\n", print_family(family_of(*shrunk.precursor)).c_str());
   for (const Case& other : shrunk.met) std::printf("also met: %s\n", print_family(family_of(other)).c_str());
-  std::printf("%s\n", replay_command(output, context.library_folders).c_str());
+  std::printf("%s\n", replay_command(output, context.sources).c_str());
 }
 
 void print_json(const Shrunk& shrunk, const std::string& output) {

@@ -11,6 +11,7 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "process/ended.h"
 
 namespace contort::cli {
 
@@ -48,6 +49,9 @@ int close_output(int code) {
 int run_guarded(int argc, char** argv, int (*run)(int argc, char** argv)) {
   try {
     return run(argc, argv);
+  } catch (const ProgramEnded& ended) {
+    std::fprintf(stderr, "contort: generator.ended: %s\n", ended.what());
+    return kFindings;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contort: internal error: %s\n", error.what());
     return kInternal;

@@ -28,9 +28,9 @@ bool is_of_library(const fs::directory_entry& entry) {
 
 }  // namespace
 
-std::string surroundings_id(const Context& context) {
-  std::string ids = id_of_file("/proc/self/exe") + id_of_file(context.settings_file);
-  for (const std::string& folder : context.library_folders) {
+std::string surroundings_id(const Context& context, const Manifest& manifest) {
+  std::string ids = id_of_file("/proc/self/exe") + id_of_file(context.settings_file) + manifest.build;
+  for (const std::string& folder : context.sources.libraries) {
     std::set<std::string> names;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))

@@ -30,6 +30,7 @@ struct Expectation {
   std::string phase{};         // of the worst frame, a name of checks/circumstances.h; "" where no motion was judged
   int limit_s = 0;             // of a timeout: in so many seconds it did not end
   int limit_MB = 0;            // of memory: it took more than this
+  std::string printed{};       // the last words of a generator that is a program of its own, before it ended
   bool operator==(const Expectation&) const = default;
 };
 
@@ -48,6 +49,8 @@ struct Provenance {
   std::string base{};         // the other build of a comparison, "0.1.0 1a2b…"; "": there was none (docs/against.md)
   std::string base_shows{};   // by that build for this spec: "passes_check", "passes" or "milder"
   double base_margin = 0.0;   // the base's margin for the family, in the check's scale; 0 if it judged none
+  std::string generator{};        // name of the program under test; "": the built-in generator
+  std::string generator_build{};  // its build and the hash of its manifest
   bool operator==(const Provenance&) const = default;
 };
 

@@ -37,6 +37,8 @@ void fields(V& v, const Expectation*) {
   v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400},
           "Of a timeout: it did not end in so many seconds.");
   v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
+  v.field("printed", &Expectation::printed, {.text = json_fields::Text::prose, .may_be_empty = true},
+          "Last words of a generator that is a program of its own, before it ended.");
 }
 
 template <class V>
@@ -62,6 +64,10 @@ void fields(V& v, const Provenance*) {
           "By the base for this spec: passes_check (no finding of the check), passes (none of the family) or milder.");
   v.field("base_margin", &Provenance::base_margin, {.low = -1e300, .high = 1e300},
           "The base's margin for the family, in the check's scale; 0 if it judged none.");
+  v.field("generator", &Provenance::generator, stored_rules::kText,
+          "Name of the program that made the motion; empty: the built-in generator.");
+  v.field("generator_build", &Provenance::generator_build, stored_rules::kText,
+          "Its build, and the hash of its manifest.");
 }
 
 template <class V>

@@ -102,6 +102,7 @@ struct Offered {
   OfferedAction action;
   int part = 0;
   bool touches = false;  // what stands beside the part
+  double rate_hz = 60.0;
 };
 
 bool touches_walls(const Generator& generator, const Character& character, const OfferedAction& action, int part) {
@@ -166,7 +167,7 @@ Offered offered(const AuditRow& row, Generator& generator) {
   const int part = character.find_part(row.slot);
   OfferedAction action = *find_offer(generator.offers(character), part, row.action);
   const bool touches = touches_walls(generator, character, action, part);
-  return {std::move(character), std::move(action), part, touches};
+  return {std::move(character), std::move(action), part, touches, generator.manifest().rate_hz};
 }
 
 Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index) {
@@ -175,7 +176,10 @@ Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index)
   for (int& value : raw) value = dice.raw();
   ActionUse use;
   use.action = row.action, use.slot = row.slot;
-  use.duration_frames = kShortestFrames + dice.below(kLongestFrames - kShortestFrames + 1);
+  const FrameRange frames = on.action.duration.value_or(FrameRange{kShortestFrames, kLongestFrames});
+  use.duration_frames = frames.least + dice.below(frames.most - frames.least + 1);
+  if (on.action.blend_in) use.blend_in_frames = on.action.blend_in->least;
+  if (on.action.blend_out) use.blend_out_frames = on.action.blend_out->least;
   const Part& part = on.character.parts()[static_cast<std::size_t>(on.part)];
   draw_params(on.character, part, on.action, Profile{}, raw, use);
   take_corners(on.action, dice, use);
@@ -183,6 +187,7 @@ Spec drawn(const AuditRow& row, const Offered& on, std::int64_t seed, int index)
     if (is_point(def)) use.params[def.name] = row.point;
   Spec spec;
   spec.character = row.character;
+  spec.rate_hz = on.rate_hz;
   spec.hold_frames = kHoldFrames;
   spec.dynamics.mode = row.dynamics;
   if (on.touches) spec.environment.obstacles = {wall_beside(on.character, part, dice)};

@@ -96,13 +96,20 @@ ActionUse compose_action(const RawAction& raw, const Stock& stock) {
   use.slot = part.slot;
   use.start_frame = between(raw.start, 0, 40);
   const Profile& profile = stock.features.profile();
-  use.duration_frames = between(raw.duration, profile.shortest_frames, profile.longest_frames);
+  const FrameRange duration = action.duration.value_or(FrameRange{profile.shortest_frames, profile.longest_frames});
+  use.duration_frames = between(raw.duration, duration.least, duration.most);
   use.speed = speed_of(raw.speed, stock.features);
   const auto draw_blend = [&](int raw_frames, std::string_view field, int& frames) {
     frames = blend_of(raw_frames, frames, stock.features, profile.rule_for(part.slot, action.name, field));
   };
-  if (action.timing == Timing::course) draw_blend(raw.blend_in, "blend_in_frames", use.blend_in_frames);
-  if (action.layer != Layer::overwrite) draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
+  if (action.blend_in)
+    use.blend_in_frames = between(raw.blend_in, action.blend_in->least, action.blend_in->most);
+  else if (action.timing == Timing::course)
+    draw_blend(raw.blend_in, "blend_in_frames", use.blend_in_frames);
+  if (action.blend_out)
+    use.blend_out_frames = between(raw.blend_out, action.blend_out->least, action.blend_out->most);
+  else if (action.layer != Layer::overwrite)
+    draw_blend(raw.blend_out, "blend_out_frames", use.blend_out_frames);
   draw_params(stock.character, part, action, profile, raw.values, use);
   if (is_pose(action) && !profile.wild_poses && !narrows(profile, part, action))
     make_sensible(stock.character, part, action.params, stock.environment, use);
@@ -286,11 +293,14 @@ bool is_level(const std::array<int, kRawGround>& ground, const Profile& profile)
 
 Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator) {
   const Manifest& manifest = generator.manifest();
-  const Features features(config.profile, raw.omitted);
+  Profile profile = config.profile;
+  profile.speeds = profile.speeds && manifest.can.speeds;
+  const Features features(profile, raw.omitted);
   const std::string& name = config.characters[pick(raw.character, config.characters.size())];
   Spec spec;
   spec.character = compose_character(raw, name, features, *manifest.library);
   compose_attachments(raw, features, *manifest.library, spec.character);
+  spec.rate_hz = manifest.rate_hz;
   spec.hold_frames = between(raw.hold, 0, 10);
   const Result<Character> character = build_character(spec.character, *manifest.library);
   if (!character) return spec;  // the caller's build says why

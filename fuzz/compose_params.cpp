@@ -83,21 +83,26 @@ ParamValue draw_around(Values& values) {
 }
 
 ParamValue draw_uniform(const ParamDef& def, Values& values) {
-  const double steps = steps_per_unit(def.name);
-  const auto one = [&] { return within(def.low + (def.high - def.low) * values.next(), steps, def.low, def.high); };
-  if (def.type == ParamType::number) return one();
-  const double x = one(), y = one(), z = one();
+  const auto one = [&](double low, double high) {
+    return within(low + (high - low) * values.next(), steps_of(def), low, high);
+  };
+  if (def.type == ParamType::number) return one(def.low, def.high);
+  const Vec3 low = def.box.empty() ? Vec3(def.low) : def.box[0], high = def.box.empty() ? Vec3(def.high) : def.box[1];
+  const double x = one(low.x, high.x), y = one(low.y, high.y), z = one(low.z, high.z);
   return Vec3(x, y, z);
+}
+
+template <class T>
+const T& one_of(const std::vector<T>& list, Values& values) {
+  return list[std::min(list.size() - 1, static_cast<std::size_t>(values.next() * static_cast<double>(list.size())))];
 }
 
 ParamValue draw_param(const Character& character, const Part& part, std::size_t index, const ParamDef& def,
                       Values& values) {
+  if (!def.special.empty() && values.next() < 0.5) return one_of(def.special, values);
+  if (def.type == ParamType::choice && !def.special.empty()) return one_of(def.choices, values);
   if (def.type == ParamType::choice) return def.choices[values.next() < 0.5 ? 0 : def.choices.size() - 1];
-  if (def.type == ParamType::object_point || def.type == ParamType::own_point) {
-    const std::vector<std::string>& names = def.points;
-    return names[std::min(names.size() - 1,
-                          static_cast<std::size_t>(values.next() * static_cast<double>(names.size())))];
-  }
+  if (def.type == ParamType::object_point || def.type == ParamType::own_point) return one_of(def.points, values);
   switch (def.domain) {
     case Domain::joint_range:
       return draw_joint(character.joints()[static_cast<std::size_t>(part.first_joint) + index], values);
@@ -111,7 +116,7 @@ ParamValue draw_param(const Character& character, const Part& part, std::size_t 
 
 // Draws a value that the rule and the parameter both allow; off the lattice where no step of it lies there.
 ParamValue draw_by_rule(const DrawRule& rule, const ParamDef& def, Values& values) {
-  const double steps = steps_per_unit(def.name);
+  const double steps = steps_of(def);
   const auto one = [&](std::size_t i) {
     const double low = std::max(def.low, rule.low[std::min(i, rule.low.size() - 1)]);
     const double high = std::min(def.high, rule.high[std::min(i, rule.high.size() - 1)]);

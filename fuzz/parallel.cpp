@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -14,12 +15,20 @@ void parallel_for(int jobs, int count, const std::function<void(int, int)>& work
   std::atomic<int> next{0};
   std::mutex mutex;
   std::condition_variable finished;
+  std::exception_ptr first_failure;
   int running = std::min(jobs, count);
   std::vector<std::thread> threads;
   for (int worker = 0; worker < std::min(jobs, count); ++worker)
     threads.emplace_back([&, worker] {
-      for (int index = next++; index < count; index = next++) work(worker, index);
+      std::exception_ptr failure;
+      try {
+        for (int index = next++; index < count; index = next++) work(worker, index);
+      } catch (...) {
+        failure = std::current_exception();
+        next = count;
+      }
       const std::lock_guard lock(mutex);
+      if (failure && !first_failure) first_failure = failure;
       if (--running == 0) finished.notify_one();
     });
   {
@@ -31,6 +40,7 @@ void parallel_for(int jobs, int count, const std::function<void(int, int)>& work
     }
   }
   for (std::thread& thread : threads) thread.join();
+  if (first_failure) std::rethrow_exception(first_failure);
 }
 
 }  // namespace contort

@@ -50,11 +50,13 @@ class ProfileViolations {
   void count(const ActionUse& use) {
     count_if(!is_among(profile_.actions, use.action) || !is_among(profile_.slots, use.slot) ||
              profile_.never(use.slot, use.action));
-    count_if(use.duration_frames < profile_.shortest_frames || use.duration_frames > profile_.longest_frames);
     count_if(!profile_.speeds && use.speed != 1.0);
+    const OfferedAction* action = nullptr;
+    if (character_ != nullptr)
+      action = find_offer(generator_.offers(*character_), character_->find_part(use.slot), use.action);
+    if (action == nullptr || !action->duration)
+      count_if(use.duration_frames < profile_.shortest_frames || use.duration_frames > profile_.longest_frames);
     if (character_ == nullptr) return;
-    const int part = character_->find_part(use.slot);
-    const OfferedAction* action = find_offer(generator_.offers(*character_), part, use.action);
     is_known_ = is_known_ && action != nullptr;
     if (action != nullptr) count(use, *action);
   }
@@ -84,7 +86,7 @@ class ProfileViolations {
 }  // namespace
 
 int profile_violations(const Spec& spec, const Profile& profile, Generator& generator) {
-  const bool asks_character = !profile.overlaps || !profile.rules.empty();
+  const bool asks_character = !profile.overlaps || !profile.rules.empty() || !generator.manifest().can.speeds;
   const Result<Character> character =
       asks_character ? build_character(spec.character, *generator.manifest().library) : Result<Character>(Issue{});
   ProfileViolations found(profile, generator, character ? &*character : nullptr);

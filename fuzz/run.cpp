@@ -110,7 +110,7 @@ class Run {
   }
 
   Lineage lineage_of(std::size_t island, std::int64_t index) const {
-    return odds_.staged ? state_.ingredients[island].lineage_of(odds_.seed, index)
+    return odds_.staged ? state_.ingredients[island].lineage_of(odds_.seed, index, odds_.quick)
                         : state_.islands[island].lineage_of(odds_, index);
   }
 
@@ -244,6 +244,7 @@ class Run {
 Provenance provenance_in(const RunConfig& config, std::int64_t index) {
   Provenance from;
   from.tool = config.tool, from.seed = config.seed, from.index = index;
+  from.generator = config.generator, from.generator_build = config.generator_build;
   if (config.draw.profile != Profile{}) from.profile = config.draw.profile.name;
   return from;
 }

@@ -43,6 +43,8 @@ struct RunConfig {
   std::optional<AgainstConfig> against;  // only failures that this build does not show count
   std::string surroundings;  // what all cases depend on, as an id: another one is another run
   std::string tool;      // version, for provenance
+  std::string generator{};        // name of the program under test, for provenance; "": the built-in generator
+  std::string generator_build{};  // its build
   double deadline_s = 0.0;  // on the steady clock; set by the run
 };
 

@@ -80,6 +80,7 @@ void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const st
     const double* preset = std::get_if<double>(&declared.preset);
     add_number(out, pointer, name, *number, preset != nullptr ? *preset : 0.0, limits);
     out.back().is_default = false;  // it is there, and need not be
+    if (declared.steps > 0.0) out.back().place.steps_per_unit = declared.steps;
     out.back().reset = [&use, name] { use.params.erase(name); };
   } else if (Vec3* vector = std::get_if<Vec3>(&value)) {
     const Vec3* preset = std::get_if<Vec3>(&declared.preset);
@@ -87,6 +88,9 @@ void add_param(Leaves& out, const std::string& pointer, ActionUse& use, const st
       add_number(out, pointer + "/" + std::to_string(i), name, (*vector)[i], preset != nullptr ? (*preset)[i] : 0.0,
                  limits);
       out.back().reset = {};
+      if (declared.steps > 0.0) out.back().place.steps_per_unit = declared.steps;
+      if (!declared.box.empty())
+        out.back().place.low = declared.box[0][i], out.back().place.high = declared.box[1][i];
     }
   } else {
     SpecField place;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,13 @@ struct EventSource {
   bool operator==(const EventSource&) const = default;
 };
 
+// The least and the greatest number of frames that may be asked for.
+struct FrameRange {
+  int least = 0;
+  int most = 0;
+  bool operator==(const FrameRange&) const = default;
+};
+
 // An action as one part of an assembled character can perform it.
 struct OfferedAction {
   std::string name;
@@ -47,6 +55,9 @@ struct OfferedAction {
   std::vector<int> moves;          // parts, this one first
   std::vector<EventSource> tells;  // in the order of parts
   int file = -1;                   // index into the actions of the manifest's library; -1: the generator's own
+  std::optional<FrameRange> duration{};  // nothing: the profile of the search decides
+  std::optional<FrameRange> blend_in{};
+  std::optional<FrameRange> blend_out{};
   bool operator==(const OfferedAction&) const = default;
 };
 
@@ -59,6 +70,7 @@ struct Capabilities {
   bool grounds = true;  // other than level
   bool obstacles = true;
   bool dynamics = true;
+  bool speeds = true;  // of uses, clips and sequences, other than 1; durations of clips and sequences
   bool operator==(const Capabilities&) const = default;
 };
 
@@ -66,6 +78,8 @@ struct Manifest {
   std::string name;                  // "contort"
   const Library* library = nullptr;  // characters and their parts; never null, and outlives the generator
   std::vector<std::string> actions;  // names of all
+  double rate_hz = 60.0;             // of the motions that a search asks for
+  std::string build{};               // tells builds of a generator that is a program of its own apart
   Capabilities can{};
 };
 

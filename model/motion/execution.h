@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "model/character/character.h"
+#include "model/motion/foreign.h"
 #include "model/motion/intent.h"
 #include "model/motion/motion.h"
 #include "model/world/environment.h"
@@ -25,6 +26,7 @@ struct Execution {
   Motion motion;
   std::optional<Intent> intent;  // nothing where the generator does not say what it meant
   RootPath path = RootPath::told;
+  std::optional<ForeignFacts> foreign{};  // of a generator that is a program of its own
 
   const Intent* said() const { return intent ? &*intent : nullptr; }
 };

@@ -63,6 +63,8 @@ struct Goal {
   int socket = 0;          // of the character: what shall be there
   int target_socket = -1;  // another socket of the character, wherever it is by then; -1: target_m
   Vec3 target_m{0.0};      // in the character's frame: on the ground under the root, +Z forward
+  bool in_world = false;   // target_m is in the world
+  double within_m = 0.0;   // the distance that the generator allows itself, where it is more than a check would
   bool operator==(const Goal&) const = default;
 };
 

@@ -47,11 +47,15 @@ struct ParamDef {
   std::string help;
   std::vector<std::string> points{};  // of object_point and own_point: the names that this part can use
   bool is_characteristic = false;     // a file gave the preset: it is part of what makes the action that action
+  std::vector<ParamValue> special{};  // values that are drawn in half of the cases, each as often as the others
+  double steps = 0.0;                 // steps_of() this parameter, where its name does not tell them
+  std::vector<Vec3> box{};            // of a vector: its lowest and highest components, where they differ
   bool operator==(const ParamDef&) const = default;
 };
 
 // The lattice on which the fuzzer draws and shrinks a parameter, by its unit: whole degrees, centimetres, 0.1 m/s,
 // hundredths of a share.
 double steps_per_unit(std::string_view param_name);
+double steps_of(const ParamDef& def);
 
 }  // namespace contort

@@ -192,7 +192,7 @@ TEST(Profile, ABaseThatIsNotBuiltInIsRefused) {
   EXPECT_EQ(refused(R"("base":"tame","longest_frames":7)"), "profile.no_range at /longest_frames")
       << "checked as a whole";
   EXPECT_EQ(load_profile("tamer").issue().text,
-            "no profile is called \"tamer\"; there are nightly, pr, smoke, stress, tame, and files; did you mean \"tame\"?");
+            "no profile is called \"tamer\"; there are guest, nightly, pr, smoke, stress, tame, and files; did you mean \"tame\"?");
 }
 
 // Any finding is a fault of the generator. 100,000 cases were clean; these are some that ran for a second or two.

@@ -13,6 +13,7 @@
 #include "model/character/library.h"
 #include "model/character/skin_desc.h"
 #include "model/core/files.h"
+#include "guest/manifest.h"
 #include "model/spec/spec.h"
 
 namespace contort {
@@ -38,6 +39,7 @@ TEST(Schema, PublishedFilesAreWhatTheReadersSay) {
   EXPECT_EQ(published("bucket"), bucket_schema());
   EXPECT_EQ(published("profile"), profile_schema());
   EXPECT_EQ(published("rules"), conditions_schema());
+  EXPECT_EQ(published("generator"), manifest_schema());
 }
 
 // The smallest value that the schema of a property allows: made of its default, its limits, its first choice.

@@ -98,6 +98,17 @@ Texts gltf_seeds() {
 Texts bvh_seeds() { return {small_bvh(), replaced(small_bvh(), "0.25", "0.01")}; }
 Texts asf_amc_seeds() { return {small_asf() + small_amc()}; }
 
+Texts generator_seeds() {
+  const std::string joints = R"([{"name":"hips","position":[0,1,0]},{"name":"knee","parent":"hips","slot":"leg",)"
+                             R"("type":"hinge","axis":[1,0,0],"low_deg":-10,"high_deg":120}])";
+  const std::string manifest = R"({"contort":1,"name":"g","convention":{"up":"+z","forward":"-y","handed":"left"},)"
+                               R"("characters":[{"name":"hero","joints":)" + joints +
+                               R"(,"parts":{"leg":["a","b"]}}],"actions":[{"name":"kick","slots":["leg"],"effect":"cut",)"
+                               R"("params":{"far":{"low":-1,"high":2,"special":[0.5]},"to":{"type":"vec3"}}}]})";
+  constexpr double kFrame[] = {0, 1, 0, 0, 0, 0, 1, 0.6, 0, 0, 0.8};
+  return {manifest, manifest + "\n#!\n" + std::string(reinterpret_cast<const char*>(kFrame), sizeof kFrame)};
+}
+
 // Two postures of an arm of seven coordinates: a ball and three hinges.
 Texts aim_table_seeds() {
   constexpr double kPostures[] = {1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0.5, 0, 0};
@@ -111,6 +122,7 @@ constexpr Target kTargets[] = {
     {"gltf", try_gltf, gltf_seeds},
     {"bvh", try_bvh, bvh_seeds},
     {"asf_amc", try_asf_amc, asf_amc_seeds},
+    {"generator", try_generator, generator_seeds},
     {"aim_table", try_aim_table, aim_table_seeds},
 };
 

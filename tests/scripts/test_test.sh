@@ -62,7 +62,7 @@ echo "10/30 Test #10: Scripts.Slurm ......................***Skipped   0.01 sec"
   local fuzzers=$scratch/project/build/dev/tests/libfuzzer name
   # shellcheck disable=SC2016  # the variables are the stand-ins'
   fake "$fuzzers/contort_seeds" 'mkdir -p "$1"'
-  for name in spec case description gltf bvh asf_amc aim_table; do
+  for name in spec case description gltf bvh asf_amc generator aim_table; do
     # shellcheck disable=SC2016
     fake "$fuzzers/fuzz_$name" 'echo "got: $*"; echo "Done 12 runs in 30 second(s)"'
   done

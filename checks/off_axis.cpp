@@ -1,0 +1,27 @@
+// off_axis: a hinge turns about its axis and in no other way. The coordinate of a hinge cannot hold the rest of its
+// rotation, so the generator's host hands it over.
+#include "checks/check.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kOffAxisLimit_rad = 1.0 * kRadPerDeg;
+
+}  // namespace
+
+int off_axis_subject_count(const Character& character) { return static_cast<int>(character.joints().size()); }
+
+Subject off_axis_subject(const Character& character, int subject) {
+  return {character.joints()[static_cast<std::size_t>(subject)].name, "rad"};
+}
+
+void off_axis_measure(const CheckInput& in, MarginFold& fold) {
+  const std::span<const Joint> joints = in.character.joints();
+  const std::vector<double>& off = in.foreign->off_axis_rad;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (const std::size_t j = i % joints.size(); joints[j].kind == JointKind::hinge)
+      fold.report(static_cast<int>(j), static_cast<int>(i / joints.size()), kOffAxisLimit_rad - off[i]);
+}
+
+}  // namespace contort

@@ -1,0 +1,33 @@
+// What `contort generator check` finds out about a generator that is a program of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "guest/guest_generator.h"
+
+namespace contort::cli {
+
+struct Remark {
+  bool is_fault = false;  // else a note that a person should read
+  std::string text;       // one sentence that says what to change
+  bool operator==(const Remark&) const = default;
+};
+
+struct Conformance {
+  std::vector<Remark> remarks;
+  std::string determinism;  // one sentence
+  std::vector<std::string> judged;                             // names of checks
+  std::vector<std::pair<std::string, std::string>> not_judged;  // with the reasons
+  int motions = 0;
+  double frames_per_s = 0.0;
+  double start_s = 0.0;
+
+  bool has_fault() const;
+};
+
+// Asks for rest, for motions that are drawn like those of a run, for the ends of every parameter, and for one motion
+// several times in several processes. Takes seconds.
+Conformance check_conformance(GuestGenerator& generator);
+
+}  // namespace contort::cli

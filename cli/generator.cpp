@@ -1,0 +1,82 @@
+// contort generator check: whether a program keeps the protocol contort.generator/1, in sentences.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/conformance.h"
+#include "process/clock.h"
+
+namespace contort::cli {
+
+namespace {
+
+void print_understood(const GuestManifest& said) {
+  std::printf("%s%s%s\n", said.name.c_str(), said.build.empty() ? "" : ", build ", said.build.c_str());
+  for (const GuestCharacter& character : said.characters)
+    std::printf("  character %s: %zu joints, %zu colliders\n", character.name.c_str(), character.joints.size(),
+                character.colliders.size());
+  for (const GuestAction& action : said.actions)
+    std::printf("  action %s: %zu parameters, %g to %g s\n", action.name.c_str(), action.params.size(),
+                action.duration_s[0], action.duration_s[1]);
+}
+
+void print_limits(const GuestCharacter& character) {
+  std::printf("limits of %s as understood:\n", character.name.c_str());
+  for (const GuestJoint& joint : character.joints) {
+    if (joint.parent.empty()) continue;
+    if (joint.type == GuestJointType::fixed)
+      std::printf("  %-24s does not move\n", joint.name.c_str());
+    else if (joint.type == GuestJointType::hinge)
+      std::printf("  %-24s %g to %g degrees about its axis, at most %g degrees/s\n", joint.name.c_str(), joint.low_deg,
+                  joint.high_deg, joint.max_speed_deg_s);
+    else
+      std::printf("  %-24s swing %g degrees, twist %g to %g degrees, at most %g degrees/s\n", joint.name.c_str(),
+                  joint.swing_deg, joint.low_deg, joint.high_deg, joint.max_speed_deg_s);
+  }
+}
+
+void print_conformance(const Conformance& found) {
+  std::printf("started in %.2f s; %d motions, %.0f checked frames per second\n", found.start_s, found.motions,
+              found.frames_per_s);
+  if (!found.determinism.empty()) std::printf("determinism: %s\n", found.determinism.c_str());
+  std::string judged;
+  for (const std::string& name : found.judged) judged += (judged.empty() ? "" : ", ") + name;
+  std::printf("judged: %s\n", judged.empty() ? "nothing" : judged.c_str());
+  for (const auto& [check, reason] : found.not_judged)
+    std::printf("not judged: %s: %s\n", check.c_str(), reason.c_str());
+  for (const Remark& remark : found.remarks)
+    std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", remark.text.c_str());
+  if (!found.has_fault()) std::printf("OK: the generator keeps the protocol.\n");
+}
+
+void run(const std::string& command, bool limits, Context& context) {
+  const double start_s = steady_s();
+  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(command);
+  if (!started) return context.fail(started.issue());
+  const double manifest_s = steady_s() - start_s;
+  GuestGenerator& generator = **started;
+  print_understood(generator.said());
+  if (limits)
+    for (const GuestCharacter& character : generator.said().characters) print_limits(character);
+  Conformance found = check_conformance(generator);
+  found.start_s = manifest_s;
+  print_conformance(found);
+  context.exit_code = found.has_fault() ? kFindings : kClean;
+}
+
+}  // namespace
+
+void add_generator(CLI::App& app, Context& context) {
+  CLI::App* group = app.add_subcommand("generator", "Examine a generator that is a program of its own");
+  group->require_subcommand(1);
+  CLI::App* check = group->add_subcommand(
+      "check", "Say whether a program keeps the protocol contort.generator/1, what it declares, and what is judged");
+  auto command = std::make_shared<std::string>();
+  auto limits = std::make_shared<bool>(false);
+  check->add_option("CMD", *command, "The program, as --generator takes it")->required();
+  check->add_flag("--limits", *limits, "List the limits of every joint as they were understood");
+  check->callback([=, &context] { run(*command, *limits, context); });
+}
+
+}  // namespace contort::cli

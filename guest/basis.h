@@ -1,0 +1,29 @@
+// Conversion from a generator's axes, hand and unit to ours: y up, z forward, right-handed, metres.
+#pragma once
+
+#include "guest/manifest.h"
+#include "model/core/math.h"
+
+namespace contort {
+
+// Every frame of reference is expressed anew in our axes, those of joints included. So a joint's local rotation R
+// becomes B R B^-1, where the rows of B are our axes in the generator's coordinates. A quaternion keeps its w, and its
+// vector becomes det(B) B v.
+class Basis {
+ public:
+  explicit Basis(const GuestConvention& convention);
+
+  Vec3 direction(const Vec3& theirs) const;
+  Vec3 point_m(const Vec3& theirs) const { return unit_m_ * direction(theirs); }
+  // An axis of rotation keeps the sense of its angle: in a left-handed system it is the opposite one.
+  Vec3 axis(const Vec3& theirs) const { return handedness_ * direction(theirs); }
+  Quat rotation(double x, double y, double z, double w) const;
+  double unit_m() const { return unit_m_; }
+
+ private:
+  Vec3 left_, up_, forward_;  // our x, y and z in their coordinates
+  double handedness_ = 1.0;   // det(B)
+  double unit_m_ = 1.0;
+};
+
+}  // namespace contort

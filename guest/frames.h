@@ -1,0 +1,30 @@
+// Frames of a generator that is a program of its own as a motion.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "guest/basis.h"
+#include "guest/manifest.h"
+#include "model/character/character.h"
+#include "model/motion/foreign.h"
+#include "model/motion/motion.h"
+
+namespace contort {
+
+// How the frames of a character are laid out.
+struct FrameLayout {
+  const Character& character;
+  std::span<const int> joints;  // of ours, in the order of the manifest
+  Basis basis;
+  FrameFormat format = FrameFormat::f64;
+};
+
+std::size_t bytes_of(const FrameLayout& layout, int frames);
+
+// Overwrites coordinates, root, and number of frames. The bytes are as many as bytes_of() says. A ball takes the whole
+// rotation. A hinge takes the part about its axis, and what is left of the rotation goes into the facts. A quaternion
+// of length 0 stands for no rotation against rest. NaN stays NaN.
+void read_frames(std::string_view bytes, const FrameLayout& layout, int frames, Motion& motion, ForeignFacts& facts);
+
+}  // namespace contort

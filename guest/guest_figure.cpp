@@ -1,0 +1,199 @@
+#include "guest/guest_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "guest/basis.h"
+#include "guest/manifest_check.h"
+#include "model/core/index.h"
+
+namespace contort {
+
+namespace {
+
+constexpr std::size_t kLongestName = 40;     // of a joint
+constexpr double kBoneThickness = 0.08;      // radius of a drawn bone, as a share of its length
+constexpr double kShortestBone_m = 1e-4;
+constexpr double kEndRadius_m = 0.01;        // of a joint without children
+constexpr std::string_view kDock = "dock_";  // sockets on which other slots hang
+
+std::string legal_name(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool is_digit = c >= '0' && c <= '9';
+    const char low = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    out += is_letter || is_digit ? low : '_';
+  }
+  return out.empty() ? "joint" : out.substr(0, kLongestName);
+}
+
+// A character on its way into the library.
+struct GuestFigure {
+  const GuestCharacter& from;
+  const Basis basis;
+  const std::vector<std::string> names;
+  const std::vector<std::string> slots;
+
+  int parent(std::size_t j) const { return find_joint(from, from.joints[j].parent); }
+  bool begins_slot(std::size_t j) const { return j > 0 && slots[at(parent(j))] != slots[j]; }
+  // The joint's name as its part knows it: the root body has none.
+  std::string local_name(std::size_t j) const { return j == 0 ? "" : names[j]; }
+};
+
+JointDesc joint_desc(const GuestFigure& figure, std::size_t j) {
+  const GuestJoint& joint = figure.from.joints[j];
+  JointDesc out;
+  out.name = figure.names[j];
+  out.parent = figure.begins_slot(j) ? "" : figure.local_name(at(figure.parent(j)));
+  out.type = joint.type == GuestJointType::ball ? JointType::ball : JointType::hinge;
+  out.position_m = figure.basis.point_m(joint.position);
+  const auto& [x, y, z, w] = joint.rotation;
+  out.rotation_deg = to_rotation_vector(normalize(figure.basis.rotation(x, y, z, w))) * kDegPerRad;
+  out.axis = glm::normalize(figure.basis.axis(joint.axis));
+  const bool is_fixed = joint.type == GuestJointType::fixed;
+  out.low_deg = is_fixed ? 0.0 : joint.low_deg;
+  out.high_deg = is_fixed ? 0.0 : joint.high_deg;
+  if (out.type == JointType::ball) {
+    out.swing_axis = perpendicular(out.axis);
+    out.swing_deg = {joint.swing_deg, joint.swing_deg};
+  }
+  out.max_speed_deg_s = joint.max_speed_deg_s;
+  return out;
+}
+
+MeshDesc bone_mesh(const std::string& joint, const Vec3& to_m) {
+  const double long_m = length(to_m);
+  if (long_m < kShortestBone_m) return {joint, Sphere{Vec3(0.0), kEndRadius_m}, Vec3(0.7)};
+  return {joint, Capsule{Vec3(0.0), to_m, kBoneThickness * long_m}, Vec3(0.7)};
+}
+
+// Bones from each joint of the slot to the joints that it carries, and balls at the ends.
+std::vector<MeshDesc> bones_of(const GuestFigure& figure, const std::string& slot) {
+  std::vector<MeshDesc> mesh;
+  for (std::size_t j = 0; j < figure.names.size(); ++j) {
+    if (figure.slots[j] != slot) continue;
+    bool carries = false;
+    for (std::size_t child = j + 1; child < figure.names.size(); ++child)
+      if (figure.parent(child) == static_cast<int>(j)) {
+        carries = true;
+        mesh.push_back(bone_mesh(figure.local_name(j), figure.basis.point_m(figure.from.joints[child].position)));
+      }
+    if (!carries) mesh.push_back(bone_mesh(figure.local_name(j), Vec3(0.0)));
+  }
+  return mesh;
+}
+
+std::vector<ColliderDesc> colliders_of(const GuestFigure& figure, const std::string& slot) {
+  std::vector<ColliderDesc> out;
+  for (const GuestCapsule& capsule : figure.from.colliders) {
+    const std::size_t j = at(find_joint(figure.from, capsule.joint));
+    if (figure.slots[j] != slot) continue;
+    const Capsule shape{figure.basis.point_m(capsule.from), figure.basis.point_m(capsule.to),
+                        figure.basis.unit_m() * capsule.radius};
+    out.push_back({legal_name(capsule.name), figure.local_name(j), shape});
+  }
+  return out;
+}
+
+// A socket on each joint: other slots hang on them, and goals speak of them.
+std::vector<SocketDesc> sockets_of(const GuestFigure& figure, const std::string& slot) {
+  std::vector<SocketDesc> sockets;
+  for (std::size_t j = 0; j < figure.names.size(); ++j)
+    if (figure.slots[j] == slot) sockets.push_back({std::string(kDock) + figure.names[j], figure.local_name(j)});
+  return sockets;
+}
+
+PartDesc part_desc(const GuestFigure& figure, const std::string& slot, const std::string& name) {
+  PartDesc part;
+  part.name = name;
+  part.kind = figure.from.name + "_" + slot;
+  for (std::size_t j = 1; j < figure.names.size(); ++j)
+    if (figure.slots[j] == slot) part.joints.push_back(joint_desc(figure, j));
+  part.colliders = colliders_of(figure, slot);
+  part.sockets = sockets_of(figure, slot);
+  if (figure.from.colliders.empty()) part.mesh = bones_of(figure, slot);
+  return part;
+}
+
+SlotDesc slot_desc(const GuestFigure& figure, std::size_t first_joint) {
+  SlotDesc slot;
+  slot.name = figure.slots[first_joint];
+  slot.kind = figure.from.name + "_" + slot.name;
+  if (first_joint > 0) {
+    slot.on_slot = figure.slots[at(figure.parent(first_joint))];
+    slot.on_socket = std::string(kDock) + figure.names[at(figure.parent(first_joint))];
+  }
+  const auto parts = figure.from.parts.find(slot.name);
+  const std::size_t count = parts == figure.from.parts.end() ? 1 : parts->second.size();
+  for (std::size_t i = 0; i < count; ++i) slot.parts.push_back(part_name(figure.from, slot.name, i));
+  return slot;
+}
+
+void add_character(const GuestCharacter& from, const Basis& basis, Library& library) {
+  const GuestFigure figure{from, basis, joint_names(from), slots_of(from)};
+  CharacterDesc character;
+  character.name = from.name;
+  for (std::size_t j = 0; j < figure.names.size(); ++j) {
+    if (j > 0 && !figure.begins_slot(j)) continue;
+    character.slots.push_back(slot_desc(figure, j));
+    for (const std::string& part : character.slots.back().parts)
+      library.parts[part] = part_desc(figure, figure.slots[j], part);
+  }
+  library.characters[from.name] = std::move(character);
+}
+
+}  // namespace
+
+std::vector<std::string> joint_names(const GuestCharacter& character) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const GuestJoint& joint : character.joints) {
+    const std::string legal = legal_name(joint.name);
+    std::string name = legal;
+    for (int n = 2; !taken.insert(name).second; ++n) name = legal + "_" + std::to_string(n);
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string part_name(const GuestCharacter& character, const std::string& slot, std::size_t index) {
+  const auto parts = character.parts.find(slot);
+  return character.name + "_" + (parts == character.parts.end() ? slot : slot + "_" + parts->second[index]);
+}
+
+std::string part_asked_for(const GuestCharacter& character, const std::string& slot, const std::string& part) {
+  const auto parts = character.parts.find(slot);
+  for (std::size_t i = 1; parts != character.parts.end() && i < parts->second.size(); ++i)
+    if (part_name(character, slot, i) == part) return parts->second[i];
+  return "";
+}
+
+const GuestCharacter* find_character(const GuestManifest& manifest, std::string_view name) {
+  const auto found = std::ranges::find(manifest.characters, name, &GuestCharacter::name);
+  return found == manifest.characters.end() ? nullptr : &*found;
+}
+
+Rigid root_at_rest(const GuestManifest& manifest, std::string_view character) {
+  const Basis basis(manifest.convention);
+  const GuestJoint& root = find_character(manifest, character)->joints.front();
+  const auto& [x, y, z, w] = root.rotation;
+  return {glm::normalize(basis.rotation(x, y, z, w)), basis.point_m(root.position)};
+}
+
+std::vector<int> joints_of(const GuestCharacter& from, const Character& character) {
+  const std::vector<std::string> names = joint_names(from), slots = slots_of(from);
+  std::vector<int> joints{0};
+  for (std::size_t j = 1; j < names.size(); ++j) joints.push_back(character.find_joint(slots[j] + "/" + names[j]));
+  return joints;
+}
+
+Library library_of(const GuestManifest& manifest) {
+  Library library;
+  const Basis basis(manifest.convention);
+  for (const GuestCharacter& character : manifest.characters) add_character(character, basis, library);
+  return library;
+}
+
+}  // namespace contort

@@ -1,0 +1,76 @@
+// A generator that is a program of its own, behind the interface that everything else knows. It has the characters and
+// actions of its manifest, plays the uses of a spec on one time line, and has no interrupts, grounds, obstacles,
+// dynamics, or speeds.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "guest/frames.h"
+#include "guest/guest_program.h"
+#include "guest/request.h"
+#include "model/generator.h"
+
+namespace contort {
+
+// What a manifest says, for all generators that speak to programs of the same command. Immutable.
+struct GuestDescription {
+  std::string command;
+  GuestLimits limits;
+  GuestManifest said;
+  Library library;
+  Manifest manifest;  // of ours; its library is the one above
+};
+
+class GuestGenerator final : public Generator {
+ public:
+  // Starts the program and reads its manifest. Codes of GuestProgram::greet and of build_character.
+  static Result<std::unique_ptr<GuestGenerator>> start(const std::string& command, const GuestLimits& limits = {});
+
+  explicit GuestGenerator(std::shared_ptr<const GuestDescription> description);
+  ~GuestGenerator() override;
+
+  const GuestManifest& said() const { return description_->said; }
+  const Manifest& manifest() const override { return description_->manifest; }
+  const Offers& offers(const Character& character) override;
+  Result<Admission> admit(const Spec& spec) override;  // codes of admit_request and build_character
+  // Throws ProgramEnded where the program ends or breaks the protocol. Code guest.refused where it refuses.
+  Result<Done> run(const Spec& spec, Execution& execution) override;
+  std::unique_ptr<Generator> another() const override;
+  // Code generator.own_library: the program brings its characters along.
+  Result<std::unique_ptr<Generator>> with(const Library& library) const override;
+
+  // The frames that the program sends for the spec, for comparisons of whole motions. Code guest.refused.
+  Result<std::string> raw_frames(const Spec& spec);
+  // Ends the program; the next request starts another.
+  void restart();
+
+ private:
+  struct Figure {  // of a choice of parts
+    CharacterChoice choice;
+    std::shared_ptr<const Character> character;
+    std::vector<int> joints;
+    Offers offers;
+  };
+
+  Result<const Figure*> figure_of(const CharacterChoice& choice);
+  Result<GuestAnswer> ask(const Spec& spec, const Figure& figure, GuestRequest& request);
+  Result<Done> ask_motion(const Spec& spec, const Figure& figure, GuestRequest request, Motion& motion,
+                          ForeignFacts& facts);
+  Result<Done> add_equal(const Spec& spec, const Figure& figure, GuestRequest request, EqualMotion equal,
+                         ForeignFacts& facts);
+  Result<Done> add_promised(const Spec& spec, const Figure& figure, const GuestRequest& whole, ForeignFacts& facts);
+  Result<Done> add_relations(const Spec& spec, const Figure& figure, const GuestRequest& whole, ForeignFacts& facts);
+  GuestProgram& program();
+
+  std::shared_ptr<const GuestDescription> description_;
+  std::map<std::uint64_t, Offers> offers_;  // by the character's hash
+  std::unique_ptr<Figure> figure_;          // of the last spec
+  std::unique_ptr<GuestProgram> program_;
+  int owner_ = -1;  // the thread that started the program, which ends with it
+  int process_ = -1;
+  std::int64_t id_ = 0;
+};
+
+}  // namespace contort

@@ -1,0 +1,76 @@
+#include "guest/guest_intent.h"
+
+#include <algorithm>
+
+#include "guest/basis.h"
+#include "guest/guest_figure.h"
+#include "guest/manifest_check.h"
+#include "model/core/index.h"
+
+namespace contort {
+
+namespace {
+
+IntendedAction intended(const PlacedUse& placed, const Character& character) {
+  IntendedAction action;
+  action.sequence = placed.sequence, action.clip = placed.clip, action.action = placed.index;
+  action.part = action.named = character.find_part(placed.use->slot);
+  action.name = placed.use->action;
+  action.layer = placed.action->layer;
+  action.start = placed.start_frame, action.end = placed.end_frame();
+  action.blend_in = std::max(0, placed.use->blend_in_frames), action.blend_out = placed.use->blend_out_frames;
+  action.first_frame = placed.start_frame, action.last_frame = placed.end_frame();
+  return action;
+}
+
+// The tip is at the point in the last frame of the action.
+Goal goal_of(const GuestManifest& manifest, const PlacedUse& placed, const Character& character) {
+  const Basis basis(manifest.convention);
+  const GuestCharacter& from = *find_character(manifest, character.name());
+  const GuestGoal& promised = *placed.action->goal;
+  const int joint = find_joint(from, promised.tip);
+  Goal goal;
+  goal.first_frame = goal.last_frame = placed.end_frame();
+  goal.part = character.find_part(placed.use->slot);
+  goal.socket = joint < 0 ? -1 : character.find_socket(slots_of(from)[at(joint)] + "/dock_" + joint_names(from)[at(joint)]);
+  const auto given = placed.use->params.find(promised.param);
+  const auto def = std::ranges::find(placed.offer->params, promised.param, &ParamDef::name);
+  goal.target_m = basis.point_m(std::get<Vec3>(given == placed.use->params.end() ? def->preset : given->second));
+  goal.in_world = true;
+  goal.within_m = promised.within * basis.unit_m();
+  return goal;
+}
+
+}  // namespace
+
+Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& uses, const Character& character) {
+  Intent intent;
+  for (const PlacedUse& placed : uses) {
+    intent.actions.push_back(intended(placed, character));
+    if (!placed.action->goal) continue;
+    if (const Goal goal = goal_of(manifest, placed, character); goal.socket >= 0) intent.goals.push_back(goal);
+  }
+  return intent;
+}
+
+std::vector<ActionSpan> spans_of(const Intent& intent, int frames) {
+  std::vector<ActionSpan> spans;
+  for (const IntendedAction& action : intent.actions)
+    if (action.first_frame < frames)
+      spans.push_back({action.first_frame, std::min(action.last_frame, frames - 1), action.sequence, action.clip,
+                       action.action, action.part});
+  return spans;
+}
+
+std::vector<int> jumps_of(const std::vector<PlacedUse>& uses) {
+  std::vector<int> jumps;
+  for (const PlacedUse& placed : uses) {
+    const Effect effect = placed.action->effect;
+    if (effect == Effect::cut || effect == Effect::rest || effect == Effect::equals) jumps.push_back(placed.start_frame);
+    if (effect == Effect::cut) jumps.push_back(placed.end_frame());
+  }
+  std::ranges::sort(jumps);
+  return jumps;
+}
+
+}  // namespace contort

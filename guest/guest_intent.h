@@ -1,0 +1,18 @@
+// The intent that follows from a request and a manifest.
+#pragma once
+
+#include "guest/request.h"
+#include "model/motion/foreign.h"
+#include "model/motion/intent.h"
+
+namespace contort {
+
+// Actions with their frames, and the goals that they promise. Without a queue: the generator does not tell one.
+Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& uses, const Character& character);
+
+std::vector<ActionSpan> spans_of(const Intent& intent, int frames);
+
+// The frames into which the pose may jump.
+std::vector<int> jumps_of(const std::vector<PlacedUse>& uses);
+
+}  // namespace contort

@@ -1,0 +1,87 @@
+#include "guest/guest_program.h"
+
+#include "model/core/json_fields.h"
+#include "process/ended.h"
+
+namespace contort {
+
+namespace {
+
+using json_fields::Json;
+
+constexpr char kHello[] = R"({"op":"hello","contort":[1]})";
+constexpr std::size_t kMostRefusal = 500;  // bytes of a text
+
+// Without a shell in between the program is our child, and ends with us whatever happens.
+std::vector<std::string> shell_command(const std::string& command) {
+  const bool needs_shell = command.find_first_of("|&;<>()`\n") != std::string::npos;
+  return {"/bin/sh", "-c", needs_shell ? command : "exec " + command};
+}
+
+std::string text_of(const Json& reply, const char* name) {
+  const auto found = reply.find(name);
+  return found != reply.end() && found->is_string() ? found->get<std::string>().substr(0, kMostRefusal) : "";
+}
+
+Issue issue_of(const Ending& ending) {
+  const std::string printed = ending.printed.empty() ? "" : "; it printed: " + ending.printed;
+  if (ending.kind == Ending::Kind::timeout)
+    return {"generator.silent", "", "the generator did not send its manifest in time" + printed};
+  return {"generator.ended", "", "the generator ended before its manifest: " + ending.signal + printed};
+}
+
+}  // namespace
+
+GuestProgram::GuestProgram(const std::string& command, const GuestLimits& limits)
+    : limits_(limits),
+      program_(shell_command(command), {limits.case_s, limits.bytes}, Messages::kept, true) {}
+
+Result<GuestManifest> GuestProgram::manifest_in(const std::string& line) {
+  Result<GuestManifest> manifest = parse_manifest(line);
+  if (manifest && program_.has_connected() && manifest->token != program_.token())
+    return Issue{"generator.bad_token", "/token", "found another value than CONTORT_TOKEN has"};
+  return manifest;
+}
+
+// A program that connects is greeted a second time, on the connection. Other lines before the manifest are its log.
+Result<GuestManifest> GuestProgram::greet() {
+  program_.send_line(kHello);
+  bool has_connected = false;
+  for (;;) {
+    const Ending heard = program_.read_line({}, limits_.start_s);
+    if (heard.kind != Ending::Kind::finished) return issue_of(heard);
+    if (heard.result.starts_with("{")) return manifest_in(heard.result);
+    if (program_.has_connected() && !has_connected) program_.send_line(kHello);
+    has_connected = program_.has_connected();
+    program_.keep_message(heard.result + "\n");
+  }
+}
+
+void GuestProgram::fail(const std::string& what, const std::string& details) {
+  program_.keep_message("\n" + details);
+  throw ProgramEnded(program_.end_because(what));
+}
+
+std::string GuestProgram::read(Ending ending) {
+  if (ending.kind != Ending::Kind::finished) throw ProgramEnded(ending);
+  return std::move(ending.result);
+}
+
+GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, std::size_t bytes) {
+  program_.send_line(request);
+  const std::string line = read(program_.read_line());
+  const Result<Json> reply = json_fields::parse_document(line);
+  if (!reply || !reply->is_object()) fail("no JSON", "found instead of a reply: " + line.substr(0, kMostRefusal));
+  if (const auto found = reply->find("id"); found == reply->end() || *found != id)
+    fail("wrong id", "found another id than " + std::to_string(id) + " in: " + line.substr(0, kMostRefusal));
+  const std::string error = text_of(*reply, "error");
+  if (error == "refused") return {"the generator refuses: " + text_of(*reply, "text"), {}};
+  if (!error.empty()) fail("failed", text_of(*reply, "text"));
+  const auto count = reply->find("bytes");
+  if (count == reply->end() || !count->is_number_integer() || *count != bytes)
+    fail("wrong length", "asked for " + std::to_string(bytes) + " bytes of frames; the reply was: " +
+                             line.substr(0, kMostRefusal));
+  return {{}, read(program_.read_bytes(bytes))};
+}
+
+}  // namespace contort

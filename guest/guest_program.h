@@ -1,0 +1,45 @@
+// The conversation with a generator that is a program of its own (docs/guests.md).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "guest/manifest.h"
+#include "process/line_program.h"
+
+namespace contort {
+
+struct GuestLimits {
+  double start_s = 60.0;  // until the manifest
+  double case_s = 10.0;   // for a motion
+  std::int64_t bytes = std::int64_t{4} << 30;
+};
+
+// One line of the generator's answer to a request.
+struct GuestAnswer {
+  std::string refusal;  // why the generator refuses the request; "" if it does not
+  std::string bytes;    // the frames
+};
+
+class GuestProgram {
+ public:
+  // Starts the program, with a shell only if the command has characters that mean something to one.
+  GuestProgram(const std::string& command, const GuestLimits& limits);
+
+  // Exchanges the greeting. Codes generator.ended, generator.silent, generator.bad_token and those of parse_manifest.
+  Result<GuestManifest> greet();
+
+  // Asks for a motion of so many bytes. Throws ProgramEnded if the program ends, is silent, fails, or answers what the
+  // protocol does not allow. It is over after that.
+  GuestAnswer ask(const std::string& request, std::int64_t id, std::size_t bytes);
+
+ private:
+  Result<GuestManifest> manifest_in(const std::string& line);
+  [[noreturn]] void fail(const std::string& what, const std::string& details);
+  std::string read(Ending ending);
+
+  GuestLimits limits_;
+  LineProgram program_;
+};
+
+}  // namespace contort

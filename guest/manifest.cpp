@@ -1,0 +1,193 @@
+#include "guest/manifest.h"
+
+#include <algorithm>
+
+#include "guest/manifest_check.h"
+#include "model/core/hash.h"
+#include "model/core/json_fields.h"
+
+namespace contort {
+
+namespace {
+
+using json_fields::Rule;
+using json_fields::Text;
+
+constexpr std::string_view kAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+constexpr std::string_view kHands[] = {"right", "left"};
+constexpr std::string_view kGuestJointTypes[] = {"ball", "hinge", "fixed"};
+constexpr std::string_view kGuestParamTypes[] = {"number", "integer", "flag", "choice", "vec3"};
+constexpr std::string_view kLayers[] = {"overwrite", "ik", "additive"};
+constexpr std::string_view kEffects[] = {"continuous", "cut", "rest", "equals", "none"};
+constexpr std::string_view kChannelTypes[] = {"number", "flag", "text"};
+constexpr std::string_view kFormats[] = {"f32", "f64"};
+constexpr std::string_view kDeterminisms[] = {"exact", "history", "noisy"};
+
+const Rule kGuestLabel{.text = Text::label, .required = true};
+const Rule kGuestText{.text = Text::prose, .may_be_empty = true};
+const Rule kGuestName{.required = true};
+const Rule kGuestLength{.low = -1e6, .high = 1e6};
+const Rule kGuestSeconds{.low = 0.0, .high = 60.0};
+
+}  // namespace
+
+namespace json_fields {
+
+template <>
+struct Codec<NumberOrThree> {
+  static void read(const Json& in, const Rule& r, NumberOrThree& out, ReadContext& c) {
+    if (in.is_array())
+      Codec<Vec3>::read(in, r, out.emplace<Vec3>(), c);
+    else
+      Codec<double>::read(in, r, out.emplace<double>(), c);
+  }
+  static Json write(const NumberOrThree& v, const Rule& r) {
+    return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
+  }
+  static Json schema(const Rule& r) {
+    return {{"anyOf", Json::array({Codec<double>::schema(r), Codec<Vec3>::schema(r)})}};
+  }
+};
+
+template <>
+struct Codec<GuestValue> {
+  static void read(const Json& in, const Rule& r, GuestValue& out, ReadContext& c) {
+    if (in.is_boolean())
+      out = in.get<bool>();
+    else if (in.is_number())
+      Codec<double>::read(in, {.low = -1e9, .high = 1e9}, out.emplace<double>(), c);
+    else if (in.is_array())
+      Codec<Vec3>::read(in, {.low = -1e9, .high = 1e9}, out.emplace<Vec3>(), c);
+    else
+      Codec<std::string>::read(in, r, out.emplace<std::string>(), c);
+  }
+  static Json write(const GuestValue& v, const Rule& r) {
+    return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
+  }
+  static Json schema(const Rule& r) {
+    return {{"anyOf", Json::array({Codec<double>::schema({}), Codec<Vec3>::schema({}), Codec<bool>::schema({}),
+                                   Codec<std::string>::schema(r)})}};
+  }
+};
+
+}  // namespace json_fields
+
+template <class V>
+void fields(V& v, const GuestConvention*) {
+  v.field("up", &GuestConvention::up, {.names = kAxes}, "Axis that points up.");
+  v.field("forward", &GuestConvention::forward, {.names = kAxes}, "Axis that figures face.");
+  v.field("unit_m", &GuestConvention::unit_m, {.low = 1e-6, .high = 1e6}, "Metres of one unit of length.");
+  v.field("handed", &GuestConvention::handed, {.names = kHands}, "Hand of the coordinate system.");
+}
+
+template <class V>
+void fields(V& v, const GuestJoint*) {
+  v.field("name", &GuestJoint::name, kGuestLabel, "Unique in the character.");
+  v.field("parent", &GuestJoint::parent, {.text = Text::label, .may_be_empty = true},
+          "An earlier joint; empty for the first one, which is the root.");
+  v.field("slot", &GuestJoint::slot, {.may_be_empty = true}, "Part of the figure; empty: that of the parent.");
+  v.field("position", &GuestJoint::position, kGuestLength, "At rest, in the frame of the parent.");
+  v.field("rotation", &GuestJoint::rotation, {.low = -1.001, .high = 1.001},
+          "At rest against the parent, quaternion x y z w.");
+  v.field("type", &GuestJoint::type, {.names = kGuestJointTypes}, "Kind of joint.");
+  v.field("axis", &GuestJoint::axis, {.low = -1.001, .high = 1.001},
+          "Axis of the hinge, or of a ball's twist, in the joint's own frame.");
+  v.field("low_deg", &GuestJoint::low_deg, {.low = -360, .high = 360}, "Lower end of the range; 0 is rest.");
+  v.field("high_deg", &GuestJoint::high_deg, {.low = -360, .high = 360}, "Upper end.");
+  v.field("swing_deg", &GuestJoint::swing_deg, {.low = 0.1, .high = 180}, "Greatest swing of a ball.");
+  v.field("max_speed_deg_s", &GuestJoint::max_speed_deg_s, {.low = 1, .high = 1e5}, "Greatest angular speed.");
+}
+
+template <class V>
+void fields(V& v, const GuestCapsule*) {
+  v.field("name", &GuestCapsule::name, kGuestLabel, "Unique in the character.");
+  v.field("joint", &GuestCapsule::joint, kGuestLabel, "The joint that moves it.");
+  v.field("from", &GuestCapsule::from, kGuestLength, "One end, in the frame of the joint.");
+  v.field("to", &GuestCapsule::to, kGuestLength, "The other end.");
+  v.field("radius", &GuestCapsule::radius, {.low = 1e-6, .high = 1e6}, "Radius.");
+}
+
+template <class V>
+void fields(V& v, const GuestCharacter*) {
+  v.field("name", &GuestCharacter::name, kGuestName, "Unique name.");
+  v.field("joints", &GuestCharacter::joints, {.max_count = 1000, .required = true}, "Parents first.");
+  v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Capsules.");
+  v.field("parts", &GuestCharacter::parts, {.max_count = 64}, "For a slot, names of the parts that can be there.");
+}
+
+template <class V>
+void fields(V& v, const GuestParam*) {
+  v.field("type", &GuestParam::type, {.names = kGuestParamTypes}, "Type of the value.");
+  v.field("low", &GuestParam::low, {.low = -1e9, .high = 1e9}, "Least value.");
+  v.field("high", &GuestParam::high, {.low = -1e9, .high = 1e9}, "Greatest value.");
+  v.field("default", &GuestParam::preset, {.text = Text::label}, "Value where a spec gives none.");
+  v.field("choices", &GuestParam::choices, {.max_count = 256, .text = Text::label}, "Of a choice.");
+  v.field("special", &GuestParam::special, {.max_count = 64, .text = Text::label},
+          "Values that are drawn more often than others.");
+  v.field("help", &GuestParam::help, kGuestText, "One sentence.");
+}
+
+template <class V>
+void fields(V& v, const GuestGoal*) {
+  v.field("param", &GuestGoal::param, kGuestName, "A parameter of type vec3: a point in the world.");
+  v.field("tip", &GuestGoal::tip, kGuestLabel, "The joint that shall be there at the end of the action.");
+  v.field("within", &GuestGoal::within, {.low = 1e-9, .high = 1e6}, "The distance that is allowed.");
+}
+
+template <class V>
+void fields(V& v, const GuestAction*) {
+  v.field("name", &GuestAction::name, kGuestName, "Unique name.");
+  v.field("help", &GuestAction::help, kGuestText, "One sentence.");
+  v.field("slots", &GuestAction::slots, {.max_count = 64}, "Slots on which it can be asked for.");
+  v.field("layer", &GuestAction::layer, {.names = kLayers}, "Order of evaluation.");
+  v.field("duration_s", &GuestAction::duration_s, kGuestSeconds, "Shortest and longest duration.");
+  v.field("blend_in_s", &GuestAction::blend_in_s, kGuestSeconds, "Shortest and longest fade in.");
+  v.field("blend_out_s", &GuestAction::blend_out_s, kGuestSeconds, "Shortest and longest fade out.");
+  v.field("effect", &GuestAction::effect, {.names = kEffects}, "What it may do to the pose.");
+  v.field("params", &GuestAction::params, {.max_count = 64}, "Parameters by name.");
+  v.field("goal", &GuestAction::goal, {}, "A point that a joint reaches.");
+}
+
+template <class V>
+void fields(V& v, const GuestChannel*) {
+  v.field("name", &GuestChannel::name, kGuestLabel, "Unique name.");
+  v.field("type", &GuestChannel::type, {.names = kChannelTypes}, "Type of its values.");
+}
+
+template <class V>
+void fields(V& v, const GuestManifest*) {
+  v.field("contort", &GuestManifest::contort, {.low = 1, .high = 1, .required = true}, "Version of the protocol.");
+  v.field("name", &GuestManifest::name, kGuestLabel, "Of the generator.");
+  v.field("build", &GuestManifest::build, {.text = Text::label, .may_be_empty = true}, "Of the generator.");
+  v.field("token", &GuestManifest::token, {.text = Text::label, .may_be_empty = true},
+          "Over TCP: the value of CONTORT_TOKEN.");
+  v.field("rate_hz", &GuestManifest::rate_hz, {.low = 1, .high = 1000}, "Rate of motions.");
+  v.field("frames", &GuestManifest::frames, {.names = kFormats}, "Numbers of frames.");
+  v.field("determinism", &GuestManifest::determinism, {.names = kDeterminisms}, "How far motions repeat.");
+  v.field("convention", &GuestManifest::convention, {}, "Axes and units.");
+  v.field("characters", &GuestManifest::characters, {.max_count = 64, .required = true}, "At least one.");
+  v.field("actions", &GuestManifest::actions, {.max_count = 256, .required = true}, "At least one.");
+  v.field("channels", &GuestManifest::channels, {.max_count = 64}, "Values per frame.");
+  v.field("relations", &GuestManifest::relations, {.max_count = 2}, "Relations between motions that hold.");
+}
+
+bool GuestManifest::declares(std::string_view relation) const {
+  return std::ranges::find(relations, relation) != relations.end();
+}
+
+Result<GuestManifest> parse_manifest(std::string_view json) {
+  Result<GuestManifest> manifest = json_fields::read_document<GuestManifest>(json, "generator");
+  if (!manifest) return manifest;
+  if (const Result<Done> sound = check_manifest(*manifest); !sound) return sound.issue();
+  return manifest;
+}
+
+std::string manifest_schema() { return json_fields::write_schema<GuestManifest>("contort.generator/1: manifest"); }
+
+std::string manifest_hash(const GuestManifest& manifest) {
+  GuestManifest same = manifest;
+  same.build.clear(), same.token.clear();
+  return content_id(json_fields::write_pretty(same)).substr(0, 16);
+}
+
+}  // namespace contort

@@ -1,0 +1,141 @@
+// The manifest of a generator that is a program of its own, as it says it: contort.generator/1, docs/guests.md. Plain
+// values; positions, axes and rotations are in the generator's own convention.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "model/core/math.h"
+#include "model/core/result.h"
+#include "model/motion/intent.h"
+
+namespace contort {
+
+enum class Determinism { exact, history, noisy };
+enum class FrameFormat { f32, f64 };
+enum class Axis { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
+enum class Hand { right, left };
+
+struct GuestConvention {
+  Axis up = Axis::plus_y;
+  Axis forward = Axis::plus_z;
+  double unit_m = 1.0;  // metres of one unit of length, > 0
+  Hand handed = Hand::right;
+  bool operator==(const GuestConvention&) const = default;
+};
+
+enum class GuestJointType { ball, hinge, fixed };
+
+struct GuestJoint {
+  std::string name;
+  std::string parent;  // "" for the first joint, which is the root
+  std::string slot;    // "": that of the parent
+  Vec3 position{0.0};  // in the frame of the parent
+  std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};  // x y z w
+  GuestJointType type = GuestJointType::ball;
+  Vec3 axis{0.0, 1.0, 0.0};
+  double low_deg = -180.0;
+  double high_deg = 180.0;
+  double swing_deg = 180.0;
+  double max_speed_deg_s = 720.0;
+  bool operator==(const GuestJoint&) const = default;
+};
+
+struct GuestCapsule {
+  std::string name;
+  std::string joint;
+  Vec3 from{0.0};
+  Vec3 to{0.0};
+  double radius = 0.05;
+  bool operator==(const GuestCapsule&) const = default;
+};
+
+struct GuestCharacter {
+  std::string name;
+  std::vector<GuestJoint> joints;
+  std::vector<GuestCapsule> colliders;
+  std::map<std::string, std::vector<std::string>> parts;  // by slot, the first is the default
+  bool operator==(const GuestCharacter&) const = default;
+};
+
+enum class GuestParamType { number, integer, flag, choice, vec3 };
+
+// A single number stands for all three components.
+using NumberOrThree = std::variant<double, Vec3>;
+using GuestValue = std::variant<double, Vec3, std::string, bool>;
+
+struct GuestParam {
+  GuestParamType type = GuestParamType::number;
+  NumberOrThree low = 0.0;
+  NumberOrThree high = 1.0;
+  std::optional<GuestValue> preset;  // "default"
+  std::vector<std::string> choices;
+  std::vector<GuestValue> special;
+  std::string help;
+  bool operator==(const GuestParam&) const = default;
+};
+
+enum class Effect { continuous, cut, rest, equals, none };
+
+struct GuestGoal {
+  std::string param;  // a vec3, in world coordinates
+  std::string tip;    // a joint
+  double within = 0.001;
+  bool operator==(const GuestGoal&) const = default;
+};
+
+struct GuestAction {
+  std::string name;
+  std::string help;
+  std::vector<std::string> slots;  // none: that of the root
+  Layer layer = Layer::overwrite;
+  std::array<double, 2> duration_s{0.1, 1.5};
+  std::array<double, 2> blend_in_s{0.0, 0.0};
+  std::array<double, 2> blend_out_s{0.0, 0.0};
+  Effect effect = Effect::continuous;
+  std::map<std::string, GuestParam> params;
+  std::optional<GuestGoal> goal;
+  bool operator==(const GuestAction&) const = default;
+};
+
+enum class ChannelType { number, flag, text };
+
+struct GuestChannel {
+  std::string name;
+  ChannelType type = ChannelType::number;
+  bool operator==(const GuestChannel&) const = default;
+};
+
+struct GuestManifest {
+  int contort = 0;  // 1
+  std::string name;
+  std::string build;
+  std::string token;
+  double rate_hz = 60.0;
+  FrameFormat frames = FrameFormat::f64;
+  Determinism determinism = Determinism::exact;
+  GuestConvention convention;
+  std::vector<GuestCharacter> characters;
+  std::vector<GuestAction> actions;
+  std::vector<GuestChannel> channels;
+  std::vector<std::string> relations;  // "history", "rate"
+  bool operator==(const GuestManifest&) const = default;
+
+  bool declares(std::string_view relation) const;
+};
+
+inline constexpr std::string_view kRelations[] = {"history", "rate"};
+
+// Checks the text, the limits of each field, and that names refer to what there is. Codes json.* and generator.*.
+Result<GuestManifest> parse_manifest(std::string_view json);
+std::string manifest_schema();
+
+// Hash of the canonical text without build and token: 16 hex digits. Another hash means another generator.
+std::string manifest_hash(const GuestManifest& manifest);
+
+}  // namespace contort

@@ -1,0 +1,21 @@
+// The rules of a manifest that go beyond the limits of single fields.
+#pragma once
+
+#include "guest/manifest.h"
+
+namespace contort {
+
+// Names are unique and refer to what there is, ranges are not empty, axes and rotations have length 1. Codes
+// generator.no_character, .no_action, .duplicate_name, .bad_root, .unknown_joint, .unknown_slot, .unknown_param,
+// .split_slot, .bad_axis, .bad_rotation, .bad_range, .bad_convention, .bad_choice, .bad_relation, with pointers.
+Result<Done> check_manifest(const GuestManifest& manifest);
+
+// The slot of each joint, in their order. The joints must be parents first.
+std::vector<std::string> slots_of(const GuestCharacter& character);
+
+// Index of the joint; -1 where there is none.
+int find_joint(const GuestCharacter& character, std::string_view name);
+
+Vec3 as_three(const NumberOrThree& value);
+
+}  // namespace contort

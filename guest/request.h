@@ -1,0 +1,48 @@
+// A spec as a request to a generator that is a program of its own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "guest/manifest.h"
+#include "model/core/result.h"
+#include "model/generator.h"
+#include "model/spec/spec.h"
+
+namespace contort {
+
+// A use of an action on the one time line that the generator sees.
+struct PlacedUse {
+  const ActionUse* use = nullptr;
+  const GuestAction* action = nullptr;
+  const OfferedAction* offer = nullptr;  // the same action on this use's part
+  int sequence = 0;  // indices into the spec
+  int clip = 0;
+  int index = 0;
+  int start_frame = 0;
+  int end_frame() const { return start_frame + use->duration_frames; }
+};
+
+// All uses of a spec that admit_request() accepts, by their starts.
+std::vector<PlacedUse> placed_uses(const GuestManifest& manifest, const Spec& spec, const Character& character,
+                                   const Offers& offers);
+
+// Frames of the whole motion: to the end of the last use, the hold, and the frame at time 0.
+int frames_of(const Spec& spec);
+
+// Refuses what the generator does not offer. Codes guest.unsupported, .unknown_action, .unknown_param, .bad_param,
+// .bad_duration, .too_long, with pointers into the spec.
+Result<Done> admit_request(const Spec& spec, const Character& character, const Offers& offers);
+
+struct GuestRequest {
+  std::int64_t id = 0;
+  double rate_hz = 60.0;
+  int frames = 0;
+  std::vector<PlacedUse> uses;
+};
+
+// One line of JSON. Uses keep their times in seconds if the rate is not that of the spec.
+std::string print_request(const GuestRequest& request, const GuestManifest& manifest, const Spec& spec);
+
+}  // namespace contort

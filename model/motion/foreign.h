@@ -1,0 +1,42 @@
+// The data of a generator that is a program of its own, beside the motion that coordinates can hold. Checks of such
+// generators read it (docs/guests.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/core/math.h"
+
+namespace contort {
+
+// The reason for which a motion should be equal to another one.
+enum class Equality : std::uint8_t {
+  rest,     // an action brings the figure to its rest pose
+  fresh,    // an action gives the motion that it gives when it is the only one
+  none,     // an action changes nothing
+  history,  // requests before this one change nothing
+  rate,     // the rate changes nothing
+};
+
+// Frames of another motion of the same character. Its frame i belongs to the motion's frame first_frame + i * step.
+struct EqualMotion {
+  Equality why = Equality::rest;
+  int first_frame = 0;
+  int step = 1;
+  std::vector<double> coords;  // a row for each frame, as in Motion
+  std::vector<Rigid> root;
+  bool operator==(const EqualMotion&) const = default;
+};
+
+struct ForeignFacts {
+  std::vector<double> quaternion_lengths;  // frames x joints, as they came; 1 is a rotation
+  std::vector<double> off_axis_rad;        // frames x joints: of hinges, the rotation that is not about their axis
+  std::vector<int> jumps;                  // ascending frames into which the pose may jump from the frame before
+  std::vector<EqualMotion> equals;
+  bool operator==(const ForeignFacts&) const = default;
+
+  bool may_jump_into(int frame) const;
+  bool compares(Equality why) const;
+};
+
+}  // namespace contort

@@ -1,0 +1,88 @@
+// Manifests of generators that are programs of their own: each fault is told where it stands.
+#include "guest/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "guest/manifest_check.h"
+
+namespace contort {
+namespace {
+
+std::string manifest_with(const std::string& joints, const std::string& actions, const std::string& more = "") {
+  return R"({"contort":1,"name":"g","characters":[{"name":"hero","joints":[)" + joints + R"(]}],"actions":[)" +
+         actions + "]" + more + "}";
+}
+
+const std::string kHips = R"({"name":"hips","position":[0,1,0]})";
+const std::string kArm = R"({"name":"arm","parent":"hips","slot":"arm_l","position":[0.2,0.4,0]})";
+const std::string kWave = R"({"name":"wave","slots":["arm_l"]})";
+
+std::string refusal_of(const std::string& json) {
+  const Result<GuestManifest> manifest = parse_manifest(json);
+  return manifest ? "" : manifest.issue().code + " at " + manifest.issue().pointer;
+}
+
+TEST(GuestManifests, MayLeaveOutWhatHasADefault) {
+  const Result<GuestManifest> manifest = parse_manifest(manifest_with(kHips + "," + kArm, kWave));
+  ASSERT_TRUE(manifest) << to_line(manifest.issue());
+  EXPECT_EQ(manifest->rate_hz, 60.0);
+  EXPECT_EQ(manifest->characters[0].joints[1].type, GuestJointType::ball);
+  EXPECT_EQ(slots_of(manifest->characters[0]), (std::vector<std::string>{"body", "arm_l"}));
+}
+
+TEST(GuestManifests, TellFaultsWhereTheyStand) {
+  const std::string both = kHips + "," + kArm;
+  const std::pair<std::string, std::string> faults[] = {
+      {"nonsense", "json.syntax at "},
+      {"[1]", "generator.wrong_type at "},
+      {R"({"contort":2,"name":"g","characters":[],"actions":[]})", "generator.out_of_range at /contort"},
+      {R"({"contort":1,"name":"g","characters":[],"actions":[]})", "generator.no_character at /characters"},
+      {manifest_with(both, ""), "generator.no_action at /actions"},
+      {manifest_with(both, kWave, R"(,"colour":"red")"), "generator.unknown_field at /colour"},
+      {manifest_with(kArm, kWave), "generator.bad_root at /characters/0/joints/0/parent"},
+      {manifest_with(kHips + R"(,{"name":"arm"})", kWave), "generator.bad_root at /characters/0/joints/1/parent"},
+      {manifest_with(kHips + R"(,{"name":"arm","parent":"hip"})", kWave),
+       "generator.unknown_joint at /characters/0/joints/1/parent"},
+      {manifest_with(kHips + "," + kHips, kWave), "generator.duplicate_name at /characters/0/joints/1/name"},
+      {manifest_with(kHips + R"(,{"name":"arm","parent":"hips","rotation":[0,0,0,0.5]})", kWave),
+       "generator.bad_rotation at /characters/0/joints/1/rotation"},
+      {manifest_with(kHips + R"(,{"name":"arm","parent":"hips","axis":[0,0,0]})", kWave),
+       "generator.bad_axis at /characters/0/joints/1/axis"},
+      {manifest_with(kHips + R"(,{"name":"arm","parent":"hips","low_deg":20,"high_deg":10})", kWave),
+       "generator.bad_range at /characters/0/joints/1/low_deg"},
+      {manifest_with(both + R"(,{"name":"other","parent":"hips","slot":"arm_l"})", kWave),
+       "generator.split_slot at /characters/0/joints/2/slot"},
+      {manifest_with(both, R"({"name":"wave","slots":["arm_x"]})"), "generator.unknown_slot at /actions/0/slots/0"},
+      {manifest_with(both, R"({"name":"wave","duration_s":[2,1]})"), "generator.bad_range at /actions/0/duration_s"},
+      {manifest_with(both, R"({"name":"wave","params":{"how":{"type":"choice"}}})"),
+       "generator.bad_choice at /actions/0/params/how/choices"},
+      {manifest_with(both, R"({"name":"wave","params":{"how":{"low":1,"high":0}}})"),
+       "generator.bad_range at /actions/0/params/how/low"},
+      {manifest_with(both, R"({"name":"wave","params":{"how":{"low":0,"high":1,"default":2}}})"),
+       "generator.bad_value at /actions/0/params/how/default"},
+      {manifest_with(both, R"({"name":"wave","params":{"how":{"special":[true]}}})"),
+       "generator.bad_value at /actions/0/params/how/special/0"},
+      {manifest_with(both, R"({"name":"wave","goal":{"param":"to","tip":"arm"}})"),
+       "generator.unknown_param at /actions/0/goal/param"},
+      {manifest_with(both, R"({"name":"wave","params":{"to":{"type":"vec3"}},"goal":{"param":"to","tip":"leg"}})"),
+       "generator.unknown_joint at /actions/0/goal/tip"},
+      {manifest_with(both, kWave, R"(,"relations":["mirror"])"), "generator.bad_relation at /relations/0"},
+      {manifest_with(both, kWave, R"(,"convention":{"up":"+z","forward":"-z"})"),
+       "generator.bad_convention at /convention/forward"},
+  };
+  for (const auto& [json, refusal] : faults) EXPECT_EQ(refusal_of(json), refusal) << json;
+}
+
+// Build and token do not make another generator.
+TEST(GuestManifests, AreNamedByWhatTheyOffer) {
+  const auto hash_of = [](const std::string& more) {
+    return manifest_hash(*parse_manifest(manifest_with(kHips + "," + kArm, kWave, more)));
+  };
+  EXPECT_EQ(hash_of(""), hash_of(R"(,"build":"7","token":"x")"));
+  EXPECT_NE(hash_of(""), hash_of(R"(,"rate_hz":30)"));
+}
+
+}  // namespace
+}  // namespace contort
