@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -26,7 +27,16 @@ struct FamiliarUnit {
   double factor;
 };
 constexpr FamiliarUnit kFamiliarUnits[] = {
-    {"rad", "\xC2\xB0", kDegPerRad}, {"rad/s", "\xC2\xB0/s", kDegPerRad}, {"m", " mm", 1000.0}};
+    {"rad", "\xC2\xB0", kDegPerRad}, {"rad/s", "\xC2\xB0/s", kDegPerRad},
+    {"rad/s^2", "\xC2\xB0/s^2", kDegPerRad}, {"m", " mm", 1000.0}};
+
+// "2.30" gives "2.3", and "5.00" gives "5".
+std::string without_zeros(std::string digits) {
+  if (digits.find('.') == std::string::npos) return digits;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.ends_with('.')) digits.pop_back();
+  return digits;
+}
 
 // Length of the UTF-8 sequence at the front of `text`; 0 if it is broken, overlong, a surrogate or a control character.
 std::size_t sequence_length(std::string_view text) {
@@ -47,12 +57,24 @@ std::size_t sequence_length(std::string_view text) {
 
 }  // namespace
 
+std::string rounded_text(double value) {
+  if (std::isnan(value)) return "not a number";
+  if (std::isinf(value)) return value < 0.0 ? "-infinite" : "infinite";
+  if (value == 0.0) return "0";
+  const std::string rounded = format("%.2e", value);  // "-2.34e-02": the exponent of the rounded number
+  const int exponent = std::atoi(rounded.c_str() + rounded.find('e') + 1);
+  if (exponent < -3 || exponent >= 6)
+    return without_zeros(rounded.substr(0, rounded.find('e'))) + "e" + std::to_string(exponent);
+  const double plain = std::strtod(rounded.c_str(), nullptr);
+  if (exponent >= 3) return count_text(std::llround(plain));
+  return without_zeros(format("%.*f", 2 - exponent, plain));
+}
+
 std::string margin_text(double margin, std::string_view unit) {
   if (std::isnan(margin)) return "not a number";
-  std::string text = format("%.3g ", margin) + std::string(unit);
+  std::string text = rounded_text(margin) + " " + std::string(unit);
   for (const FamiliarUnit& u : kFamiliarUnits)
-    if (u.stored == unit)
-      text += format(std::fabs(margin) < 1e9 ? " (%.1f" : " (%.3g", margin * u.factor) + std::string(u.familiar) + ")";
+    if (u.stored == unit) text += " (" + rounded_text(margin * u.factor) + std::string(u.familiar) + ")";
   return text;
 }
 
@@ -70,6 +92,12 @@ std::string count_text(std::int64_t count) {
 
 std::string counted(std::int64_t count, std::string_view one, std::string_view many) {
   return count_text(count) + " " + std::string(count == 1 ? one : many);
+}
+
+std::string share_text(std::int64_t part, std::int64_t whole) {
+  const double percent = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  if (part > 0 && percent < 0.1) return "less than 0.1 %";
+  return rounded_text(percent) + " %";
 }
 
 std::string clean_share(std::int64_t cases, std::int64_t failing) {

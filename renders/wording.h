@@ -7,8 +7,12 @@
 
 namespace contort {
 
-// Returns a margin with a second, familiar unit: "-0.210 rad (-12.0 deg)", "-0.0234 m (-23.4 mm)"; "not a number" for
-// NaN.
+// Returns a measured number for people, as the page, its charts and the console all write it: at most three significant
+// digits, narrow no-break spaces between thousands, and an exponent only below 0.001 and from a million on: "-0.0234",
+// "3 600", "1.5e9". "not a number" for NaN. `number` in renders/page/src/format.js is its twin.
+std::string rounded_text(double value);
+
+// Returns a margin with a second, familiar unit: "-0.21 rad (-12°)", "-0.0234 m (-23.4 mm)"; "not a number" for NaN.
 std::string margin_text(double margin, std::string_view unit);
 
 // Returns the time of a frame, such as "1.217 s" for frame 73 at 60 Hz; "" if the rate is unusable.
@@ -19,6 +23,9 @@ std::string count_text(std::int64_t count);
 
 // Returns a count with its noun, such as "1 case" or "3 cases".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
+
+// Returns a part of a whole such as "30 %", "0.4 %", "less than 0.1 %". `whole` > 0.
+std::string share_text(std::int64_t part, std::int64_t whole);
 
 // Returns the share of cases that did not fail, such as "92.6 %". Rounded down, so that "100 %" means that none failed.
 // `cases` > 0.

@@ -12,10 +12,29 @@ namespace {
 
 TEST(Wording, AddsTheFamiliarUnit) {
   EXPECT_EQ(margin_text(-0.0234, "m"), "-0.0234 m (-23.4 mm)");
-  EXPECT_EQ(margin_text(-0.21, "rad"), "-0.21 rad (-12.0\u00B0)");
-  EXPECT_EQ(margin_text(-3.3, "rad/s"), "-3.3 rad/s (-189.1\u00B0/s)");
+  EXPECT_EQ(margin_text(-0.21, "rad"), "-0.21 rad (-12\u00B0)");
+  EXPECT_EQ(margin_text(-3.3, "rad/s"), "-3.3 rad/s (-189\u00B0/s)");
   EXPECT_EQ(margin_text(-12.0, "N m"), "-12 N m");
   EXPECT_EQ(margin_text(std::nan(""), "m"), "not a number");
+}
+
+// tests/page/case.test.mjs has the same table for the charts.
+TEST(Wording, WritesOneNumberInOneWay) {
+  const std::pair<double, const char*> kNumbers[] = {
+      {0.0, "0"},          {-0.0, "0"},          {0.001, "0.001"},          {0.00012, "1.2e-4"},
+      {-0.02345, "-0.0234"}, {1.5, "1.5"},        {12.04, "12"},             {-999.6, "-1\u202F000"},
+      {-2002.0, "-2\u202F000"}, {-2e3, "-2\u202F000"}, {3600.4, "3\u202F600"}, {999499.0, "999\u202F000"},
+      {999999.0, "1e6"},   {-1.5e9, "-1.5e9"},   {0.0009999, "0.001"}};
+  for (const auto& [value, text] : kNumbers) EXPECT_EQ(rounded_text(value), text) << value;
+  EXPECT_EQ(rounded_text(std::nan("")), "not a number");
+  EXPECT_EQ(rounded_text(-INFINITY), "-infinite");
+}
+
+TEST(Wording, WritesShares) {
+  EXPECT_EQ(share_text(12, 40), "30 %");
+  EXPECT_EQ(share_text(1, 3), "33.3 %");
+  EXPECT_EQ(share_text(0, 3), "0 %");
+  EXPECT_EQ(share_text(1, 100000), "less than 0.1 %");
 }
 
 TEST(Wording, HasNoTimeWithoutARate) {
