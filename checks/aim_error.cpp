@@ -4,12 +4,11 @@
 #include <limits>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kAimLimit_rad = 0.1 * kRadPerDeg;
 
 // Between the socket's +Z and the way to the target.
 double error_rad(const Rigid& world_from_socket, const Vec3& target_m) {

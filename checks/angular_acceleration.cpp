@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 #include "checks/joint_steps.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kShortestRise_s = 0.02;
 
 bool is_struck(const Motion& motion, int frame) {
   return std::ranges::any_of(motion.response.impacts,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 #include "model/geometry/distance.h"
 #include "model/geometry/solid_points.h"
 
@@ -14,7 +15,6 @@ namespace contort {
 namespace {
 
 constexpr double kContact_m = 0.002;
-constexpr double kSlide_m = 0.02;
 constexpr double kFoot_m = 0.005;  // above the ground at rest
 
 struct SolePoint {

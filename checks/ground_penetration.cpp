@@ -6,14 +6,12 @@
 #include <limits>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 #include "model/geometry/solid_points.h"
 
 namespace contort {
 
 namespace {
-
-// Soles are as soft as this, and colliders as coarse.
-constexpr double kSink_m = 0.005;
 
 // Level ground has a formula.
 double lowest(const Solid& solid) { return solid.center_m.y - extent_along(solid, Vec3(0.0, -1.0, 0.0)); }

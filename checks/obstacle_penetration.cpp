@@ -3,13 +3,12 @@
 #include <limits>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 #include "model/geometry/distance.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kPress_m = 0.005;
 
 std::vector<Solid> placed_obstacles(const Environment& environment) {
   std::vector<Solid> solids;

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checks/fixed_limits.h"
 #include "checks/plan.h"
 
 namespace contort {
 
 namespace {
-
-constexpr double kReachLimit_m = 0.001;
 
 Vec3 place_of(const CheckInput& in, int socket, int frame) {
   const Socket& s = in.character.sockets()[static_cast<std::size_t>(socket)];

@@ -3,6 +3,7 @@
 // trunk that it carries, and an arm with a walk; a part may still be on its way back from an earlier action.
 #include <algorithm>
 
+#include "checks/fixed_limits.h"
 #include "checks/joint_steps.h"
 #include "checks/plan.h"
 
@@ -10,7 +11,6 @@ namespace contort {
 
 namespace {
 
-constexpr double kLeft_rad = 0.1 * kRadPerDeg;
 constexpr double kRests_rad = 0.01 * kLeft_rad;  // in a frame: what moves less is at rest, but for its generator's rounding
 
 double difference_rad(const CheckInput& in, const Part& part, int before, int after) {

@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/fixed_limits.h"
 
 namespace contort {
 
 namespace {
 
 constexpr double kReturn_s = 0.7;  // people recover from a push within a step
-constexpr double kBack_rad = 3.0 * kRadPerDeg;
-constexpr double kBack_m = 0.01;  // of travels
 
 double error_of(const Joint& joint, const double* now, const double* goal) {
   if (joint.kind != JointKind::ball) return std::fabs(now[0] - goal[0]);
