@@ -12,6 +12,7 @@
 #include "checks/check.h"
 #include "cli/case_pages.h"
 #include "cli/input.h"
+#include "cli/measured_values.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
 #include "cli/render.h"
@@ -75,7 +76,11 @@ struct RowContext {
   const Baseline& known;
   const std::string settings;  // the text of --settings
   const Context& context;
+  MeasuredValues& measured;
 };
+
+// A trace has four hex digits a frame (corpus/case.h).
+int frames_of_trace(const std::string& trace) { return static_cast<int>(trace.size() / 4); }
 
 // A row with what the case says by itself. `key` names the files of the row.
 ReportRow row_of_case(const Case& stored, const std::string& path, const std::string& key, const RowContext& with) {
@@ -83,7 +88,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
   row.character = stored.spec.character.name, row.has_motion = !is_abnormal_exit(stored.expect);
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
-  row.worst_margin = stored.expect.worst_margin;
+  row.worst_margin = stored.expect.worst_margin, row.measured = with.measured.text_of(stored);
   row.case_file = location_of(with.corpus, path);
   row.spec_json = pretty_spec(stored.spec);
   row.replay_command = replay_command(path, with.context.sources);
@@ -94,6 +99,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   row.first_frame = stored.expect.first_frame, row.worst_frame = stored.expect.worst_frame,
   row.last_frame = stored.expect.last_frame;
   row.rate_hz = stored.spec.rate_hz;
+  row.frame_count = frames_of_trace(stored.expect.trace);
   row.needs = needs_of(stored.spec);
   row.co_failures = stored.co_failures;
   row.since_base = sentence_about_base(stored.provenance);
@@ -146,14 +152,23 @@ std::vector<CauseMember> add_bucket_rows(const std::vector<Bucket>& buckets, con
   return members;
 }
 
+// Without a baseline a cause is new if nobody has looked at any of its failures.
+bool is_new(const CauseRow& row, const Baseline& known, bool has_baseline) {
+  if (has_baseline) return !known.causes.contains(row.id);
+  return std::ranges::all_of(row.members,
+                             [](const CauseMember& member) { return member.bucket.state == BucketState::fresh; });
+}
+
 // The causes of failures that are not fixed, and the headline of each row.
-void add_causes(std::vector<CauseMember> members, const std::vector<RunRecord>& runs, ReportModel& model) {
+void add_causes(std::vector<CauseMember> members, const std::vector<RunRecord>& runs, const Baseline& known,
+                ReportModel& model) {
   std::erase_if(members, [](const CauseMember& member) { return member.bucket.state == BucketState::fixed; });
   std::map<std::string, std::string> headlines;  // by bucket
   for (const CauseRow& row : causes_of(std::move(members), runs)) {
     ReportCause& cause = model.causes.emplace_back();
     cause.id = row.id, cause.headline = row.headline;
     cause.severity = row.severity, cause.cases = row.cases;
+    cause.is_new = is_new(row, known, model.has_baseline);
     cause.characters.assign(row.characters.begin(), row.characters.end());
     for (const CauseMember& member : row.members) {
       cause.buckets.push_back(member.bucket.id);
@@ -190,18 +205,18 @@ void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, R
 }
 
 // Rows in the report's order (renders/variety.h), so that equal corpora give equal pages.
-void fill_rows(const Corpus& corpus, const Baseline& known, ReportModel& model, Media& media, const std::string& out,
-               Context& context) {
+void fill_rows(const Corpus& corpus, const Baseline& known, MeasuredValues measured, ReportModel& model, Media& media,
+               const std::string& out, Context& context) {
   std::vector<Issue> damaged;
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
   // They were read before; without --settings there is no file.
-  const RowContext with{corpus, known, read ? *read : "", context};
+  const RowContext with{corpus, known, read ? *read : "", context, measured};
   const std::vector<Bucket> buckets = corpus.buckets(damaged);
   model.buckets = std::ssize(buckets);
   std::vector<CauseMember> members = add_bucket_rows(buckets, with, model, media, out, damaged);
   add_lead_rows(buckets, with, model, media, out, damaged);
   std::vector<Issue> of_runs;  // add_runs tells them
-  add_causes(members, runs_of(corpus, of_runs), model);
+  add_causes(members, runs_of(corpus, of_runs), known, model);
   if (const Result<Done> added = add_conditions(corpus, members, model); !added) damaged.push_back(added.issue());
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   order_rows(model.rows);
@@ -317,7 +332,8 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   if (!corpus) return context.fail(corpus.issue());
   if (const Result<Done> same = check_generator(*corpus, generator.manifest()); !same)
     return context.fail(same.issue());
-  if (const Result<CheckSettings> settings = context.load_settings(); !settings) return context.fail(settings.issue());
+  const Result<CheckSettings> settings = context.load_settings();
+  if (!settings) return context.fail(settings.issue());
   const Result<Baseline> known = load_baseline(request.outputs.baseline);
   if (!known) return context.fail(known.issue());
   if (!request.folder.empty())
@@ -325,8 +341,9 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   ReportModel model;
   model.title = "Contort report";
   model.tool = CONTORT_VERSION;
+  model.has_baseline = !request.outputs.baseline.empty();
   Media media;
-  fill_rows(*corpus, *known, model, media, request.folder, context);
+  fill_rows(*corpus, *known, MeasuredValues(*generator.manifest().library, *settings), model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
   add_never_tested(generator, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)

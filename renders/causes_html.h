@@ -7,8 +7,12 @@
 
 namespace contort {
 
-// Returns a section with a row for each of the most severe causes; "" if there are none. A headline is a link to the
-// deepest case if the page can open that; `inside` as for report_html.
+// Returns a severity (docs/causes.md) as a word: "very high" from 20 on, "high" from 5, "medium" from 1, or "low".
+std::string severity_word(double severity);
+
+// Returns a section with a row for each of the most severe causes; "" if there are none. A row has the worst
+// frame of its deepest case; its headline is a link to that case if the page can open it. Its failures, the conditions
+// under which they show, and the command that shows one again are folded away. `inside` as for report_html.
 std::string causes_html(const ReportModel& model, const PageFiles& inside);
 
 }  // namespace contort

@@ -21,6 +21,7 @@ struct ReportRow {
   std::string subject;  // "arm_left/forearm ~ torso/chest"
   std::string unit;     // of worst_margin
   double worst_margin = 0.0;
+  std::string measured;  // value and limit in the worst frame, "turns 3 600 °/s, limit 733 °/s"; "" if unknown
   std::int64_t cases_seen = 0;  // of the family: its buckets are told apart only after shrinking
   std::string bucket;           // id
   std::string key;              // names its files: strips/<key>-*.png, cases/<key>.js
@@ -35,6 +36,7 @@ struct ReportRow {
   int first_frame = 0;
   int worst_frame = 0;
   int last_frame = 0;
+  int frame_count = 0;  // of the minimal motion; 0: not known
   double rate_hz = 60.0;
   std::string features;   // of the bucket: what its id is made of beside the family
   std::string cause;      // headline of its cause; "" where it has none
@@ -60,6 +62,7 @@ struct ReportCause {
   std::string key;                      // of the row of its deepest case, if that has a motion; else ""
   // Sentences that say when it fails, by character (docs/conditions.md); empty where none were learned.
   std::map<std::string, std::string> conditions{};
+  bool is_new = false;  // not in the baseline; without one, nobody has looked at any of its failures
 };
 
 struct ReportModel {
@@ -73,6 +76,7 @@ struct ReportModel {
   std::string elapsed;  // "12 min"; "" where the page has to be the same every time
   std::vector<ReportRow> rows;
   std::vector<ReportCause> causes;  // the most severe first
+  bool has_baseline = false;        // by which causes are told to be new
   SearchProgress search;            // of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
 };

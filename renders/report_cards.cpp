@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <span>
 
-#include "model/core/base64.h"
+#include "renders/check_words.h"
+#include "renders/glossary.h"
 #include "renders/html.h"
+#include "renders/thumb.h"
 #include "renders/wording.h"
 
 namespace contort {
@@ -34,13 +35,6 @@ std::string missing_text(const ReportRow& row) {
                         : "no motion to show: the generator does not come to its end";
 }
 
-// The address under which the page finds a picture: beside it, or in itself.
-std::string picture_url(const std::string& path, const PageFiles& inside) {
-  const auto file = inside.find(path);
-  if (file == inside.end()) return html_url(path);
-  return "data:image/png;base64," + to_base64(std::as_bytes(std::span(file->second)));
-}
-
 std::string picture_html(const ReportRow& row, const std::string& path, std::string_view what,
                          const PageFiles& inside) {
   const std::string url = picture_url(path, inside);
@@ -48,7 +42,7 @@ std::string picture_html(const ReportRow& row, const std::string& path, std::str
   const std::string about = std::string(what) + ": " + row.check + ", " + row.subject + ", worst at " + worst_text(row);
   const std::string image = "<img src='" + url + "' loading='lazy'" + attribute("alt", about) +
                             attribute("data-missing", missing_text(row)) + ">";
-  return "<div class='strip'>" + (inside.empty() ? "<a href='" + url + "'>" + image + "</a>" : image) + "</div>\n";
+  return "<div class='strip" + tile_class(row) + "'>" + (inside.empty() ? "<a href='" + url + "'>" + image + "</a>" : image) + "</div>\n";
 }
 
 std::string phase_fact(const ReportRow& row) {
@@ -70,13 +64,7 @@ std::string also_fact(const ReportRow& row) {
 
 std::string fact(std::string_view name, const std::string& value) {
   if (value.empty()) return "";
-  return "<div><dt>" + std::string(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
-}
-
-std::string command_html(const std::string& command) {
-  if (command.empty()) return "";
-  return "<div class='command'><code>" + html_text(command) +
-         "</code><button type='button' class='copy' aria-label='Copy the replay command'>Copy</button></div>\n";
+  return "<div><dt>" + term_html(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
 }
 
 std::string details_html(std::string_view summary, const std::string& body) {
@@ -87,26 +75,31 @@ std::string open_html(const ReportRow& row, const PageFiles& inside) {
   return can_be_opened(row, inside) ? "<button type='button' class='open'>Look closer</button>\n" : "";
 }
 
+// Links to the case lead here where no script opens it.
+std::string place_of(const ReportRow& row) {
+  return attribute("id", "case=" + row.key) + attribute("data-case", row.key);
+}
+
 std::string short_bucket_html(const ReportRow& row, const PageFiles& inside) {
-  return "<section class='bucket'" + attribute("data-case", row.key) + ">\n<p class='summary'>" +
+  return "<section class='bucket'" + place_of(row) + ">\n<p class='summary'>" +
          html_text(short_text(row)) + "</p>\n" + open_html(row, inside) + command_html(row.replay_command) +
          "</section>\n";
 }
 
 std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& inside) {
-  std::string out = "<section class='bucket'" + attribute("data-case", row.key) + ">\n";
+  std::string out = "<section class='bucket'" + place_of(row) + ">\n";
   out += picture_html(row, row.strip, "Film strip", inside);
   if (const std::string clip = html_url(row.clip); !clip.empty() && inside.empty())
     out += "<p><a class='moving' href='" + clip + "'>Moving, at half speed</a></p>\n";
-  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) +
-         fact("worst margin", margin_text(row.worst_margin, row.unit)) + fact("worst at", worst_text(row)) +
+  out += "<dl class='facts'>\n" + fact("meaning", row.meaning) + fact("measured", row.measured) +
+         fact("worst margin", row.measured.empty() ? margin_text(row.worst_margin, row.unit) : "") + fact("worst at", worst_text(row)) +
          fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("cause", row.cause) +
          fact("needs", row.needs) + fact("comes with", also_fact(row)) +
          fact("in the base", row.since_base) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
   room.spec_bytes -= row.spec_json.size();
-  out += details_html("Minimal spec", "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
+  out += details_html(term_html("minimal case", "Minimal spec"), "<pre tabindex='0'><code>" + html_lines(row.spec_json) + "</code></pre>\n");
   return out + "</section>\n";
 }
 
@@ -121,7 +114,8 @@ std::string card_head(const FamilyCard& card) {
   const ReportRow& row = *card.rows.front();
   std::string chips;
   for (const auto& [state, gating] : chips_of(card)) chips += chip(state, gating);
-  return "<div class='head'>\n<h3><span class='check'>" + html_text(row.check) + "</span> <span class='subject'>" +
+  return "<div class='head'>\n<h3><span class='plain-name'>" + html_text(check_title(row.check)) +
+         "</span> <span class='check'>" + html_text(row.check) + "</span> <span class='subject'>" +
          html_text(row.subject) + "</span></h3>\n<p class='summary'>" + chips + " <span>" + html_text(count_of(card)) +
          "</span></p>\n</div>\n";
 }
@@ -150,7 +144,7 @@ std::string more_html(const FamilyCard& card, LateCard& late, Room& room, const 
     shown += "<p class='rest'>" + html_text(count_text(static_cast<std::int64_t>(late.rows.size()))) +
              " of them are in <a href='more.html'>the plain list</a>.</p>\n";
   }
-  return "<details" + which + "><summary>" + html_text(counted(more, "more bucket", "more buckets")) + "</summary>\n" +
+  return "<details" + which + "><summary>" + html_text(counted(more, "more failure", "more failures")) + "</summary>\n" +
          shown + "</details>\n";
 }
 
@@ -212,17 +206,24 @@ std::string count_of(const FamilyCard& card) {
   for (const ReportRow* row : card.rows) cases = std::max(cases, row->cases_seen);
   const auto buckets = static_cast<std::int64_t>(card.rows.size());
   const std::string of_cases = cases > 0 ? counted(cases, "case", "cases") : "no case of a recorded run showed it";
-  return of_cases + (buckets > 1 ? ", " + counted(buckets, "bucket", "buckets") : "");
+  return of_cases + (buckets > 1 ? ", " + counted(buckets, "failure", "failures") : "");
 }
 
 std::string short_text(const ReportRow& row) {
   const std::string phase = phase_text(row.phase);
-  return "worst " + margin_text(row.worst_margin, row.unit) + " at " + worst_text(row) +
-         (phase.empty() ? "" : ", " + phase) + "; needs " + row.needs;
+  const std::string worst = row.measured.empty() ? "worst " + margin_text(row.worst_margin, row.unit) + " at "
+                                                 : row.measured + "; worst at ";
+  return worst + worst_text(row) + (phase.empty() ? "" : ", " + phase) + "; needs " + row.needs;
 }
 
 bool can_be_opened(const ReportRow& row, const PageFiles& inside) {
   return row.has_motion && !row.key.empty() && (inside.empty() || inside.contains("cases/" + row.key + ".json"));
+}
+
+std::string command_html(const std::string& command) {
+  if (command.empty()) return "";
+  return "<div class='command'><code>" + html_text(command) +
+         "</code><button type='button' class='copy' aria-label='Copy the replay command'>Copy</button></div>\n";
 }
 
 std::string attribute(std::string_view name, std::string_view value) {

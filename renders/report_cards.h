@@ -47,9 +47,12 @@ std::string phases_of(const FamilyCard& card);
 std::string parts_of(const ReportRow& row);  // "arm_left torso" of "human: arm_left/forearm ~ torso/chest"
 // Returns each state once, and whether it gates: the texts of the chips.
 std::vector<std::pair<std::string, bool>> chips_of(const FamilyCard& card);
-std::string count_of(const FamilyCard& card);     // "1 280 cases, 2 buckets"
+std::string count_of(const FamilyCard& card);     // "1 280 cases, 2 failures"
 std::string short_text(const ReportRow& row);     // "worst … at …, just after an interrupt; needs walk"
 bool can_be_opened(const ReportRow& row, const PageFiles& inside);
+
+// Returns a command to copy, with the button that copies it; "" if there is none.
+std::string command_html(const std::string& command);
 
 // One attribute with its leading space.
 std::string attribute(std::string_view name, std::string_view value);

@@ -5,10 +5,12 @@
 #include <set>
 
 #include "model/core/hash.h"
+#include "renders/glossary.h"
 #include "renders/html.h"
 #include "renders/page_files.h"
 #include "renders/report.h"
 #include "renders/causes_html.h"
+#include "renders/check_table_html.h"
 #include "renders/report_cards.h"
 #include "renders/report_rest.h"
 #include "renders/search_html.h"
@@ -62,19 +64,21 @@ Verdict verdict_of(const ReportModel& model) {
   return {"bad", counted(count, kind + " failure", kind + " failures"), detail + ". " + others};
 }
 
-std::string number_item(const std::string& value, std::string_view name) {
-  return "<div><dt>" + std::string(name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
+// `singular`: the word of the glossary that explains the name.
+std::string number_item(const std::string& value, std::string_view name, std::string_view singular = {}) {
+  return "<div><dt>" + term_html(singular, name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
 }
 
 std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
   std::string out = "<header class='verdict " + verdict.look + "'>\n<div class='page'>\n<p class='title'>" +
                     html_text(model.title) + "</p>\n<h1>" + html_text(verdict.text) + "</h1>\n<p class='detail'>" +
                     html_text(verdict.detail) + "</p>\n<dl class='numbers'>\n";
-  out += number_item(count_text(model.cases), "cases");
+  out += number_item(count_text(model.cases), "cases", "case");
   if (model.search.cases > 0)
     out += number_item(clean_share(model.search.cases, model.search.failing), "of them clean");
-  out += number_item(count_text(std::ssize(model.causes)), "causes") +
-         number_item(count_text(std::ssize(model.rows)), "failures") + number_item(count_text(model.frames), "frames");
+  out += number_item(count_text(std::ssize(model.causes)), "causes", "cause") +
+         number_item(count_text(std::ssize(model.rows)), "failures", "failure") +
+         number_item(count_text(model.frames), "frames");
   if (!model.elapsed.empty()) out += number_item(model.elapsed, "elapsed");
   return out + "</dl>\n</div>\n</header>\n";
 }
@@ -127,31 +131,6 @@ std::string footer_html(const ReportModel& model, bool alone) {
   const std::string json = alone ? "." : "; the same numbers are in <a href='report.json'>report.json</a>.";
   return "<footer class='page'><p>Made by contort" + json +
          std::string(model.rows.empty() ? "" : kKeys) + "</p></footer>\n";
-}
-
-// For who reads a report for the first time.
-std::string words_html() {
-  static constexpr std::pair<std::string_view, std::string_view> kWords[] = {
-      {"case", "One motion that was made and checked: a character, what it was told to do, and where. It is clean if no "
-               "check failed."},
-      {"failure", "One way to break a check, with the smallest case that does it. Also called a bucket."},
-      {"family", "Failures of one check in one place, such as a joint or two parts that run into each other."},
-      {"margin", "How far something is from its limit. Below 0 the limit is broken; \"worst\" is where it is broken most."},
-      {"needs", "The actions without which the failure does not happen: where to look for its cause."},
-      {"comes with", "Other families that the smallest case shows as well. They are not failures of their own for that."},
-      {"in the base", "What the other build of a comparison (contort fuzz --against) shows for the same case."},
-      {"cause", "What explains failures: an action that fails alone, several that fail only together, or what is around "
-                "the figure. Found by playing each action of the smallest case alone."},
-      {"severity", "From 0 to 100: how deep, how often, how visible and how easy to meet."},
-      {"phase", "What was going on in the worst frame, such as an interrupt that had just cut in."},
-      {"state", "new: nobody has looked at it. open: somebody looks after it. regressed: it was fixed and is back. "
-                "fixed: gone. quarantined: it may fail until a day. flaky: not the same each time. waiting: found when "
-                "the time was up, and not made small yet. unconfirmed: seen once, not the second time."},
-      {"gating", "It makes an automatic build fail: new, regressed and waiting failures do."}};
-  std::string out = "<details class='words-used'><summary>What the words mean</summary>\n<dl>\n";
-  for (const auto& [word, meaning] : kWords)
-    out += "<div><dt>" + std::string(word) + "</dt><dd>" + html_text(meaning) + "</dd></div>\n";
-  return out + "</dl>\n</details>\n";
 }
 
 std::string text_of(std::string_view name) {
@@ -223,8 +202,9 @@ std::string index_html(const ReportModel& model, const std::vector<FamilyCard>& 
   const std::string nonce = content_id(report_json(model));
   const std::string head = head_html(model, verdict, nonce) +
                            "<body>\n<a class='skip' href='#failures'>Skip to the failures</a>\n" +
-                           verdict_html(model, verdict) + "<main class='page'>\n" + causes_html(model, inside);
-  const std::string tail = search_html(model.search) + tested_html(model) + words_html() + "</main>\n" +
+                           verdict_html(model, verdict) + "<main class='page'>\n" + causes_html(model, inside) +
+                           check_table_html(model);
+  const std::string tail = search_html(model.search) + tested_html(model) + glossary_html() + "</main>\n" +
                            footer_html(model, !inside.empty()) + inside_html(inside, nonce) + "</body>\n</html>\n";
   const Room room = room_for(model, head.size() + tail.size(), !inside.empty());
   return head + failures_html(cards, inside, room, late) + tail;

@@ -6,6 +6,7 @@
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
+#include "renders/check_words.h"
 #include "renders/html.h"
 #include "renders/wording.h"
 
@@ -32,12 +33,12 @@ Json card_json(const LateCard& late) {
   Json json = {{"card", late.number}, {"buckets", Json::array()}};
   if (late.begun) return json;
   const ReportRow& row = *late.card->rows.front();
-  json["check"] = row.check, json["subject"] = row.subject, json["character"] = row.character;
+  json["title"] = check_title(row.check), json["check"] = row.check, json["subject"] = row.subject, json["character"] = row.character;
   json["parts"] = parts_of(row), json["phase"] = phases_of(*late.card), json["state"] = states_of(*late.card);
   json["gating"] = late.card->gating(), json["count"] = count_of(*late.card);
   for (const auto& [state, gating] : chips_of(*late.card)) json["chips"].push_back(Json::array({state, gating}));
   const auto more = static_cast<std::int64_t>(late.rows.size()) - 1;
-  if (more > 0) json["more"] = counted(more, "more bucket", "more buckets");
+  if (more > 0) json["more"] = counted(more, "more failure", "more failures");
   return json;
 }
 

@@ -113,14 +113,6 @@ std::string pairs_html(const ReportModel& model) {
   return out + "</ul>\n</details>\n";
 }
 
-std::string bar_html(std::int64_t count, std::int64_t largest) {
-  const double share = largest > 0 ? static_cast<double>(count) / static_cast<double>(largest) : 0.0;
-  char width[32];
-  std::snprintf(width, sizeof width, "%.2f", 100.0 * share);
-  return "<svg class='bar' viewBox='0 0 100 1' preserveAspectRatio='none' aria-hidden='true'><rect height='1'" +
-         attribute("width", width) + "/></svg>";
-}
-
 // Characters, parts, objects, grounds, interrupts.
 std::string others_html(const ReportModel& model) {
   const auto is_other = [](const auto& row) { return !is_pair(row.first) && !use_of(row.first); };
@@ -140,6 +132,14 @@ std::string others_html(const ReportModel& model) {
 }
 
 }  // namespace
+
+std::string bar_html(std::int64_t count, std::int64_t largest) {
+  const double share = largest > 0 ? static_cast<double>(count) / static_cast<double>(largest) : 0.0;
+  char width[32];
+  std::snprintf(width, sizeof width, "%.2f", 100.0 * share);
+  return "<svg class='bar' viewBox='0 0 100 1' preserveAspectRatio='none' aria-hidden='true'><rect height='1'" +
+         attribute("width", width) + "/></svg>";
+}
 
 PairCounts pair_counts(const ReportModel& model) {
   PairCounts counts;

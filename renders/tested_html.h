@@ -11,6 +11,9 @@ namespace contort {
 // rest. "" if nothing ran.
 std::string tested_html(const ReportModel& model);
 
+// Returns a bar whose length is the share of a count in the largest one.
+std::string bar_html(std::int64_t count, std::int64_t largest);
+
 // The number of possible labels "pair …", and the number of those that were drawn.
 struct PairCounts {
   std::int64_t possible = 0;

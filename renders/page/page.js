@@ -10,6 +10,7 @@
 
   // In the head, so that it is listening before the first picture can fail.
   document.addEventListener('error', (event) => {
+    if (event.target.closest?.('.thumb')) { event.target.remove(); return; }
     const text = event.target.dataset && event.target.dataset.missing;
     if (!text) return;
     const note = document.createElement('p');

@@ -30,7 +30,7 @@
   };
 
   const bucket = ({ key, text, open, command }) => {
-    const element = make('section', { class: 'bucket', 'data-case': key }, make('p', { class: 'summary' }, text));
+    const element = make('section', { class: 'bucket', id: `case=${key}`, 'data-case': key }, make('p', { class: 'summary' }, text));
     if (open) element.append(make('button', { type: 'button', class: 'open' }, 'Look closer'));
     if (command)
       element.append(make('div', { class: 'command' }, make('code', {}, command),
@@ -42,7 +42,8 @@
     tabindex: '-1', class: data.gating ? 'card gating' : 'card', 'data-check': data.check,
     'data-character': data.character, 'data-parts': data.parts, 'data-phase': data.phase, 'data-state': data.state,
   }, make('div', { class: 'head' },
-    make('h3', {}, make('span', { class: 'check' }, data.check), ' ',
+    make('h3', {}, make('span', { class: 'plain-name' }, data.title || ''), ' ',
+      make('span', { class: 'check' }, data.check), ' ',
       make('span', { class: 'subject' }, data.subject)),
     make('p', { class: 'summary' }, ...data.chips.map(chip), ' ', make('span', {}, data.count))));
 
@@ -95,6 +96,14 @@
       if (!rest) { done(false); return; }
       setTimeout(() => loadAll(failures, rest).catch(() => tellMissing(rest)).finally(() => done(true)));
     });
+  });
+
+  // Pictures of causes in a page that contains everything: those of the cards, so that none is in the page twice.
+  document.addEventListener('DOMContentLoaded', () => {
+    for (const image of document.querySelectorAll('.thumb img[data-picture-of]')) {
+      const picture = document.getElementById(`case=${image.dataset.pictureOf}`)?.querySelector('.strip img');
+      if (picture) image.src = picture.src;
+    }
   });
 
   // A card as it stands on the page, read once; without the buttons that live.js adds.

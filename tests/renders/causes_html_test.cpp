@@ -49,8 +49,8 @@ TEST(CausesHtml, AreCountedInTheHeadWithTheShareOfCleanCases) {
   EXPECT_TRUE(holds(html, "<h1>2 new failures</h1>"));
   EXPECT_TRUE(holds(html, "By 1 cause. Known, not gating: 1 open.")) << "the other cause does not gate";
   EXPECT_TRUE(holds(html, "<dt>of them clean</dt><dd>99.6 %</dd>"));
-  EXPECT_TRUE(holds(html, "<dt>causes</dt><dd>2</dd>"));
-  EXPECT_TRUE(holds(html, "<dt>failures</dt><dd>3</dd>"));
+  EXPECT_TRUE(holds(html, ">causes</abbr></dt><dd>2</dd>"));
+  EXPECT_TRUE(holds(html, ">failures</abbr></dt><dd>3</dd>"));
   model.search.failing = 0;
   EXPECT_TRUE(holds(report_html(model), "<dt>of them clean</dt><dd>100 %</dd>"));
 }
@@ -66,7 +66,71 @@ TEST(CausesHtml, SayWhenTheyFailInTextThatIsEscaped) {
 TEST(CausesHtml, OpenTheirDeepestCase) {
   const std::string html = causes_html(model_with({elbow_cause()}), {});
   EXPECT_TRUE(holds(html, "<a href='#case=key-1'>Left elbow leaves its range during aim</a>"));
-  EXPECT_TRUE(holds(html, "<td>human, mech</td><td>1\u202F500</td><td>2</td><td>12.3</td>"));
+  EXPECT_TRUE(holds(html, "<td class='who'>human, mech</td>"));
+  EXPECT_TRUE(holds(html, "<b>high</b> <span class='dim'>12.3 of 100</span>"));
+}
+
+TEST(CausesHtml, SayHowOftenAndWhetherTheyAreNew) {
+  ReportModel model = model_with({elbow_cause(), elbow_cause()});
+  model.cases = 6000, model.causes[0].is_new = true;
+  const std::string html = causes_html(model, {});
+  EXPECT_TRUE(holds(html, "<b>25 %</b> <span class='dim'>1\u202F500 of 6\u202F000 cases</span>"));
+  EXPECT_TRUE(holds(html, "<span class='chip state-new'>new</span>"));
+  EXPECT_TRUE(holds(html, "<span class='chip'>known</span>"));
+  EXPECT_TRUE(holds(html, "causes explain</abbr> 4 failures; 1 is new. The most severe comes first."));
+  model.has_baseline = true;
+  EXPECT_TRUE(holds(causes_html(model, {}), "; 1 is new since the <abbr"));
+}
+
+// The row of the deepest case, with a film strip of eight tiles.
+ReportModel model_with_strip() {
+  ReportModel model = model_with({elbow_cause()});
+  ReportRow row = row_in("a", true);
+  row.key = "key-1", row.strip = "strips/key-1.png", row.subject = kMarkupInCause;
+  row.first_frame = 11, row.worst_frame = 24, row.last_frame = 31, row.frame_count = 32;
+  row.measured = "is at 120, limit 90", row.replay_command = "contort replay a";
+  model.rows = {row, row_in("b", true)};
+  return model;
+}
+
+TEST(CausesHtml, ShowTheWorstFrameAsAPieceOfTheStrip) {
+  ReportModel model = model_with_strip();
+  const std::string html = causes_html(model, {});
+  // Frames 1, 10, 11, 17, 20, 24, 27 and 31 are on the strip: the worst one is in the sixth tile.
+  EXPECT_TRUE(holds(html, "<a class='thumb tile-5' href='#case=key-1'><img src='strips/key-1.png' loading='lazy'"));
+  const PageFiles inside = {{"cases/key-1.json", "{}"}, {"strips/key-1.png", "picture"}};
+  EXPECT_TRUE(holds(causes_html(model, inside), "<img data-picture-of='key-1'")) << "the picture is on the card";
+  EXPECT_FALSE(holds(causes_html(model, inside), "data:image"));
+  model.rows[0].frame_count = 0;
+  EXPECT_FALSE(holds(causes_html(model, {}), "<img")) << "the place of the worst frame is not known";
+}
+
+TEST(CausesHtml, UnfoldTheirFailuresAndTheCommand) {
+  ReportModel model = model_with_strip();
+  const std::string html = causes_html(model, {});
+  EXPECT_TRUE(holds(html, "<span class='worst'>at worst is at 120, limit 90</span>"));
+  EXPECT_TRUE(holds(html, "<details><summary>2 <abbr"));
+  EXPECT_TRUE(holds(html, "<code>contort replay a</code>"));
+  EXPECT_TRUE(holds(html, "<li><a href='#case=b'>"));
+  EXPECT_FALSE(holds(html, "<script>"));
+  model.causes[0].buckets.assign(14, "b");
+  EXPECT_TRUE(holds(causes_html(model, {}), "4 more failures</li>"));
+}
+
+TEST(CausesHtml, LeadToTheCardWithoutScripts) {
+  EXPECT_TRUE(holds(report_html(model_with_strip()), "<section class='bucket' id='case=key-1'"));
+}
+
+TEST(CausesHtml, NameTheirSeverity) {
+  EXPECT_EQ(severity_word(100.0), "very high");
+  EXPECT_EQ(severity_word(5.0), "high");
+  EXPECT_EQ(severity_word(4.9), "medium");
+  EXPECT_EQ(severity_word(0.2), "low");
+}
+
+TEST(CausesHtml, FoldAwayTheLessSevereOnes) {
+  const std::string html = causes_html(model_with(std::vector<ReportCause>(12, elbow_cause())), {});
+  EXPECT_TRUE(holds(html, "<details><summary>2 less severe causes</summary>\n<table class='causes'>"));
 }
 
 TEST(CausesHtml, HaveNoLinkWithoutAMotion) {

@@ -88,9 +88,13 @@ export class Refresh {
       if (old && next) old.replaceWith(document.adoptNode(next));
     }
     const main = document.querySelector('main.page');
-    for (const old of [...main.children]) if (old.id !== 'failures') old.remove();
-    for (const next of [...fresh.querySelector('main.page').children])
-      if (next.id !== 'failures') main.append(document.adoptNode(next));
+    const failures = document.getElementById('failures');
+    for (const old of [...main.children]) if (old !== failures) old.remove();
+    // Those above the failures stay above them.
+    const all = [...fresh.querySelector('main.page').children];
+    const place = all.findIndex((next) => next.id === 'failures');
+    failures.before(...all.slice(0, place).map((next) => document.adoptNode(next)));
+    failures.after(...all.slice(place + 1).map((next) => document.adoptNode(next)));
   }
 
   replaceList(failures, next, barOf) {
