@@ -42,9 +42,9 @@ std::string row_text(const CauseRow& row, std::size_t place, const CausesText& a
   const std::string number = std::to_string(place) + ".";
   std::string text = number + std::string(number.size() < 4 ? 4 - number.size() : 1, ' ');
   text += (about.known.contains(row.id) ? "      " : "NEW   ") + printable(row.headline) + "\n          ";
-  text += row.id + ": severity " + decimal(row.severity, 1);
+  text += row.id + ": severity " + rounded_text(row.severity);
   if (about.cases > 0) text += ", " + count_text(row.cases) + " of " + counted(about.cases, "case", "cases");
-  text += ", " + counted(std::ssize(row.members), "bucket", "buckets") + " (" + joined(row.characters) + ")  ";
+  text += ", " + counted(std::ssize(row.members), "failure", "failures") + " (" + joined(row.characters) + ")  ";
   return text + replay_command(absolute(row.members.front().path), about.sources) + "\n";
 }
 
@@ -125,7 +125,7 @@ void run_causes(const CausesOptions& options, Context& context) {
   if (options.all) about.most = rows.size();
   if (options.json) return void(std::printf("%s\n", causes_json(rows, about).c_str()));
   std::printf("%s%s, %s\n", causes_text(rows, about).c_str(), counted(std::ssize(rows), "cause", "causes").c_str(),
-              counted(buckets, "bucket", "buckets").c_str());
+              counted(buckets, "failure", "failures").c_str());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/print.h"
 #include "model/core/index.h"
 #include "model/core/json_fields.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -40,7 +41,7 @@ const Finding* deepest_of(const DofLimits& limits) {
 double time_s(const ClipReport& clip, int frame) { return (frame - clip.first_frame) / clip.rate_hz; }
 
 // Angles for people.
-std::string margin_text(const Finding& finding, int digits_of_lengths = 1) {
+std::string excess_text(const Finding& finding, int digits_of_lengths = 1) {
   const bool is_angle = finding.unit == "rad";
   if (is_angle) return decimal(-finding.worst_margin * kDegPerRad, 1) + " deg";
   return decimal(-finding.worst_margin, digits_of_lengths) + " " + finding.unit;
@@ -57,7 +58,7 @@ std::string limits_text(const DofLimits& limits) {
   std::string text =
       std::to_string(limits.out_of_range) + " of " + std::to_string(limits.samples) + " samples out of range";
   if (const Finding* worst = deepest_of(limits))
-    text += ", worst " + margin_text(*worst) + " at " + printable(worst->subject) + ", frame " +
+    text += ", worst " + excess_text(*worst) + " at " + printable(worst->subject) + ", frame " +
             std::to_string(worst->worst_frame);
   return text;
 }
@@ -65,7 +66,7 @@ std::string limits_text(const DofLimits& limits) {
 void print_limit_findings(const ClipReport& clip) {
   for (const Finding& f : clip.judged.limits->findings)
     std::printf("  joint_range  %s  %s out of range  frames %d-%d, worst %d (%s s)\n", printable(f.subject).c_str(),
-                margin_text(f).c_str(), f.first_frame, f.last_frame, f.worst_frame,
+                excess_text(f).c_str(), f.first_frame, f.last_frame, f.worst_frame,
                 decimal(time_s(clip, f.worst_frame), 3).c_str());
 }
 
@@ -203,13 +204,13 @@ void print_speed_findings(const ClipSpeeds& speeds) {
 void print_key_findings(const std::vector<Finding>& findings) {
   for (const Finding& f : findings)
     std::printf("  %s  %s  %s beyond what is allowed  keys %d-%d, worst %d\n", f.check.c_str(),
-                printable(f.subject).c_str(), margin_text(f, 3).c_str(), f.first_frame, f.last_frame, f.worst_frame);
+                printable(f.subject).c_str(), excess_text(f, 3).c_str(), f.first_frame, f.last_frame, f.worst_frame);
 }
 
 void print_motion_findings(const ClipReport& clip) {
   for (const Finding& f : clip.judged.motion_findings)
-    std::printf("  %s  %s  %s %s  frames %d-%d, worst %d (%s s)\n", f.check.c_str(), printable(f.subject).c_str(),
-                short_number(f.worst_margin).c_str(), f.unit.c_str(), f.first_frame, f.last_frame, f.worst_frame,
+    std::printf("  %s  %s  %s  frames %d-%d, worst %d (%s s)\n", f.check.c_str(), printable(f.subject).c_str(),
+                margin_text(f.worst_margin, f.unit).c_str(), f.first_frame, f.last_frame, f.worst_frame,
                 decimal(clip.motion->first_s + f.worst_frame / clip.motion->rate_hz, 3).c_str());
 }
 

@@ -6,6 +6,7 @@
 #include "corpus/lifecycle.h"
 #include "corpus/upkeep.h"
 #include "model/core/json_fields.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -31,9 +32,7 @@ std::string known_text(const Bucket& bucket, const std::string& today) {
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return rounded_text(value);
 }
 
 std::string decimal(double value, int digits) {
@@ -47,8 +46,8 @@ std::string finding_line(const Finding& finding, double rate_hz, const Circumsta
   char frames[120];
   std::snprintf(frames, sizeof frames, "frames %d-%d, worst %d (%s s)", finding.first_frame, finding.last_frame,
                 finding.worst_frame, decimal(finding.worst_frame / rate_hz, 3).c_str());
-  std::string line = finding.check + "  " + finding.subject + "  " + short_number(finding.worst_margin) + " " +
-                     finding.unit + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
+  std::string line = finding.check + "  " + finding.subject + "  " +
+                     margin_text(finding.worst_margin, finding.unit) + "  " + frames + "  " + std::string(phase_name(at_worst.phase));
   for (const ActiveAction& action : at_worst.actions)
     line += (&action == at_worst.actions.data() ? ": " : ", ") + action.name + " (" + action.slot + ")";
   return line;

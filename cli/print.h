@@ -12,7 +12,8 @@
 
 namespace contort::cli {
 
-// "self_collision  arm_left/forearm ~ torso/trunk  -0.031 m  frames 12-40, worst 20 (0.333 s)  blend: reach (arm_left)"
+// "self_collision  arm_left/forearm ~ torso/trunk  -0.031 m (-31 mm)  frames 12-40, worst 20 (0.333 s)  blend: reach
+// (arm_left)"
 std::string finding_line(const Finding& finding, double rate_hz, const Circumstances& at_worst);
 
 // A JSON list: check, subject, unit, margin (null where it is NaN), depth, frames and times, and in what circumstances
@@ -37,7 +38,7 @@ void warn_of_other_rules(const Corpus& corpus);
 // With so many digits behind the point, and in short where it has more than nine before it.
 std::string decimal(double value, int digits);
 
-// A finite number in short; "nan" where it is not one.
+// A finite number as the report writes it (renders/wording.h); "nan" where it is not one.
 std::string short_number(double value);
 
 }  // namespace contort::cli

@@ -18,6 +18,7 @@
 #include "corpus/guarded_replay.h"
 #include "corpus/verify.h"
 #include "model/core/json_fields.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -42,7 +43,7 @@ std::string explain(const Case& stored, const Replay& result) {
   if (result.verdict == Verdict::refused) return to_line(result.issue);
   text += print_family(family_of(stored));
   if (result.verdict != Verdict::passes)
-    text += "  " + short_number(result.now.worst_margin) + " " + result.now.unit + " at frame " +
+    text += "  " + margin_text(result.now.worst_margin, result.now.unit) + " at frame " +
             std::to_string(result.now.worst_frame);
   if (result.verdict == Verdict::different) text += " of " + result.now.check + " " + result.now.subject;
   if (result.first_difference >= 0) text += ", first differing frame " + std::to_string(result.first_difference);

@@ -16,6 +16,7 @@
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "model/core/output.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -87,8 +88,9 @@ void print_shrunk(const Shrunk& shrunk, const Case& original, const std::string&
               shrunk.stopped.c_str());
   for (const std::string& pointer : shrunk.minimal.free_fields) std::printf("any value: %s\n", pointer.c_str());
   if (shrunk.worst.expect.depth > shrunk.minimal.expect.depth)
-    std::printf("worst: %s %s, %s here\n", short_number(shrunk.worst.expect.worst_margin).c_str(),
-                shrunk.worst.expect.unit.c_str(), short_number(shrunk.minimal.expect.worst_margin).c_str());
+    std::printf("worst: %s, %s here\n",
+                margin_text(shrunk.worst.expect.worst_margin, shrunk.worst.expect.unit).c_str(),
+                short_number(shrunk.minimal.expect.worst_margin).c_str());
   for (const Family& other : shrunk.minimal.co_failures) std::printf("comes with it: %s\n", print_family(other).c_str());
   if (shrunk.precursor) std::printf("a run files it under: %s\n", print_family(family_of(*shrunk.precursor)).c_str());
   for (const Case& other : shrunk.met) std::printf("also met: %s\n", print_family(family_of(other)).c_str());

@@ -2,6 +2,7 @@
 
 #include "model/core/index.h"
 #include "model/core/json_fields.h"
+#include "renders/check_words.h"
 
 namespace contort::cli {
 
@@ -18,17 +19,6 @@ const std::string& slot_of(const Execution& made, const UnmetRequest& unmet) {
   return made.character->parts()[at(unmet.part)].slot;
 }
 
-std::string reason_of(Shortfall why) {
-  switch (why) {
-    case Shortfall::out_of_reach: return "it is out of reach";
-    case Shortfall::joint_range: return "a joint is at the end of its range";
-    case Shortfall::joint_speed: return "there was not enough time for the speed of a joint";
-    case Shortfall::clearance: return "bodies would come too near";
-    case Shortfall::rule_failed: return "the script of the action stopped";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<std::string> unmet_lines(const Execution& made) {
@@ -36,7 +26,7 @@ std::vector<std::string> unmet_lines(const Execution& made) {
   for (const UnmetRequest& unmet : unmet_of(made))
     lines.push_back("note: " + unmet.action + " (" + slot_of(made, unmet) + ") was not met in frames " +
                     std::to_string(unmet.first_frame) + "-" + std::to_string(unmet.last_frame) + ": " +
-                    reason_of(unmet.why));
+                    std::string(shortfall_text(unmet.why)));
   return lines;
 }
 

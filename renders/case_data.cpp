@@ -5,8 +5,10 @@
 #include "corpus/evaluator.h"
 #include "formats/gltf/write.h"
 #include "model/core/base64.h"
+#include "renders/check_words.h"
 #include "renders/gzip.h"
 #include "renders/highlight.h"
+#include "renders/measured_text.h"
 #include "renders/needs.h"
 #include "renders/page_call.h"
 #include "renders/scene_fields.h"
@@ -32,6 +34,32 @@ Motion target_of(const Motion& motion) {
   target.rate_hz = motion.rate_hz, target.frame_count = motion.frame_count, target.coord_count = motion.coord_count;
   target.coords = motion.response.target_coords, target.root = motion.response.target_root;
   return target;
+}
+
+Json unmet_requests_json(const Execution& execution) {
+  Json list = Json::array();
+  if (!execution.intent) return list;
+  for (const UnmetRequest& unmet : execution.intent->unmet)
+    list.push_back({{"action", unmet.action},
+                    {"slot", execution.character->parts()[static_cast<std::size_t>(unmet.part)].slot},
+                    {"first_frame", unmet.first_frame},
+                    {"last_frame", unmet.last_frame},
+                    {"why", shortfall_text(unmet.why)}});
+  return list;
+}
+
+Json unjudged_checks_json(const std::vector<NotJudged>& checks) {
+  Json list = Json::array();
+  for (const NotJudged& one : checks)
+    list.push_back({{"check", one.check}, {"title", check_title(one.check)}, {"reason", one.reason}});
+  return list;
+}
+
+// The value and the limit of a finding; "" if its margin does not tell them.
+std::string measured_in(const Character& character, const CheckSettings& settings, const Finding& about) {
+  if (about.first_frame < 0) return "";
+  const auto measured = measured_of(character, settings, about.check, about.subject, about.worst_margin);
+  return measured ? measured_text(about.check, about.unit, *measured) : "";
 }
 
 Result<Json> motion_json(const ShownCase& shown, Generator& generator, const CheckSettings& settings) {
@@ -63,6 +91,9 @@ Result<Json> motion_json(const ShownCase& shown, Generator& generator, const Che
               {"spans", spans_json(execution)},
               {"marks", marks_json(execution)},
               {"balance", balance_json(motion)},
+              {"measured", measured_in(character, settings, about)},
+              {"unmet", unmet_requests_json(execution)},
+              {"not_judged", unjudged_checks_json(evaluation->not_judged)},
               {"curves", curves_json(evaluator.curves(about, kMostCurves))}};
 }
 
@@ -75,6 +106,8 @@ Result<std::string> case_data(const std::string& key, std::span<const ShownCase>
   Json json = {{"format", "contort.report_case/1"},
                {"key", key},
                {"check", expect.check},
+               {"title", check_title(expect.check)},
+               {"character", shown.front().stored.spec.character.name},
                {"subject", expect.subject},
                {"unit", expect.unit},
                {"needs", needs_of(shown.front().stored.spec)},

@@ -150,7 +150,7 @@ std::string intro_html(const ReportModel& model) {
   const std::int64_t causes = std::ssize(model.causes);
   const std::string since = model.has_baseline ? " since the " + term_html("baseline") : "";
   return "<p class='order'>" + html_text(count_text(causes)) + " " +
-         term_html("cause", causes == 1 ? "cause explains" : "causes explain") + " " +
+         term_html("cause", causes == 1 ? "cause" : "causes") + (causes == 1 ? " explains " : " explain ") +
          html_text(counted(failures, "failure", "failures")) + "; " + new_text(fresh, causes) + " new" + since +
          ". The most severe comes first.</p>\n";
 }
@@ -158,7 +158,7 @@ std::string intro_html(const ReportModel& model) {
 std::string head_row() {
   const auto column = [](const std::string& html) { return "<th scope='col'>" + html + "</th>"; };
   return "<thead><tr>" + column("<span class='unseen'>Worst frame</span>") + column(term_html("cause", "Cause")) +
-         column("New?") + column(term_html("severity", "Severity")) +
+         column(term_html("state", "New?")) + column(term_html("severity", "Severity")) +
          column("How often") + column("Characters") + "</tr></thead>\n";
 }
 

@@ -185,6 +185,7 @@ Json curves_json(const std::vector<MarginCurve>& curves) {
                    {"subject", curve.subject.name},
                    {"unit", curve.subject.unit},
                    {"scale", curve.check->scale},
+                   {"resolution", curve.check->resolution},
                    {"margins", std::move(margins)}});
   }
   return all;

@@ -59,7 +59,7 @@ TEST_F(CheckCharacter, FindingsOfTheFileAndOfTheMotionAreInOneList) {
   const Ran ran = contort_program({"check", file, "--character", "human"});
   EXPECT_EQ(ran.code, 1) << ran.err;
   EXPECT_TRUE(tells_of(ran.out, "  joint_range  arm_left/elbow max  -0.05")) << ran.out;
-  EXPECT_TRUE(tells_of(ran.out, " rad  frames 10-13, worst 1")) << ran.out;
+  EXPECT_TRUE(tells_of(ran.out, "\u00B0)  frames 10-13, worst 1")) << ran.out;
   EXPECT_EQ(contort_program({"check", file}).code, 0) << "nothing of that shows without a character";
 }
 

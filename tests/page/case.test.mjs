@@ -1,6 +1,8 @@
 // An open case: picture, scrub bar, curves, heat map, spec, ways in and out.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { intervals, number } from '../../renders/page/src/format.js';
+import { violatedRuns } from '../../renders/page/src/intervals.js';
 import {
   copyOf, findCase, headFrame, openCase, openPage, options, picture, placeOf, readCases, ready, settle, shownFrame,
   urlOf,
@@ -24,6 +26,74 @@ const withFree = findCase(cases, (data) => data.motions[0].free_fields.length > 
 const need = (key, what) => ({ skip: key === undefined ? `the report has no case with ${what}` : false });
 const wantedFrame = (key) => cases.get(key).motions[0].worst_frame;
 const lastFrame = (key) => cases.get(key).motions[0].frame_count - 1;
+
+// tests/renders/wording_test.cpp has the same table for the page and the console.
+test('one number is written in one way', () => {
+  const wanted = [[0, '0'], [-0, '0'], [0.001, '0.001'], [0.00012, '1.2e-4'], [-0.02345, '-0.0234'], [1.5, '1.5'],
+    [12.04, '12'], [-999.6, '-1\u202f000'], [-2002, '-2\u202f000'], [-2e3, '-2\u202f000'], [3600.4, '3\u202f600'],
+    [999499, '999\u202f000'], [999999, '1e6'], [-1.5e9, '-1.5e9'], [0.0009999, '0.001']];
+  for (const [value, text] of wanted) assert.equal(number(value), text);
+});
+
+test('every interval of a violation is found', () => {
+  const runs = violatedRuns({ margins: [1, -1, -2, null, -1, 0, -1e-9, -3], resolution: 1e-6 });
+  assert.deepEqual(runs, [{ first: 1, last: 2 }, { first: 4, last: 4 }, { first: 7, last: 7 }]);
+  assert.equal(intervals(runs), '3 times: frames 1\u20132, 4 and 7');
+  assert.equal(intervals(runs.slice(1, 2)), 'frame 4');
+  assert.equal(intervals([]), '');
+});
+
+const named = findCase(cases, (data) => data.title && data.character);
+const withUnmet = findCase(cases, (data) => data.motions[0].unmet?.length > 0);
+const notJudged = findCase(cases, (data) => data.motions[0].not_judged?.length > 0);
+const measured = findCase(cases, (data) => data.motions[0].measured);
+
+test('the heading names the character and the check in plain words', need(named, 'a title'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), named);
+  const text = await page.locator('.case-title').textContent();
+  assert.ok(text.includes(cases.get(named).title) && text.endsWith(`on ${cases.get(named).character}`), text);
+  await close();
+});
+
+test('value and limit stand in the place of a margin', need(measured, 'a measured value'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), measured);
+  const text = await page.locator('.case-facts').textContent();
+  assert.ok(text.includes(cases.get(measured).motions[0].measured));
+  assert.ok(!text.includes('worst margin'));
+  await close();
+});
+
+test('every interval is marked above the scrub bar', need(withCurves, 'curves'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), withCurves);
+  const [curve] = cases.get(withCurves).motions[0].curves;
+  const runs = violatedRuns({ resolution: 0, ...curve });
+  assert.equal(await page.locator('.violation').count(), runs.length);
+  assert.ok((await page.locator('.case-facts').textContent()).includes(intervals(runs)));
+  await close();
+});
+
+test('requests that were not met have a section', need(withUnmet, 'an unmet request'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), withUnmet);
+  const { motions: [{ unmet: [one] }] } = cases.get(withUnmet);
+  assert.match(await page.locator('.unmet li').first().textContent(), new RegExp(`${one.action}.*${one.why}`));
+  await close();
+});
+
+test('what was not judged has a section', need(notJudged, 'a check that could not judge'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), notJudged);
+  const { motions: [{ not_judged: all }] } = cases.get(notJudged);
+  assert.equal(await page.locator('.not-judged li').count(), all.length);
+  assert.ok((await page.locator('.not-judged').textContent()).includes(all[0].reason));
+  await close();
+});
+
+test('the picture has a legend for the ghost and for arrows', need(withGhost, 'a ghost'), async () => {
+  const { page, close } = await openCase(await urlOf('file', options.report), withGhost);
+  const text = await page.locator('.stage-legend').textContent();
+  assert.match(text, /ghost/);
+  if (firstBlow(cases.get(withGhost))) assert.match(text, /arrow: a blow/);
+  await close();
+});
 
 for (const way of ['file', 'http']) {
   const start = () => urlOf(way, options.report);

@@ -135,11 +135,14 @@ function stairs() {
 const kHostile = '"><script>window.hacked=1</script><img src=x onerror=window.hacked=1>\u202e';
 
 function collision(made) {
-  const failure = { check: 'self_collision', subject: 'fore_arm_left ~ torso', unit: 'm', scale: 0.02 };
+  const failure = { check: 'self_collision', subject: 'fore_arm_left ~ torso', unit: 'm', scale: 0.02, resolution: 1e-6 };
   const highlight = { joints: [], colliders: [['fore_arm_left'], ['torso']] };
   const free = ['/character', '/sequences/0/clips/0/actions/0/blend_in_frames', '/sequences/0/clips/0/actions/0/params'];
   return { key: 'self_collision-0a1b2c3d', character: 'human', failure, motions: [
     motion('minimal', made.reach_hand, failure, 0.6, { highlight, free_fields: free,
+      measured: '28 mm deep in each other, limit 0 mm',
+      unmet: [{ action: 'reach', slot: 'arm_left', first_frame: 38, last_frame: 40, why: 'it is out of reach' }],
+      not_judged: [{ check: 'joint_torque', title: 'Needs more effort than its strength', reason: 'the motion has no dynamics' }],
       obstacles: [{ shape: 'box', center: [0.9, 0.5, 0.6], half: [0.2, 0.5, 0.2], rotation: [0, 0, 0, 1] }] }),
     motion('original', made.walk_touch_wall, failure, 0.45, { highlight }),
     motion('worst', made.look_at_extend, failure, 0.5, { highlight })] };
@@ -188,6 +191,7 @@ function allCases(made) {
 
 const caseData = (one) => ({
   format: 'contort.report_case/1', key: one.key, check: one.failure.check, subject: one.failure.subject,
+  title: 'Plain name', character: one.character,
   unit: one.failure.unit, worst_margin: one.worst === null ? null : Math.min(...one.motions[0].curves[0].margins),
   first_frame: one.motions[0].first_frame, worst_frame: one.motions[0].worst_frame, last_frame: one.motions[0].last_frame,
   motions: one.motions,
@@ -211,7 +215,7 @@ function card(one, state, more = '') {
 <p class='summary'><span class='chip state-${state}'>${state}<span class='unseen'> (gating)</span></span> <span>12 cases</span></p>
 </div>
 <section class='bucket' id='b-${html(one.key)}' data-case='${html(one.key)}'>
-<div class='strip'><a href='strips/${one.strip ?? one.key}.png'><img src='strips/${one.strip ?? one.key}.png' loading='lazy' alt='Film strip: ${html(check)}' data-missing='picture missing'></a></div>
+<div class='strip tile-5'><a href='strips/${one.strip ?? one.key}.png'><img src='strips/${one.strip ?? one.key}.png' loading='lazy' alt='Film strip: ${html(check)}' data-missing='picture missing'></a></div>
 <dl class='facts'>
 <div><dt>worst margin</dt><dd>-0.028 m (-28.0 mm)</dd></div>
 <div><dt>bucket</dt><dd>${html(one.key)}</dd></div>
@@ -232,7 +236,29 @@ ${select('check', 'Check')}${select('character', 'Character')}${select('part', '
 `;
 }
 
-function page(cards, count, more = '', rows = { files: 0, note: '' }) {
+// As renders/causes_html.cpp writes it: the thumbnail is a tile of the film strip.
+function causesTable(cases) {
+  const row = (one, i) => `<tr><td class='picture' rowspan='2'><a class='thumb tile-5' href='#case=${html(one.key)}'><img src='strips/${one.key}.png' loading='lazy' width='320' height='216' alt='Worst frame: ${html(one.failure.check)}'></a></td><th scope='row'><span class='headline'><a href='#case=${html(one.key)}'>Something goes wrong with ${html(one.failure.subject)} during a long name of an action</a></span><span class='worst'>at worst 28 mm deep in each other, limit 0 mm</span></th><td class='novelty'><span class='chip${i ? '' : ' state-new'}'>${i ? 'known' : 'new'}</span></td><td class='severity'><b>high</b> <span class='dim'>12.3 of 100</span></td><td class='often'><b>25 %</b> <span class='dim'>250 of 1 000 cases</span></td><td class='who'>human, mech, quadruped</td></tr>
+<tr class='unfold'><td colspan='5'><details><summary>1 <abbr title='One way to break a check'>failure</abbr>, how to see it</summary>
+<p class='when'>human: Fails where the turn is fast.</p>
+<ul class='members'>
+<li><a href='#case=${html(one.key)}'>${html(one.failure.subject)}</a> <span class='dim'>Plain name; new</span></li>
+</ul>
+<div class='command'><code>contort replay ${html(one.key)}</code><button type='button' class='copy' aria-label='Copy the replay command'>Copy</button></div>
+</details></td></tr>
+`;
+  return `<section id='causes'>
+<h2>What is wrong</h2>
+<table class='causes'>
+<thead><tr><th scope='col'><span class='unseen'>Worst frame</span></th><th scope='col'>Cause</th><th scope='col'>New?</th><th scope='col'>Severity</th><th scope='col'>How often</th><th scope='col'>Characters</th></tr></thead>
+<tbody>
+${cases.map(row).join('')}</tbody>
+</table>
+</section>
+`;
+}
+
+function page(cards, count, more = '', rows = { files: 0, note: '' }, causes = '') {
   const read = (name) => readFileSync(join(root, 'renders', 'page', name), 'utf8');
   return `<!doctype html>
 <html lang='en'>
@@ -262,7 +288,7 @@ ${read('rows.js')}${read('page.js')}</script>
 </div>
 </header>
 <main class='page'>
-<section id='failures'${rows.files ? ` data-row-files='${rows.files}'` : ''}>
+${causes}<section id='failures'${rows.files ? ` data-row-files='${rows.files}'` : ''}>
 <h2>Failures</h2>
 ${filterForm()}${cards}${rows.note}<p class='none' id='no-match' hidden>Nothing matches the filter.</p>
 </section>
@@ -281,7 +307,9 @@ function writeReport(out, viewer, cases) {
     writeFileSync(join(out, 'cases', `${one.key}.js`), `contortCase(${scriptJson(one.key)}, ${scriptJson(caseData(one))});\n`);
   }
   const states = ['new', 'regressed', 'open'];
-  writeFileSync(join(out, 'index.html'), page(cases.map((one, i) => card(one, states[i % 3])).join(''), cases.length));
+  const cards = cases.map((one, i) => card(one, states[i % 3])).join('');
+  const rows = { files: 0, note: '' };
+  writeFileSync(join(out, 'index.html'), page(cards, cases.length, '', rows, causesTable(cases.slice(0, 4))));
 }
 
 // Viewer and cases in the page itself.

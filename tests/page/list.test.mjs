@@ -1,5 +1,7 @@
 // The list of failures: filter, search, keys, copying.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { openPage, options, urlOf } from './support.mjs';
 
@@ -70,9 +72,9 @@ for (const way of ['file', 'http']) {
   test(`${way}: the command is copied as it is`, async () => {
     const { page, close } = await openPage(await urlOf(way, options.report));
     if (way === 'http') await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
-    const box = page.locator('.command:visible').first();
+    const box = page.locator('.card .command:visible').first();
     await box.locator('.copy').click();
-    await page.waitForFunction(() => document.querySelector('.command .copy').textContent === 'Copied');
+    await page.waitForFunction(() => document.querySelector('.card .command .copy').textContent === 'Copied');
     if (way === 'http')
       assert.equal(await page.evaluate(() => navigator.clipboard.readText()), await box.locator('code').textContent());
     await close();
@@ -87,3 +89,62 @@ for (const way of ['file', 'http']) {
     await close();
   });
 }
+
+const hasCauses = readFileSync(join(options.report, 'index.html'), 'utf8').includes("class='causes'");
+const need = { skip: hasCauses ? false : 'the report has no causes' };
+
+// The part of the film strip that an image with object-fit: none shows.
+const shownPiece = (image) => image.evaluate((element) => {
+  const { objectFit, objectPosition } = getComputedStyle(element);
+  return `${objectFit} ${objectPosition}`;
+});
+
+test('causes stand above all cards, with the worst frame cut out of the strip', need, async () => {
+  const { page, wrong, close } = await openPage(await urlOf('file', options.report));
+  const place = (selector) => page.locator(selector).first().evaluate((element) => element.getBoundingClientRect());
+  const [row, card] = [await place('table.causes tbody tr'), await place('.card')];
+  assert.ok(row.top < card.top && row.top < 900, 'on the first screen');
+  const thumb = page.locator('.thumb:has(img)').first();
+  const box = await thumb.evaluate((element) => element.getBoundingClientRect());
+  assert.ok(box.height > 40 && box.height <= 96, `a small picture: ${box.height}`);
+  assert.match(await shownPiece(thumb.locator('img')), /^none -\d+px -\d+px$/);
+  assert.match(await shownPiece(page.locator('.card .strip img').first()), /^fill/, 'a card shows the whole strip');
+  assert.deepEqual(wrong, []);
+  await close();
+});
+
+test('a cause unfolds and opens its worst case', need, async () => {
+  const { page, wrong, close } = await openPage(await urlOf('file', options.report));
+  assert.ok(!await page.locator('.members').first().isVisible());
+  await page.locator('tr.unfold summary').first().click();
+  assert.ok(await page.locator('.members').first().isVisible());
+  assert.match(await page.locator('tr.unfold .command code').first().textContent(), /^contort replay /);
+  await page.locator('.headline a').first().click();
+  await page.waitForSelector('.case[data-ready]');
+  await page.keyboard.press('Escape');
+  assert.deepEqual(wrong, []);
+  await close();
+});
+
+test('on a phone the worst frame comes first, and nothing scrolls sideways', need, async () => {
+  const { page, close } = await openPage(await urlOf('file', options.report), { width: 390, height: 844 });
+  await page.locator('tr.unfold summary').first().click();
+  const top = (selector) => page.locator(selector).first().evaluate((element) => element.getBoundingClientRect().top);
+  assert.ok(await top('.thumb') <= await top('.headline'));
+  assert.ok(await top('.card .strip') < await top('.card .head'));
+  assert.match(await shownPiece(page.locator('.card .strip[class*=tile-] img').first()), /^none -/, 'only the worst frame');
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'no sideways scrolling');
+  const beyond = await page.evaluate(() => [...document.querySelectorAll('#causes *, .card .strip img')]
+    .filter((element) => !element.closest('.thumb') && !element.closest('thead') &&
+      element.getBoundingClientRect().right > innerWidth + 1).map((element) => element.outerHTML.slice(0, 80)));
+  assert.deepEqual(beyond, []);
+  await close();
+});
+
+test('causes are there without scripts, and lead to their cards', need, async () => {
+  const { page, close } = await openPage(await urlOf('file', options.report), { javaScript: false });
+  assert.ok(await page.locator('table.causes .thumb img').first().isVisible());
+  await page.locator('tr.unfold summary').first().click();
+  assert.ok(await page.locator('.members').first().isVisible());
+  await close();
+});

@@ -77,7 +77,7 @@ TEST(CausesHtml, SayHowOftenAndWhetherTheyAreNew) {
   EXPECT_TRUE(holds(html, "<b>25 %</b> <span class='dim'>1\u202F500 of 6\u202F000 cases</span>"));
   EXPECT_TRUE(holds(html, "<span class='chip state-new'>new</span>"));
   EXPECT_TRUE(holds(html, "<span class='chip'>known</span>"));
-  EXPECT_TRUE(holds(html, "causes explain</abbr> 4 failures; 1 is new. The most severe comes first."));
+  EXPECT_TRUE(holds(html, "causes</abbr> explain 4 failures; 1 is new. The most severe comes first."));
   model.has_baseline = true;
   EXPECT_TRUE(holds(causes_html(model, {}), "; 1 is new since the <abbr"));
 }

@@ -20,6 +20,7 @@ export function readCurve(curve) {
     subject: shown(curve?.subject),
     unit: shown(curve?.unit),
     scale: finite(curve?.scale) && curve.scale > 0 ? curve.scale : 1,
+    resolution: finite(curve?.resolution) && curve.resolution > 0 ? curve.resolution : 0,
     margins: list(curve?.margins).map((margin) => (finite(margin) ? margin : null)),
   };
 }
@@ -43,6 +44,14 @@ export function readMark(mark) {
 function readBalance(entry) {
   return entry && point(entry.zmp) ? { zmp: entry.zmp, margin: finite(entry.margin) ? entry.margin : null } : null;
 }
+
+// A request that was not met, and a check that could not judge: sentences for the reader.
+const readUnmet = (entry) => ({
+  action: shown(entry?.action), slot: shown(entry?.slot), why: shown(entry?.why),
+  first: whole(entry?.first_frame, -1), last: whole(entry?.last_frame, -1),
+});
+const readNotJudged = (entry) =>
+  ({ check: shown(entry?.check), title: shown(entry?.title), reason: shown(entry?.reason) });
 
 export function readGround(ground) {
   if (Array.isArray(ground?.positions) && ground.positions.every(finite) && ground.positions.length >= 9)
@@ -71,6 +80,8 @@ function readMotion(motion) {
     spans: list(motion.spans).map((span) => readSpan(span, frameCount)).filter((span) => span.last >= span.first),
     marks: list(motion.marks).map(readMark).filter((mark) => mark.frame >= 0 && mark.frame < frameCount),
     balance: list(motion.balance).map(readBalance),
+    measured: shown(motion.measured),
+    unmet: list(motion.unmet).map(readUnmet), notJudged: list(motion.not_judged).map(readNotJudged),
     curves: list(motion.curves).map(readCurve),
   };
 }
@@ -83,6 +94,7 @@ export function readCase(data) {
   if (motions.length === 0) throw new Damaged('it holds no motion');
   return {
     key: text(data.key), check: shown(data.check), subject: shown(data.subject), unit: shown(data.unit),
+    title: shown(data.title), character: shown(data.character),
     meaning: shown(data.meaning), phase: shown(data.phase), needs: shown(data.needs),
     worstMargin: finite(data.worst_margin) ? data.worst_margin : NaN, motions,
   };

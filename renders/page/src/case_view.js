@@ -5,6 +5,8 @@ import { el } from './dom.js';
 import { margin, roleName, seconds } from './format.js';
 import { factsElement, headElement } from './head.js';
 import { listenForKeys } from './keys.js';
+import { legendElement } from './legend.js';
+import { notJudgedElement, unmetElement } from './notes.js';
 import { Player } from './player.js';
 import { specElement } from './spec_view.js';
 import { Stage } from './stage.js';
@@ -38,10 +40,11 @@ export class CaseView {
     });
     this.title = head.title;
     this.facts = el('div', { class: 'facts-place' });
+    this.legend = el('div', { class: 'legend-place' });
     this.below = el('div', { class: 'below' });
     return el('div', { class: 'case' }, head.element,
       el('div', { class: 'facts-row' }, this.facts, this.controls.motionGroup), this.stage.frame,
-      this.controls.element, this.below);
+      this.legend, this.controls.element, this.below);
   }
 
   calls() {
@@ -96,7 +99,9 @@ export class CaseView {
   showBelow() {
     this.timeline?.dispose();
     this.timeline = new Timeline(this.motion, { seek: (frame) => { this.player.pause(); this.player.seek(frame); } });
-    const rest = [this.timeline.others, this.commandElement(), specElement(this.motion), this.pictureElement()];
+    this.legend.replaceChildren(...[legendElement(this.motion)].filter(Boolean));
+    const rest = [this.timeline.others, unmetElement(this.motion), notJudgedElement(this.motion), this.commandElement(),
+      specElement(this.motion), this.pictureElement()];
     this.below.replaceChildren(...[this.timeline.element, ...rest].filter(Boolean));
   }
 

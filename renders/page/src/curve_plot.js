@@ -2,6 +2,7 @@
 import uPlot from 'uplot';
 import { el } from './dom.js';
 import { number } from './format.js';
+import { intervalsOf } from './intervals.js';
 import { curveName } from './heat_map.js';
 import { seekByPointer } from './axis.js';
 
@@ -29,24 +30,29 @@ function shade(plot, curve, motion, colours) {
   ctx.clip();
   ctx.fillStyle = colours.bad;
   ctx.fillRect(bbox.left, zero, bbox.width, bbox.top + bbox.height - zero);
-  if (curve === motion.curves[0] && motion.first >= 0) {
-    const left = plot.valToPos(motion.first - 0.5, 'x', true);
-    ctx.fillStyle = colours.during;
-    ctx.fillRect(left, bbox.top, plot.valToPos(motion.last + 0.5, 'x', true) - left, bbox.height);
+  ctx.fillStyle = colours.during;
+  for (const { first, last } of curve === motion.curves[0] ? intervalsOf(motion) : []) {
+    const left = plot.valToPos(first - 0.5, 'x', true);
+    ctx.fillRect(left, bbox.top, plot.valToPos(last + 0.5, 'x', true) - left, bbox.height);
   }
   ctx.fillStyle = colours.limit;
   ctx.fillRect(bbox.left, Math.round(zero), bbox.width, Math.max(1, Math.round(1.5 * uPlot.pxRatio)));
   ctx.restore();
 }
 
-function axes(small, axis, colours) {
+const kLabel = 16;  // Pixels for the name of an axis.
+
+function axes(small, axis, unit, colours) {
   const font = '12px system-ui, sans-serif';
-  const common = { stroke: colours.dim, font, ticks: { show: false }, grid: { stroke: colours.grid, width: 1 } };
+  const common = {
+    stroke: colours.dim, font, labelFont: font, labelSize: kLabel, labelGap: 0, ticks: { show: false },
+    grid: { stroke: colours.grid, width: 1 },
+  };
   return [
     // No text that the right end would cut off.
-    { ...common, show: !small, size: 24, gap: 2, space: 60, incrs: kFrameSteps,
+    { ...common, show: !small, label: 'frame', size: 24, gap: 2, space: 60, incrs: kFrameSteps,
       values: (_, ticks) => ticks.map((tick) => (axis.x(tick) + 5 * String(tick).length > axis.width ? '' : tick)) },
-    { ...common, size: axis.gutter, space: small ? 20 : 26, gap: 8, values: (_, ticks) => ticks.map(number) },
+    { ...common, label: unit ? `margin, ${unit}` : 'margin', size: axis.gutter - kLabel, space: small ? 20 : 26, gap: 8, values: (_, ticks) => ticks.map(number) },
   ];
 }
 
@@ -75,14 +81,14 @@ export class CurvePlot {
     const { curve, motion, small } = this;
     const single = curve.margins.filter((value) => value !== null).length < 2;
     this.plot = new uPlot({
-      width: axis.gutter + axis.width, height: small ? 84 : 168, padding: [6, 0, small ? 6 : 0, 0],
+      width: axis.gutter + axis.width, height: small ? 84 : 168 + kLabel, padding: [6, 0, small ? 6 : 0, 0],
       legend: { show: false },
       cursor: { drag: { x: false, y: false, setScale: false }, points: { show: false }, y: false },
       select: { show: false },
       scales: {
         x: { time: false, range: [-0.5, motion.frameCount - 0.5] }, y: { range: () => limits(this.curve, this.end) },
       },
-      axes: axes(small, axis, colours),
+      axes: axes(small, axis, curve.unit, colours),
       series: [{}, { stroke: colours.curve, width: 2, points: { show: single, size: 6 }, spanGaps: false }],
       hooks: { drawClear: [(plot) => shade(plot, this.curve, motion, colours)] },
     }, this.values(), this.holder);

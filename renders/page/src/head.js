@@ -1,6 +1,7 @@
 // The top of a case: what fails, how badly, and the ways out.
 import { el, textButton } from './dom.js';
-import { interval, margin, seconds } from './format.js';
+import { intervals, margin, seconds } from './format.js';
+import { intervalsOf } from './intervals.js';
 
 function fact(name, value) {
   return value ? el('div', {}, el('dt', { text: name }), el('dd', { text: value })) : null;
@@ -10,9 +11,10 @@ export function factsElement(data, motion) {
   const worst = motion.worst >= 0 ? `frame ${motion.worst}, ${seconds(motion.worst, motion.rate)}` :
     'this motion does not show it';
   const length = `${motion.frameCount} at ${motion.rate} Hz, ${seconds(motion.frameCount - 1, motion.rate)}`;
+  const name = motion.role === 'worst' ? 'worst margin (minimal case)' : 'worst margin';
   return el('dl', { class: 'case-facts' },
-    fact(motion.role === 'worst' ? 'worst margin (minimal case)' : 'worst margin', margin(data.worstMargin, data.unit)),
-    fact('worst at', worst), fact('violated in', motion.worst >= 0 ? interval(motion.first, motion.last) : ''),
+    motion.measured ? fact('measured', motion.measured) : fact(name, margin(data.worstMargin, data.unit)),
+    fact('worst at', worst), fact('violated in', motion.worst >= 0 ? intervals(intervalsOf(motion)) : ''),
     fact('when', motion.role === 'minimal' ? data.phase : ''), fact('needs', motion.role === 'minimal' ? data.needs : ''),
     fact('frames', length));
 }
@@ -20,7 +22,9 @@ export function factsElement(data, motion) {
 // calls: close, previous, next; the last two may be missing at the ends of the list
 export function headElement(data, position, calls) {
   const title = el('h1', { tabindex: '-1', class: 'case-title' },
-    el('span', { class: 'check', text: data.check }), ' ', el('span', { class: 'subject', text: data.subject }));
+    data.title ? el('span', { class: 'plain-name', text: data.title }) : null,
+    el('span', { class: 'check', text: data.check }), ' ', el('span', { class: 'subject', text: data.subject }),
+    data.character ? el('span', { class: 'character', text: ` on ${data.character}` }) : null);
   const element = el('div', { class: 'case-head' },
     textButton('\u2190 All failures', 'Escape', calls.close, { class: 'close' }), title,
     el('span', { class: 'case-position dim', text: position || '' }),

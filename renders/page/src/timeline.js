@@ -2,7 +2,8 @@
 import { Axis, seekByPointer } from './axis.js';
 import { CurvePlot } from './curve_plot.js';
 import { el } from './dom.js';
-import { margin, seconds } from './format.js';
+import { interval, margin, seconds } from './format.js';
+import { intervalsOf } from './intervals.js';
 import { HeatMap, curveName } from './heat_map.js';
 import { spansElement } from './spans.js';
 import { onThemeChange, theme } from './theme.js';
@@ -40,20 +41,21 @@ export class Timeline {
     if (motion.curves.length) this.addPlot(motion.curves[0], false);
     else this.curves.append(el('p', { class: 'dim', text: 'No margins were recorded for this motion.' }));
     this.element = el('section', { class: 'timeline', 'aria-label': 'Over time' },
-      el('div', { class: 'row' }, el('span'), el('div', { class: 'track' }, this.interval())),
+      el('div', { class: 'row' }, el('span'), el('div', { class: 'track' }, ...this.violations())),
       el('div', { class: 'row scrub-row' }, this.told, el('div', { class: 'track' }, this.scrub)),
       this.heat?.element, this.curves, this.spans, this.head);
     this.others = this.otherCurves();
   }
 
-  // The frames of the violation, marked right above the scrub bar.
-  interval() {
-    const { first, last, frameCount } = this.motion;
-    const bar = el('div', { class: 'violation', title: first < 0 ? null : `Violated in frames ${first}\u2013${last}` });
-    bar.hidden = first < 0;
-    bar.style.left = `${100 * first / frameCount}%`;
-    bar.style.width = `${100 * (last - first + 1) / frameCount}%`;
-    return bar;
+  // The frames of each violation, marked right above the scrub bar.
+  violations() {
+    const { frameCount } = this.motion;
+    return intervalsOf(this.motion).map(({ first, last }) => {
+      const bar = el('div', { class: 'violation', title: `Violated in ${interval(first, last)}` });
+      bar.style.left = `${100 * first / frameCount}%`;
+      bar.style.width = `${100 * (last - first + 1) / frameCount}%`;
+      return bar;
+    });
   }
 
   otherCurves() {
