@@ -321,7 +321,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
     if (const Result<Done> written = write_single_file(model, request.folder, request.single_file); !written)
       return context.fail(written.issue(), kInternal);
   if (!request.announce) return;
-  std::printf("report: %s/index.html (%zu buckets, %lld families)\n", request.folder.c_str(), model.rows.size(),
+  std::printf("report: %s/index.html (%zu failures, %lld families)\n", request.folder.c_str(), model.rows.size(),
               static_cast<long long>(model.families));
 }
 
@@ -343,7 +343,8 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   model.tool = CONTORT_VERSION;
   model.has_baseline = !request.outputs.baseline.empty();
   Media media;
-  fill_rows(*corpus, *known, MeasuredValues(*generator.manifest().library, *settings), model, media, request.folder, context);
+  const MeasuredValues measured(*generator.manifest().library, *settings);
+  fill_rows(*corpus, *known, measured, model, media, request.folder, context);
   count_totals(add_runs(*corpus, model, context), model);
   add_never_tested(generator, model);
   if (const auto written = write_outputs(request.outputs, model, request.announce ? stdout : stderr); !written)

@@ -1,7 +1,11 @@
 #include "cli/single_file.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <string_view>
+#include <vector>
 
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
@@ -15,6 +19,20 @@ namespace {
 
 // The size that mail takes: attachments above 25 MB are refused by most, and base64 adds a third on the way.
 constexpr std::size_t kMostBytes = 18'000'000;
+
+// The rows that the first screen shows come first, so that they have their pictures if not all have room.
+std::vector<const ReportRow*> rows_by_use(const ReportModel& model) {
+  std::map<std::string_view, std::size_t> place_of_key;
+  for (const ReportCause& cause : model.causes) place_of_key.emplace(cause.key, place_of_key.size());
+  const auto place = [&](const ReportRow* row) {
+    const auto found = place_of_key.find(row->key);
+    return found == place_of_key.end() ? place_of_key.size() : found->second;
+  };
+  std::vector<const ReportRow*> rows;
+  for (const ReportRow& row : model.rows) rows.push_back(&row);
+  std::ranges::stable_sort(rows, {}, place);
+  return rows;
+}
 
 }  // namespace
 
@@ -33,7 +51,8 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
     inside[name] = text;
   };
   for (const char* name : {"viewer/viewer.css", "viewer/viewer.js"}) add(name, text_of(name));
-  for (const ReportRow& row : model.rows) {
+  for (const ReportRow* one : rows_by_use(model)) {
+    const ReportRow& row = *one;
     if (!row.strip.empty()) add(row.strip, text_of(row.strip));
     if (const std::filesystem::path strip = row.strip; !row.strip.empty())
       add("strips/" + strip.stem().string() + ".json",

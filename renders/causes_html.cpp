@@ -46,7 +46,8 @@ bool opens_case(const ReportCause& cause, const PageFiles& inside) {
 }
 
 // The picture of its deepest case.
-std::string cause_picture(const ReportCause& cause, const std::vector<const ReportRow*>& rows, const PageFiles& inside) {
+std::string cause_picture(const ReportCause& cause, const std::vector<const ReportRow*>& rows,
+                          const PageFiles& inside) {
   const auto deepest = std::ranges::find(rows, cause.key, &ReportRow::key);
   const std::string thumb = deepest == rows.end() ? "" : thumb_html(**deepest, inside);
   return thumb.empty() ? "<span class='thumb'></span>" : thumb;
@@ -130,7 +131,8 @@ std::string row_html(const ReportCause& cause, const ReportModel& model, const R
   };
   return "<tr><td class='picture' rowspan='2'>" + cause_picture(cause, rows, inside) +
          "</td><th scope='row'><span class='headline'>" +
-         case_link(cause.key, cause.headline, opens_case(cause, inside)) + "</span>" + measured_html(cause, rows) + "</th>" + cell("novelty", novelty_html(cause, rows)) +
+         case_link(cause.key, cause.headline, opens_case(cause, inside)) + "</span>" + measured_html(cause, rows) +
+         "</th>" + cell("novelty", novelty_html(cause, rows)) +
          cell("severity", severity_html(cause.severity)) + cell("often", often_html(cause, model.cases)) +
          cell("who", names_html(cause.characters)) + "</tr>\n<tr class='unfold'><td colspan='5'>" +
          unfolded_html(cause, rows, inside) + "</td></tr>\n";

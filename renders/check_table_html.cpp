@@ -59,7 +59,8 @@ std::vector<std::string> columns_of(const std::vector<CheckRow>& rows) {
 
 // The runs count the cases of each character as "character human".
 std::string cases_of(const ReportModel& model, const std::string& character) {
-  const auto found = std::ranges::find(model.tested, "character " + character, &std::pair<std::string, std::int64_t>::first);
+  const std::string label = "character " + character;
+  const auto found = std::ranges::find_if(model.tested, [&](const auto& row) { return row.first == label; });
   if (found == model.tested.end()) return "";
   return "<span class='dim'>" + html_text(counted(found->second, "case", "cases")) + "</span>";
 }
@@ -92,7 +93,8 @@ std::string check_table_html(const ReportModel& model) {
   std::int64_t largest = 0;
   for (const CheckRow& row : rows)
     for (const auto& [character, count] : row.failures) largest = std::max(largest, count);
-  std::string out = "<section id='checks'>\n<h2>Which checks fail on which characters</h2>\n<p class='order'>Numbers of " +
+  std::string out = "<section id='checks'>\n<h2>Which checks fail on which characters</h2>\n<p class='order'>"
+                    "Numbers of " +
                     term_html("failure", "failures") +
                     " that are not fixed.</p>\n<div class='wide' tabindex='0' role='region' "
                     "aria-label='Failures by check and character'>\n<table class='checks'>\n" +

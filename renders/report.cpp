@@ -30,6 +30,7 @@ Json row_json(const ReportRow& row) {
           {"subject", row.subject},
           {"unit", row.unit},
           {"worst_margin", std::isfinite(row.worst_margin) ? Json(row.worst_margin) : Json()},  // null: not a number
+          {"measured", row.measured},
           {"cases_seen", row.cases_seen},
           {"bucket", row.bucket},
           {"state", row.state},
@@ -53,7 +54,7 @@ Json row_json(const ReportRow& row) {
 Json cause_json(const ReportCause& cause) {
   return {{"id", cause.id},       {"headline", cause.headline},     {"severity", cause.severity},
           {"cases", cause.cases}, {"characters", cause.characters}, {"buckets", cause.buckets},
-          {"conditions", cause.conditions}};
+          {"conditions", cause.conditions}, {"is_new", cause.is_new}};
 }
 
 Json search_json(const SearchProgress& search) {

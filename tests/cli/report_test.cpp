@@ -82,6 +82,28 @@ TEST_F(ReportOfCorpus, HasEachBucketInOneCause) {
   EXPECT_NE(page.find("<a href='#case=" + key() + "'>"), std::string::npos) << "it opens the deepest case";
 }
 
+TEST_F(ReportOfCorpus, TellsTheMeasuredValueAndItsLimit) {
+  ASSERT_EQ(report({}).code, 0);
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("at worst is at 158\u00B0, limit 150\u00B0"), std::string::npos);
+  EXPECT_NE(slurp(folder_ / ("out/cases/" + key() + ".js")).find("\"measured\":\"is at 158\u00B0, limit 150\u00B0\""),
+            std::string::npos);
+  std::ofstream(folder_ / "soft.json") << R"({"format": "contort.settings/1", "limits": [{"check": "joint_range",
+        "subject": "*", "phase": "mid_clip", "tolerance": 0.01, "reason": "soft"}]})";
+  const Ran softer = contort_program(
+      {"--gl", "none", "--settings", folder_ / "soft.json", "report", corpus_.folder(), "-o", folder_ / "out"});
+  ASSERT_EQ(softer.code, 0) << softer.err;
+  EXPECT_EQ(slurp(folder_ / "out/index.html").find("limit 150"), std::string::npos) << "the limit is not known";
+}
+
+TEST_F(ReportOfCorpus, TellsNewCausesFromThoseOfTheBaseline) {
+  const auto causes = [&] { return nlohmann::json::parse(slurp(folder_ / "out/report.json"))["causes"]; };
+  ASSERT_EQ(report({}).code, 0);
+  EXPECT_EQ(causes()[0]["is_new"], true);
+  ASSERT_EQ(report({"--baseline", corpus_.folder()}).code, 0);
+  EXPECT_EQ(causes()[0]["is_new"], false);
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("<span class='chip'>known</span>"), std::string::npos);
+}
+
 // To play it would end whoever plays it.
 TEST_F(ReportOfCorpus, HasNoMotionOfACaseThatEndsTheGenerator) {
   const Case crash = ending_case(bent_elbow(20), {Ending::Kind::crash, "SIGSEGV", ""});

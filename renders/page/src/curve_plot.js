@@ -1,7 +1,7 @@
 // A margin over frames, with the limit, what is beyond it, and the frames of the violation.
 import uPlot from 'uplot';
 import { el } from './dom.js';
-import { number } from './format.js';
+import { marginName, number } from './format.js';
 import { intervalsOf } from './intervals.js';
 import { curveName } from './heat_map.js';
 import { seekByPointer } from './axis.js';
@@ -52,7 +52,7 @@ function axes(small, axis, unit, colours) {
     // No text that the right end would cut off.
     { ...common, show: !small, label: 'frame', size: 24, gap: 2, space: 60, incrs: kFrameSteps,
       values: (_, ticks) => ticks.map((tick) => (axis.x(tick) + 5 * String(tick).length > axis.width ? '' : tick)) },
-    { ...common, label: unit ? `margin, ${unit}` : 'margin', size: axis.gutter - kLabel, space: small ? 20 : 26, gap: 8, values: (_, ticks) => ticks.map(number) },
+    { ...common, label: marginName(unit), size: axis.gutter - kLabel, space: small ? 20 : 26, gap: 8, values: (_, ticks) => ticks.map(number) },
   ];
 }
 
@@ -65,7 +65,7 @@ export class CurvePlot {
     this.end = Infinity;  // Frames from here on are still to come.
     this.value = el('span', { class: 'curve-value' });
     this.title = el('p', { class: 'curve-title' }, el('span', { text: curveName(curve) }),
-      el('span', { class: 'dim', text: curve.unit ? `margin in ${curve.unit}, below 0 is violated` : '' }), this.value);
+      el('span', { class: 'dim', text: `${marginName(curve.unit)}, below 0 is violated` }), this.value);
     this.holder = el('div', { class: 'curve-plot', role: 'img', 'aria-label': this.description() });
     this.element = el('figure', { class: small ? 'curve-figure small' : 'curve-figure' }, this.title, this.holder);
   }

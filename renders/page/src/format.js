@@ -32,6 +32,12 @@ export function seconds(frame, rate) {
   return `${(frame / rate).toFixed(3)} s`;
 }
 
+// A unit such as "of its strength" is a share.
+export function marginName(unit) {
+  if (!unit) return 'margin';
+  return unit.startsWith('of ') ? `margin as a share ${unit}` : `margin in ${unit}`;
+}
+
 // "frame 12", "frames 12\u201315", "" where there is none
 export function interval(first, last) {
   if (first < 0 || last < first) return '';
