@@ -59,8 +59,9 @@ std::string location_of(const Corpus& corpus, const std::string& path) {
   return is_below ? here : std::filesystem::proximate(path, corpus.folder(), error).generic_string();
 }
 
-// Goes up when strips of the same case show something else: 2 joins nearest points and has skins.
-constexpr char kPictureStyle[] = "style 2";
+// Goes up when strips of the same case show something else: 2 joins nearest points and has skins,
+// 3 rounds its numbers to three digits.
+constexpr char kPictureStyle[] = "style 3";
 
 // Another picture has another name, so that one that is there already is right: what moves, what is written in it, and
 // by which limits it is judged.
