@@ -34,7 +34,7 @@ export class Pose {
   }
 }
 
-// One motion that Contort asks for. It has all fields of the request, and `uses`, the timeline with an end for each use.
+// One motion that Contort asks for: all fields of the request, and `uses`, the timeline with an end for each use.
 export class Request {
   constructor(fields, joints) {
     Object.assign(this, fields);
@@ -67,8 +67,8 @@ export function multiply([ax, ay, az, aw], [bx, by, bz, bw]) {
 }
 
 // Answers requests until Contort closes the connection. `motion(request)` returns, or resolves to, a function of a time
-// in seconds and the number of the frame. That function returns a Pose, or an array of numbers: a row of the reply as it
-// is. An engine has its state in the closure of `motion`, so that each request begins afresh.
+// in seconds and the number of the frame. That function returns a Pose, or an array of numbers: a row of the reply as
+// it is. An engine has its state in the closure of `motion`, so that each request begins afresh.
 export async function serve(manifest, motion) {
   const { source, write } = await connect();
   for await (const line of lines(source)) {
