@@ -72,24 +72,28 @@ export function slopes(track) {
 }
 
 // The joints as a manifest lists them, with limits that follow from the clips. `use` says how the adapter plays them:
-// `timeScale` is the greatest factor of a clip's own speed, `fadeS` the shortest fade, and `layers` the number of clips
-// whose turns may add up.
+// `timeScale` is the greatest factor of a clip's own speed, `fadeS` the shortest fade, and `additive` whether one clip
+// may be added to another, as the difference from any of its poses.
 export function limitedJoints(use) {
   return joints.map((joint, i) => (i === 0 ? { ...joint, type: 'fixed' } : limited(joint, use)));
 }
 
-function limited(joint, { timeScale, fadeS, layers }) {
-  let reachDeg = 0, speedDegS = 0;
-  for (const track of clips.flatMap((clip) => clip.tracks)) {
-    if (track.joint !== joint.name || !track.anglesDeg) continue;
-    track.anglesDeg.forEach((angle, i) => {
-      reachDeg = Math.max(reachDeg, Math.abs(angle));
-      if (i === 0) return;
-      const speed = Math.abs(angle - track.anglesDeg[i - 1]) / (track.times[i] - track.times[i - 1]);
-      speedDegS = Math.max(speedDegS, track.smooth ? 1.6 * speed : speed);
-    });
-  }
-  const range = layers * 1.1 * reachDeg + 1;
-  return { ...joint, axis: Y, low_deg: -range, high_deg: range, swing_deg: Math.min(180, range),
-    max_speed_deg_s: Math.ceil(layers * (timeScale * speedDegS + (2 * reachDeg) / fadeS) + 10) };
+function limited(joint, { timeScale, fadeS, additive }) {
+  const tracks = clips.flatMap((clip) => clip.tracks).filter((one) => one.joint === joint.name && one.anglesDeg);
+  const angles = [0, ...tracks.flatMap((track) => track.anglesDeg)];
+  const least = Math.min(...angles), most = Math.max(...angles), span = most - least;
+  const layers = additive ? 2 : 1;
+  const low = Math.floor(1.1 * (least - (layers - 1) * span)) - 1;
+  const high = Math.ceil(1.1 * (most + (layers - 1) * span)) + 1;
+  const speed = layers * (timeScale * Math.max(0, ...tracks.map(fastest)) + (2 * span) / fadeS) + 10;
+  const oneAxis = new Set(tracks.map((track) => String(track.axis))).size === 1;
+  const range = oneAxis ? { type: 'hinge', axis: tracks[0].axis, low_deg: low, high_deg: high }
+    : { axis: Y, low_deg: -layers * span - 1, high_deg: layers * span + 1, swing_deg: layers * span + 1 };
+  return { ...joint, ...range, max_speed_deg_s: Math.ceil(speed) };
+}
+
+// The greatest speed of a track in degrees per second. A smooth track is up to 1.6 times as fast as its chords.
+function fastest({ anglesDeg, times, smooth }) {
+  const speeds = anglesDeg.slice(1).map((angle, i) => Math.abs(angle - anglesDeg[i]) / (times[i + 1] - times[i]));
+  return Math.max(...speeds) * (smooth ? 1.6 : 1);
 }

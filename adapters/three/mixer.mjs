@@ -11,7 +11,7 @@ import { clips } from '../javascript/figure.mjs';
 const CLIPS = clips.map(({ name }) => name);
 const LENGTHS = clips.map(({ duration }) => duration);
 // A clip plays 1.5 times as fast at most, in a mixer that is 1.2 times as fast, and one additive clip comes on top.
-export const LIMITS = { timeScale: 1.8, fadeS: 0.4 / 1.2, layers: 2 };
+export const LIMITS = { timeScale: 1.8, fadeS: 0.4 / 1.2, additive: true };
 
 const clip = { type: 'choice', choices: ['last', ...CLIPS], help: 'last: the one that was played last.' };
 const other = { type: 'choice', choices: CLIPS, default: CLIPS[1] };
@@ -145,8 +145,11 @@ export const operations = {
     run: (player, p) => player.touch(player.find(p.clip), 'scale').syncWith(player.find(p.to)) },
   set_weight: { effect: 'cut', params: { clip, weight: { type: 'number', low: 0, high: 1, special: [0.5] } },
     run: (player, p) => player.touch(player.find(p.clip), 'weight').setEffectiveWeight(p.weight) },
-  set_time: { effect: 'cut', params: { clip, time_s: { type: 'number', low: -0.5, high: 2, special: LENGTHS } },
-    run: (player, p) => { player.find(p.clip).time = p.time_s; } },
+  set_time: { effect: 'cut', params: { clip, share: { type: 'number', low: 0, high: 1, help: 'Of the clip.' } },
+    run: (player, p) => {
+      const action = player.find(p.clip);
+      action.time = p.share * action.getClip().duration;
+    } },
   uncache: { effect: 'cut', params: { clip: { ...other, default: CLIPS[0] } },
     run: (player, p) => {
       const action = player.find(p.clip).stop();
