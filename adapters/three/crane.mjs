@@ -9,7 +9,7 @@ const boom = (name, parent, y, restDeg) => ({ name, parent, position: [0, y, 0],
 
 export const craneJoints = [{ name: 'base', slot: 'crane', type: 'fixed', position: [0, 0, 0] },
   boom('lower', 'base', 0, 20), boom('upper', 'lower', LENGTH, -60),
-  { name: 'hook', parent: 'upper', position: [0, LENGTH, 0], type: 'fixed' }];
+  { name: 'hook', parent: 'upper', position: [0, LENGTH, 0] }];
 
 export const craneAction = { name: 'reach', slots: ['crane'], layer: 'ik', effect: 'cut', duration_s: [0.5, 1],
   help: 'The hook goes to a target and stays there.',

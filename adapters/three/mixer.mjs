@@ -19,6 +19,8 @@ const seconds = (low, high, special = []) => ({ type: 'number', low, high, defau
 const scale = { type: 'number', low: -1.5, high: 1.5, default: 1, special: [-1, 0, 0.5] };
 const flag = { type: 'flag' };
 const LONG = [0.2, 2.5], SHORT = [0.1, 1];  // Durations: long enough to see loops, and to see a change.
+const fade = { over_s: seconds(0.4, 1), at_once: { ...flag, help: 'Fades in 0 s.' } };
+const fadeS = ({ over_s: seconds, at_once: atOnce }) => (atOnce ? 0 : seconds);
 const LOOPS = { repeat: 'LoopRepeat', ping_pong: 'LoopPingPong', once: 'LoopOnce' };
 
 // One figure with its mixer. `touched` remembers by action what the timeline itself has set, because only that may
@@ -112,14 +114,14 @@ export const operations = {
       player.untouch();
       player.last = player.find(p.clip).reset().play();
     } },
-  fade_in: { effect: 'cut', params: { clip, over_s: seconds(0.4, 1, [0]) },
-    run: (player, p) => player.find(p.clip).fadeIn(p.over_s) },
-  fade_out: { effect: 'cut', params: { clip, over_s: seconds(0.4, 1, [0]) },
-    run: (player, p) => player.find(p.clip).fadeOut(p.over_s) },
-  cross_fade: { effect: 'cut', duration_s: LONG, params: { clip, to: other, over_s: seconds(0.4, 1, [0]), warp: flag },
+  fade_in: { effect: 'cut', params: { clip, ...fade },
+    run: (player, p) => player.find(p.clip).fadeIn(fadeS(p)) },
+  fade_out: { effect: 'cut', params: { clip, ...fade },
+    run: (player, p) => player.find(p.clip).fadeOut(fadeS(p)) },
+  cross_fade: { effect: 'cut', duration_s: LONG, params: { clip, to: other, ...fade, warp: flag },
     run: (player, p) => {
       const to = player.find(p.to).play();
-      player.last = player.find(p.clip).play().crossFadeTo(to, p.over_s, p.warp);
+      player.last = player.find(p.clip).play().crossFadeTo(to, fadeS(p), p.warp);
     } },
   fade_to: { effect: 'continuous', duration_s: LONG, params: { to: other, over_s: seconds(0.4, 1), warp: flag },
     help: 'Cross-fades to a clip that starts afresh, where one single action plays with its full weight.',
