@@ -68,14 +68,15 @@ export function multiply([ax, ay, az, aw], [bx, by, bz, bw]) {
 
 // Answers requests until Contort closes the connection. `motion(request)` returns, or resolves to, a function of a time
 // in seconds and the number of the frame. That function returns a Pose, or an array of numbers: a row of the reply as
-// it is. An engine has its state in the closure of `motion`, so that each request begins afresh.
-export async function serve(manifest, motion) {
-  const { source, write } = await connect();
+// it is. An engine has its state in the closure of `motion`, so that each request begins afresh. With `tcp` it connects
+// to the port in CONTORT_PORT, for programs that cannot use their standard streams.
+export async function serve(manifest, motion, tcp = false) {
+  const { source, write } = tcp ? await connect() : standardStreams();
   for await (const line of lines(source)) {
     const message = JSON.parse(line);
     if (message.op === 'hello') {
-      const token = process.env.CONTORT_TOKEN;
-      await write(Buffer.from(JSON.stringify({ contort: 1, ...manifest, ...(token && { token }) }) + '\n'));
+      const token = tcp ? { token: process.env.CONTORT_TOKEN } : {};
+      await write(Buffer.from(JSON.stringify({ contort: 1, ...manifest, ...token }) + '\n'));
     } else if (message.op === 'generate') {
       await write(await answer(message, manifest, motion));
     }
@@ -115,13 +116,14 @@ async function* lines(source) {
   }
 }
 
-// The two ends of the connection. Texts that the generator prints go to standard error from now on.
 async function connect() {
-  if (process.env.CONTORT_PORT) {
-    const socket = net.connect({ port: Number(process.env.CONTORT_PORT), host: '127.0.0.1', noDelay: true });
-    await new Promise((resolve, reject) => socket.once('connect', resolve).once('error', reject));
-    return { source: socket, write: writer(socket, socket.write) };
-  }
+  const socket = net.connect({ port: Number(process.env.CONTORT_PORT), host: '127.0.0.1', noDelay: true });
+  await new Promise((resolve, reject) => socket.once('connect', resolve).once('error', reject));
+  return { source: socket, write: writer(socket, socket.write) };
+}
+
+// The two ends of the connection. All that the generator prints from now on goes to standard error.
+function standardStreams() {
   const write = writer(process.stdout, process.stdout.write);
   process.stdout.write = process.stderr.write.bind(process.stderr);
   return { source: process.stdin, write };

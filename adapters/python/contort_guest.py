@@ -95,12 +95,15 @@ def multiply(a, b):
             aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
 
 
-def serve(manifest, motion):
-    """Answers requests until Contort closes the connection. `motion(request)` yields a Pose for each frame."""
-    source, sink = _connect()
+def serve(manifest, motion, tcp=False):
+    """Answers requests until Contort closes the connection. `motion(request)` yields a Pose for each frame.
+
+    With `tcp` it connects to the port in CONTORT_PORT, for programs that cannot use their standard streams.
+    """
     manifest = {"contort": 1, **manifest}
-    if "CONTORT_TOKEN" in os.environ:
+    if tcp:
         manifest["token"] = os.environ["CONTORT_TOKEN"]
+    source, sink = _connect() if tcp else _standard_streams()
     letter = "f" if manifest.get("frames") == "f32" else "d"
     for line in source:
         message = json.loads(line)
@@ -130,11 +133,13 @@ def _answer(message, manifest, motion, letter):
 
 
 def _connect():
-    """The two ends of the connection. Prints of the generator go to standard error from now on."""
-    if "CONTORT_PORT" in os.environ:
-        connection = socket.create_connection(("127.0.0.1", int(os.environ["CONTORT_PORT"])))
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return connection.makefile("rb"), connection.makefile("wb")
+    connection = socket.create_connection(("127.0.0.1", int(os.environ["CONTORT_PORT"])))
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return connection.makefile("rb"), connection.makefile("wb")
+
+
+def _standard_streams():
+    """The two ends of the connection. All that the generator prints from now on goes to standard error."""
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     return sys.stdin.buffer, sink

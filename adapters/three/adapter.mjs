@@ -1,5 +1,5 @@
-// Lets Contort test three.js: the mixer and its actions on a figure that GLTFLoader has read, the same on a copy that
-// SkeletonUtils has made, and CCDIKSolver on a crane. CONTORT_THREE names the folder of the version.
+// Lets Contort test three.js: the mixer and its actions on a figure that GLTFLoader has read and SkeletonUtils has
+// copied, and CCDIKSolver on a crane. CONTORT_THREE names the folder of the version.
 import { clips, joints, limitedJoints } from '../javascript/figure.mjs';
 import { serve } from '../javascript/contort_guest.mjs';
 import { craneAction, craneJoints, startCrane } from './crane.mjs';
@@ -11,15 +11,12 @@ const { THREE, version } = await loadThree();
 const file = await new Promise((resolve, reject) =>
   new THREE.GLTFLoader().parse(writeGlb(joints, clips), '', resolve, reject));
 
-const figure = limitedJoints(LIMITS);
 const manifest = { name: 'three', build: version,
-  characters: [{ name: 'figure', joints: figure }, { name: 'copy', joints: figure },
-    { name: 'crane', joints: craneJoints }],
+  characters: [{ name: 'figure', joints: limitedJoints(LIMITS) }, { name: 'crane', joints: craneJoints }],
   actions: [...actions(), craneAction] };
 
 function startPlayer(request) {
-  const scene = request.character === 'copy' ? THREE.SkeletonUtils.clone(file.scene) : file.scene.clone();
-  const player = new Player(THREE, scene, file.animations, joints);
+  const player = new Player(THREE, THREE.SkeletonUtils.clone(file.scene), file.animations, joints);
   let next = 0;
   return (timeS, frame) => {
     for (; next < request.uses.length && request.uses[next].start_frame <= frame; ++next) {
