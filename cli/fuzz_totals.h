@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corpus/causes.h"
+#include "cli/sources.h"
 #include "fuzz/run.h"
 
 namespace contort::cli {

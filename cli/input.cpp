@@ -1,5 +1,7 @@
 #include "cli/input.h"
 
+#include <CLI/CLI.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <cstdlib>

@@ -13,10 +13,12 @@
 #include "cli/limits.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
+#include "cli/side_by_side.h"
 #include "cli/tested.h"
 #include "corpus/corpus.h"
 #include "corpus/guarded_replay.h"
 #include "corpus/verify.h"
+#include "model/core/files.h"
 #include "model/core/json_fields.h"
 #include "renders/wording.h"
 
@@ -30,6 +32,7 @@ using Clock = std::chrono::steady_clock;
 struct ReplayOptions {
   std::vector<std::string> paths;
   bool json = false;
+  std::string against;  // another program; "": none
   std::string level;
   bool update = false;
   std::string time;
@@ -263,6 +266,7 @@ void run(const ReplayOptions& options, Context& context) {
   const Result<ReplayScope> scope =
       options.level.empty() ? Result<ReplayScope>(ReplayScope{}) : parse_scope(options.level);
   if (!scope) return context.fail(scope.issue());
+  if (!options.against.empty()) return replay_side_by_side(options.paths, options.against, *generator, context);
   Evaluator evaluator(*generator, *settings);
   const auto replay_one = [&](const Case& stored) {
     return replay(stored, evaluator, *scope, isolation_of(options.limits.limits()));
@@ -289,6 +293,9 @@ void add_replay(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with what they say");
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
   add_level_option(*command, options->level);
+  command->add_option("--against", options->against,
+                      "With --generator: another program, to tell from which frame on its motions differ")
+      ->type_name("CMD");
   command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
   command->add_option("--time", options->time,
                       "Of a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
