@@ -24,6 +24,7 @@ constexpr double kSlow_frames_s = 1000.0;
 constexpr double kAtRest_rad = 1.0 * kRadPerDeg;
 constexpr double kAtRest_m = 0.01;
 constexpr double kSmallest_m = 0.05, kGreatest_m = 20.0;  // of a plausible figure
+constexpr double kWild_rad = 0.35;            // in a frame: 20 degrees
 constexpr double kOften = 0.5;                // share of motions
 
 std::string figure_text(double value) {
@@ -36,7 +37,7 @@ std::string ending_text(const ProgramEnded& ended) {
   const Ending& ending = ended.ending();
   const std::string printed = ending.printed.empty() ? "" : " It printed: " + ending.printed;
   if (ending.kind == Ending::Kind::timeout)
-    return "The generator does not answer in time; every request needs an answer within 10 s." + printed;
+    return "The generator does not answer in time; a request needs an answer within seconds." + printed;
   if (ending.kind == Ending::Kind::memory) return "The generator uses more than 4 GiB of memory." + printed;
   if (ending.signal == "no JSON")
     return "The generator writes something else than replies to its standard output after the manifest; write logs to "
@@ -74,11 +75,12 @@ class Examination {
 
   // Nothing where the generator ended, which is then a fault.
   template <class Ask>
-  auto guarded(const Ask& ask) -> std::optional<decltype(ask())> {
+  auto guarded(const Ask& ask, const std::string& about = "") -> std::optional<decltype(ask())> {
     try {
       return ask();
     } catch (const ProgramEnded& ended) {
-      return fault(ending_text(ended)), std::nullopt;
+      has_ended_ = true;
+      return fault(about + ending_text(ended)), std::nullopt;
     }
   }
 
@@ -188,7 +190,7 @@ class Examination {
     int refused = 0, frames = 0;
     double spent_s = 0.0;
     const double begin_s = steady_s();
-    for (int index = 0; index < kDrawn && steady_s() - begin_s < kMostDrawn_s; ++index) {
+    for (int index = 0; index < kDrawn && !has_ended_ && steady_s() - begin_s < kMostDrawn_s; ++index) {
       const Spec spec = draw_spec(config_, generator_, 7, index);
       const double start_s = steady_s();
       const auto evaluation = guarded([&] { return evaluator_.run(spec); });
@@ -224,19 +226,24 @@ class Examination {
 
   // Angles in degrees that a sine takes for radians turn a joint by tens of degrees in most frames.
   void look_for_degrees(const Execution& execution) {
-    const Motion& motion = execution.motion;
-    for (const Joint& joint : execution.character->joints().subspan(1)) {
+    for (const Joint& joint : execution.character->joints()) {
       int moving = 0, wild = 0;
-      for (int frame = 1; frame < motion.frame_count; ++frame) {
-        const double* before = motion.row(frame - 1).data() + joint.coord;
-        const double* now = motion.row(frame).data() + joint.coord;
-        const double step = joint.kind == JointKind::ball ? rotation_angle(glm::conjugate(quat_at(before)) * quat_at(now))
-                                                          : std::fabs(wrap_angle(*now - *before));
-        moving += step > 1e-6 ? 1 : 0;
-        wild += step > 0.35 ? 1 : 0;
+      for (int frame = 1; frame < execution.motion.frame_count; ++frame) {
+        const double step_rad = step_of(joint, execution.motion, frame);
+        moving += step_rad > 1e-6 ? 1 : 0;
+        wild += step_rad > kWild_rad ? 1 : 0;
       }
       if (moving >= 8 && wild * 2 > moving) wild_joint_ = joint.name;
     }
+  }
+
+  static double step_of(const Joint& joint, const Motion& motion, int frame) {
+    if (joint.kind == JointKind::root)
+      return rotation_angle(glm::conjugate(motion.root[at(frame - 1)].q) * motion.root[at(frame)].q);
+    const double* before = motion.row(frame - 1).data() + joint.coord;
+    const double* now = motion.row(frame).data() + joint.coord;
+    if (joint.kind == JointKind::ball) return rotation_angle(glm::conjugate(quat_at(before)) * quat_at(now));
+    return std::fabs(wrap_angle(*now - *before));
   }
 
   void remark_on(const std::map<std::string, int>& failing, int refused) {
@@ -272,6 +279,7 @@ class Examination {
 
   // Each number at the ends of its range, everything else at its default.
   void examine_ends_of_parameters() {
+    if (has_ended_) return;
     for (const std::string& name : config_.characters) {
       const Result<Character> character = build_character({name, {}, {}}, *generator_.manifest().library);
       const Offers offers = generator_.offers(*character);
@@ -294,8 +302,8 @@ class Examination {
     ClipDesc clip;
     clip.actions = {use};
     spec.sequences.push_back({"", 0, {clip}});
-    const auto evaluation = guarded([&] { return evaluator_.run(spec); });
     const std::string what = action.name + " with " + def.name + " = " + figure_text(end);
+    const auto evaluation = guarded([&] { return evaluator_.run(spec); }, what + ": ");
     if (evaluation && !*evaluation)
       fault("The manifest allows " + what + ", but the generator refuses it: " + (*evaluation).issue().text);
   }
@@ -305,6 +313,7 @@ class Examination {
   DrawConfig config_;
   Conformance out_;
   std::string wild_joint_, refusal_;
+  bool has_ended_ = false;  // one such fault is enough: the next would be the same
 };
 
 }  // namespace

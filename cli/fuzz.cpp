@@ -259,6 +259,16 @@ Result<Corpus> open_corpus(const FuzzOptions& options, const RunConfig& config) 
   return corpus;
 }
 
+// A program under test may refuse what its manifest allows, which wastes time; our own generator must not.
+void tell_discarded(const RunRecord& record, bool of_program) {
+  const auto count = static_cast<long long>(record.discarded);
+  if (of_program)
+    std::fprintf(stderr, "contort: the generator refused %lld of %lld requests that its manifest allows; contort "
+                         "generator check CMD says why\n", count, static_cast<long long>(record.cases));
+  else
+    std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n", count);
+}
+
 void run(FuzzOptions options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
@@ -300,9 +310,7 @@ void run(FuzzOptions options, Context& context) {
                         context.sources, config.against, known->causes});
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
-  if (result.record.discarded > 0)
-    std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n",
-                 static_cast<long long>(result.record.discarded));
+  if (result.record.discarded > 0) tell_discarded(result.record, !context.sources.generator.empty());
   if (!options.report.empty() || options.outputs.wanted())
     make_report({options.corpus, options.report, "", !options.json, options.outputs}, *generator, context);
   if (!options.json) print_result(result);

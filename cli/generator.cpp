@@ -11,6 +11,8 @@ namespace contort::cli {
 
 namespace {
 
+constexpr GuestLimits kExamined{60.0, 5.0};  // nobody waits longer for an answer
+
 void print_understood(const GuestManifest& said) {
   std::printf("%s%s%s\n", said.name.c_str(), said.build.empty() ? "" : ", build ", said.build.c_str());
   for (const GuestCharacter& character : said.characters)
@@ -52,7 +54,7 @@ void print_conformance(const Conformance& found) {
 
 void run(const std::string& command, bool limits, Context& context) {
   const double start_s = steady_s();
-  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(command);
+  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(command, kExamined);
   if (!started) return context.fail(started.issue());
   const double manifest_s = steady_s() - start_s;
   GuestGenerator& generator = **started;

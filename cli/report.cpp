@@ -88,6 +88,7 @@ ReportRow row_of_case(const Case& stored, const std::string& path, const std::st
   ReportRow row;
   row.family = print_family(family_of(stored)), row.check = stored.expect.check, row.key = key;
   row.character = stored.spec.character.name, row.has_motion = !is_abnormal_exit(stored.expect);
+  row.printed = stored.expect.printed;
   row.subject = stored.spec.character.name + ": " + stored.expect.subject, row.unit = stored.expect.unit;
   row.worst_margin = stored.expect.worst_margin, row.measured = with.measured.text_of(stored);
   row.case_file = location_of(with.corpus, path);

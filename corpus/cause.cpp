@@ -64,7 +64,9 @@ struct Verb {
 };
 constexpr Verb kVerbs[] = {
     {"non_finite", "has NaN or infinite values"},
+    {"quaternion_length", "has a quaternion whose length is not 1"},
     {"joint_range", "leaves its range"},
+    {"off_axis", "turns about another axis than its own"},
     {"angular_velocity", "turns too fast"},
     {"pop", "jumps"},
     {"angular_acceleration", "starts or stops too abruptly"},
@@ -80,9 +82,17 @@ constexpr Verb kVerbs[] = {
     {"tracking_error", "does not come back to its target after an impact"},
     {"ground_penetration", "sinks into the ground"},
     {"foot_slide", "slides on the ground"},
+    {"rest_error", "is not brought back to rest"},
+    {"fresh_error", "moves otherwise than after a fresh start"},
+    {"none_error", "is changed by an action that changes nothing"},
+    {"history_error", "moves otherwise after other requests"},
+    {"rate_error", "moves otherwise at half the rate"},
 };
 
 std::string what_happens(std::string_view check, std::string_view subject) {
+  if (check == "crash") return "the generator ends with " + std::string(subject);
+  if (check == "timeout") return "the generator does not answer in time";
+  if (check == "memory") return "the generator uses too much memory";
   const std::vector<std::string_view> bodies = bodies_of(subject);
   const std::string first = body_in_words(bodies.front());
   if (check == "self_collision" || check == "obstacle_penetration")

@@ -7,7 +7,9 @@ namespace contort {
 std::string check_title(std::string_view check) {
   static constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
       {"non_finite", "Broken numbers"},
+      {"quaternion_length", "Rotation is not normalised"},
       {"joint_range", "Joint beyond its range"},
+      {"off_axis", "Hinge turns about another axis"},
       {"angular_velocity", "Joint too fast"},
       {"pop", "Sudden jump"},
       {"angular_acceleration", "Joint starts or stops too abruptly"},
@@ -25,6 +27,11 @@ std::string check_title(std::string_view check) {
       {"obstacle_penetration", "Goes into an obstacle"},
       {"foot_slide", "Foot slides"},
       {"self_collision", "Goes through itself"},
+      {"rest_error", "Does not come back to rest"},
+      {"fresh_error", "Differs from a fresh start"},
+      {"none_error", "Changed by what changes nothing"},
+      {"history_error", "Depends on earlier requests"},
+      {"rate_error", "Depends on the rate"},
       {"loop_seam", "Loop does not close"},
       {"part_gap", "Joint out of its place"},
       {"crash", "Generator crashed"},

@@ -27,6 +27,7 @@ struct ReportRow {
   std::string key;              // names its files: strips/<key>-*.png, cases/<key>.js
   std::string character;        // that moves
   bool has_motion = true;       // false: there is nothing for the viewer to play
+  std::string printed;          // the last words of a generator that ended; "" if it is no program of its own
   std::string state;            // "new", "open", "regressed", …
   bool gating = false;
   std::string spec_json;       // the minimal spec, laid out for reading

@@ -95,7 +95,7 @@ std::string bucket_html(const ReportRow& row, Room& room, const PageFiles& insid
          fact("worst margin", row.measured.empty() ? margin_text(row.worst_margin, row.unit) : "") + fact("worst at", worst_text(row)) +
          fact("violated in", violated_text(row)) + fact("phase", phase_fact(row)) + fact("cause", row.cause) +
          fact("needs", row.needs) + fact("comes with", also_fact(row)) +
-         fact("in the base", row.since_base) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
+         fact("in the base", row.since_base) + fact("it printed", row.printed) + fact("known", row.note) + fact("bucket", row.bucket) + "</dl>\n";
   out += open_html(row, inside) + command_html(row.replay_command);
   if (row.spec_json.empty() || row.spec_json.size() > room.spec_bytes) return out + "</section>\n";
   room.spec_bytes -= row.spec_json.size();

@@ -12,7 +12,7 @@
 namespace contort {
 namespace {
 
-std::string broken(const std::string& name) { return "python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + name + ".py"; }
+std::string broken(const std::string& name) { return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + name + ".py"; }
 
 std::unique_ptr<GuestGenerator> started(const std::string& command) {
   Result<std::unique_ptr<GuestGenerator>> generator = GuestGenerator::start(command, {30.0, 2.0});

@@ -1,0 +1,133 @@
+// Programs under test as a user has them: contort generator check, and --generator with every command.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace contort {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string script(const std::string& name) { return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + name + ".py"; }
+
+// The lines about faults and the notes, without what is in order.
+std::string remarks_of(const std::string& out) {
+  std::string remarks;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("FAULT: ") || line.starts_with("note: ")) remarks += line + "\n";
+  return remarks;
+}
+
+TEST(GeneratorCheck, FindsNothingWrongWithAGoodProgram) {
+  const Ran ran = contort_program({"generator", "check", script("good"), "--limits"});
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+  EXPECT_EQ(remarks_of(ran.out), "");
+  EXPECT_NE(ran.out.find("elbow                    0 to 100 degrees about its axis, at most 720 degrees/s"), std::string::npos)
+      << ran.out;
+  EXPECT_NE(ran.out.find("determinism: The same request gives the same bits"), std::string::npos);
+  EXPECT_NE(ran.out.find("not judged: self_collision: no two bodies are judged as a pair"), std::string::npos);
+}
+
+TEST(GeneratorCheck, TellsEachWayToBreakThePromisesInOneRightSentence) {
+  const std::pair<std::string, std::string> expected[] = {
+      {"banner", "FAULT: The generator writes something else than replies to its standard output after the manifest"},
+      {"frame_count", "FAULT: A reply has another number of bytes than the frames that were asked for"},
+      {"nan", "FAULT: Frames have NaN or infinite values"},
+      {"quaternion_length", "FAULT: Quaternions do not have length 1"},
+      {"axes", "are the axes and unit_m of the convention those of the frames?"},
+      {"degrees", "is an angle in degrees used where radians are expected?"},
+      {"state_leak", "FAULT: A request is answered differently after another one: state of an earlier request is left"},
+      {"clock", "FAULT: Two fresh processes answer the same request differently"},
+      {"crash", "FAULT: The generator ends while it makes a motion (exit 1). It printed: walker: the pool of clips is "
+                "exhausted"},
+      {"hang", "FAULT: The generator does not answer in time"},
+      {"slow", "note: The generator makes "},
+      {"lying_range", "FAULT: The generator fails for a request that its manifest allows."},
+      {"lying_speed", "FAULT: Joints turn faster than the manifest declares"},
+  };
+  for (const auto& [name, sentence] : expected) {
+    const Ran ran = contort_program({"generator", "check", script(name)});
+    EXPECT_EQ(ran.code, name == "slow" ? 0 : 1) << name << "\n" << ran.out << ran.err;
+    EXPECT_NE(remarks_of(ran.out).find(sentence), std::string::npos) << name << "\n" << ran.out << ran.err;
+  }
+}
+
+class ProgramUnderTest : public testing::Test {
+ protected:
+  Ran fuzz(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"fuzz",   "--generator", script(name), "--corpus",
+                                          corpus(), "--jobs",      "2",          "--case-timeout", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return contort_program(arguments);
+  }
+  std::string corpus() const { return folder_ / "corpus"; }
+  std::vector<Json> minimal_cases() const {
+    std::vector<Json> cases;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus() + "/buckets"))
+      if (entry.path().filename().string().starts_with("min-")) cases.push_back(Json::parse(slurp(entry.path().string())));
+    return cases;
+  }
+  TempFolder folder_;
+};
+
+TEST_F(ProgramUnderTest, IsCleanWhereItKeepsItsPromises) {
+  const Ran ran = fuzz("good", {"--cases", "700"});
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+  EXPECT_NE(ran.out.find("100 % of 700 cases are clean"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.err, "");
+}
+
+TEST_F(ProgramUnderTest, ThatCrashesIsFoundWithItsLastWords) {
+  EXPECT_EQ(fuzz("crash", {"--cases", "700"}).code, 1);
+  const std::vector<Json> cases = minimal_cases();
+  ASSERT_EQ(cases.size(), 1U);
+  EXPECT_EQ(cases[0]["expect"]["check"], "crash");
+  EXPECT_EQ(cases[0]["expect"]["subject"], "exit 1");
+  EXPECT_EQ(cases[0]["expect"]["printed"], "walker: the pool of clips is exhausted ");
+  EXPECT_EQ(cases[0]["provenance"]["generator"], "good");
+  int uses = 0;
+  for (const Json& sequence : cases[0]["spec"]["sequences"])
+    for (const Json& clip : sequence["clips"]) uses += static_cast<int>(clip["actions"].size());
+  EXPECT_EQ(uses, 2) << "two swings are enough: " << cases[0]["spec"];
+}
+
+TEST_F(ProgramUnderTest, ThatHangsIsFoundAndLeavesNothingBehind) {
+  EXPECT_EQ(fuzz("hang", {"--cases", "264", "--shrink-evaluations", "3"}).code, 1);
+  const std::vector<Json> cases = minimal_cases();
+  ASSERT_FALSE(cases.empty());
+  EXPECT_EQ(cases[0]["expect"]["check"], "timeout");
+}
+
+TEST_F(ProgramUnderTest, IsReplayedReportedAndRefusedForAnotherOne) {
+  EXPECT_EQ(fuzz("quaternion_length", {"--cases", "300", "--report", folder_ / "report"}).code, 1);
+  EXPECT_NE(slurp(folder_ / "report/index.html").find("Rotation is not normalised"), std::string::npos);
+  const Ran again = contort_program({"replay", corpus(), "--generator", script("quaternion_length")});
+  EXPECT_EQ(again.code, 1) << again.out << again.err;
+  EXPECT_NE(again.out.find("same="), std::string::npos);
+  EXPECT_EQ(again.out.find("refused  "), std::string::npos) << again.out;
+  const Ran built_in = contort_program({"replay", corpus()});
+  EXPECT_EQ(built_in.code, 2);
+  EXPECT_NE(built_in.err.find("replay.other_generator"), std::string::npos) << built_in.err;
+}
+
+TEST_F(ProgramUnderTest, IsComparedWithAnother) {
+  const Ran broke = fuzz("nan", {"--against", script("good"), "--cases", "300"});
+  EXPECT_EQ(broke.code, 1) << broke.out << broke.err;
+  EXPECT_NE(broke.out.find("depth inf: new since the base"), std::string::npos) << broke.out;
+  const Ran sides = contort_program({"replay", corpus(), "--generator", script("nan"), "--against", script("good")});
+  EXPECT_NE(sides.out.find("against: passes"), std::string::npos) << sides.out << sides.err;
+  EXPECT_NE(sides.out.find("first difference at frame"), std::string::npos) << sides.out;
+}
+
+TEST_F(ProgramUnderTest, IsNoProgramForSpecsOfTheBuiltInOne) {
+  const Ran ran = contort_program({"check", CONTORT_SOURCE_DIR "/docs/examples/reach_hand.json", "--generator", script("good")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("allowed are hero"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace contort
