@@ -152,13 +152,6 @@ export const operations = {
       const action = player.find(p.clip);
       action.time = p.share * action.getClip().duration;
     } },
-  uncache: { effect: 'cut', params: { clip: { ...other, default: CLIPS[0] } },
-    run: (player, p) => {
-      const action = player.find(p.clip).stop();
-      player.touched.delete(action);
-      player.mixer.uncacheClip(action.getClip());
-      if (player.last === action) player.last = player.find(p.clip);
-    } },
   mixer_speed: { effect: 'continuous', params: { speed: { type: 'number', low: 0.8, high: 1.2, default: 1 } },
     run: (player, p) => { player.mixer.timeScale = p.speed; } },
   skip: { effect: 'cut', help: 'One update with a step of another length.',

@@ -75,8 +75,8 @@ class Contort:
 
 def findings(contort, corpus):
     """Each minimal case of the corpus, with its cause."""
-    causes = json.loads(contort.run("causes", "--all", "--json", corpus))["causes"]
-    for cause in causes:
+    known = contort.run("causes", "--all", "--json", corpus) if corpus.exists() else ""
+    for cause in json.loads(known or '{"causes": []}')["causes"]:
         for bucket in cause["buckets"]:
             case = json.loads(pathlib.Path(bucket["case"]).read_text())
             clips = [clip for sequence in case["spec"].get("sequences", []) for clip in sequence["clips"]]
