@@ -10,7 +10,8 @@ export function findPackage(name, variable) {
     const file = path.join(folder, 'package.json');
     if (!fs.existsSync(file)) continue;
     const about = JSON.parse(fs.readFileSync(file, 'utf8'));
-    if (about.name === name) return { folder, version: about.version, module: about.type === 'module' };
+    if (about.name !== name) continue;
+    return { folder: fs.realpathSync(folder), version: about.version, module: about.type === 'module' };
   }
   throw new Error(`cannot find the package ${name}: install it here with npm, or set ${variable} to its folder`);
 }

@@ -86,7 +86,7 @@ function stateGraph(uses) {
   const gone = uses.map((use, i) => ({ use, trigger: `go${i}` })).filter(({ use }) => use.action === 'go');
   const transitions = gone.map(({ use: { params }, trigger }) => ({ from: 'ANY', to: params.to, time: params.over_s,
     priority: 0, exitTime: params.exit_share, transitionOffset: params.offset_share,
-    interruptionSource: params.interruption,
+    interruptionSource: params.interruption.toUpperCase(),
     conditions: [{ parameterName: trigger, predicate: 'EQUAL_TO', value: true }] }));
   const blendTree = { type: '1D', parameter: 'mix', parameters: ['mix'], syncDurations: false,
     children: [{ name: 'first', point: 0 }, { name: 'second', point: 1 }] };
@@ -108,7 +108,7 @@ export const operations = {
     run: (player, p) => player.anim.baseLayer.play(p.to) },
   go: { effect: 'continuous', duration_s: LONG, help: 'Sets the trigger of a transition.',
     params: { to, over_s: { type: 'number', low: 0.4, high: 1 }, exit_share: share, offset_share: { ...share, high: 0 },
-      interruption: { type: 'choice', choices: ['NONE', 'PREV_STATE', 'NEXT_STATE', 'PREV_STATE_NEXT_STATE'] } },
+      interruption: { type: 'choice', choices: ['none', 'prev_state', 'next_state', 'prev_state_next_state'] } },
     run: (player, p, i) => player.anim.setTrigger(`go${i}`) },
   start_over: { effect: 'equals', duration_s: LONG, help: 'Resets the component, returns to rest, and plays.',
     params: { to: { ...to, default: STATES[0] } },

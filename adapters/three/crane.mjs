@@ -1,6 +1,6 @@
 // CCDIKSolver on a crane of two equal booms that turn about one axis. The booms may turn freely: their limits are a
 // full turn wide, wherever it begins. Each point of the plane that is near enough can therefore be reached.
-import { quaternion, Refused } from '../javascript/contort_guest.mjs';
+import { quaternion } from '../javascript/contort_guest.mjs';
 
 const LENGTH = 0.5, BOX = 0.65;  // The corner of the box is 0.92 from the base, and the booms together reach 1.
 
@@ -22,10 +22,7 @@ export const craneAction = { name: 'reach', slots: ['crane'], layer: 'ik', effec
   goal: { param: 'target', tip: 'hook', within: 0.02 } };
 
 export function startCrane(THREE, request) {
-  request.uses.slice(1).forEach((use, i) => {
-    const before = request.uses[i];
-    if (use.start_s <= before.end_s) throw new Refused('the hook has one target at a time');
-  });
+  request.refuseOverlaps('reach', 'the hook has one target at a time');
   const names = craneJoints.map(({ name }) => name);
   const bones = craneJoints.map(({ name, position, rotation }) => {
     const bone = new THREE.Bone();

@@ -1,4 +1,4 @@
-"""Writes z for up, while the manifest says that y is up: the root lies elsewhere, and hinges turn about another axis."""
+"""Writes z for up, while the manifest says that y is up: hinges turn about another axis than it declares."""
 import good
 
 
