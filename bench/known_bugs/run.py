@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Finds publicly reported bugs of animation engines blind, and prints a table of them.
+"""Looks for publicly reported bugs of animation engines, and prints a table of them.
 
 For each bug it installs the affected and the fixed version with npm, searches the affected one through the adapter of
 the engine, and replays each minimal case in the fixed one. A bug counts as found if a finding of the check that its
-symptom belongs to is gone in the fixed version. The adapters know nothing of any bug.
+symptom belongs to is gone in the fixed version. README.md says how blind the search is.
 """
 import argparse
 import collections
