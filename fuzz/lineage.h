@@ -29,10 +29,9 @@ struct Odds {
   double guided = Profile{}.guided;
   double uniform = Profile{}.uniform;
   bool staged = Profile{}.staged;
-  bool quick = Profile{}.quick;
 };
 inline Odds odds_of(std::int64_t seed, const Profile& profile) {
-  return {seed, profile.guided, profile.uniform, profile.staged, profile.quick};
+  return {seed, profile.guided, profile.uniform, profile.staged};
 }
 
 // Decides how case `index` is made. Guidance reaches its share little by little: what few cases have come near to is no

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "checks/check.h"
 #include "corpus/bucket.h"
 
 namespace contort {
@@ -15,8 +16,10 @@ bool are_of_one_time(const Case& a, const Case& b) {
   return a.expect.first_frame - b.expect.last_frame <= between && b.expect.first_frame - a.expect.last_frame <= between;
 }
 
+// A number that is NaN breaks the limits of every check; the one that says so comes first.
 auto place_of(const Case& shown) {
-  return std::tuple(shown.expect.first_frame, -depth_of(shown.expect), family_of(shown));
+  const bool is_broken = kind_of_check(shown.expect.check) == CheckKind::broken;
+  return std::tuple(shown.expect.first_frame, -depth_of(shown.expect), !is_broken, family_of(shown));
 }
 
 Shrunk added_up(const Shrunk& before, Shrunk after) {

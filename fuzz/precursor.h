@@ -21,8 +21,8 @@ namespace contort {
 inline constexpr double kOneTime_s = 0.2;
 
 // Chooses from the other families of one motion the earliest that is of one time with `shown` and at least as deep (in
-// each check's scale), of equally early ones the deepest; none of those that were left. Null where `shown` itself is
-// that one.
+// each check's scale), of equally early ones the deepest, and of these one about broken numbers; none of those that
+// were left. Null where `shown` itself is that one.
 const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
 using ShrinkStep = std::function<Shrunk(const Case& original, const PrimarySearch& search)>;

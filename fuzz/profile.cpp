@@ -65,8 +65,6 @@ void fields(V& v, const Profile*) {
   v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
   v.field("staged", &Profile::staged, {},
           "Actions are tried alone first, then pairs and crowds of those that are clean; false: everything at once.");
-  v.field("quick", &Profile::quick, {},
-          "Of a staged search: pairs and crowds come after one round of single actions, and crowds more often.");
   v.field("guided", &Profile::guided, kOdds,
           "Of a search that is not staged: share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
   v.field(

@@ -51,7 +51,6 @@ struct Profile {
   double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
   std::vector<DrawRule> rules{};
   bool staged = true;             // actions alone, then pairs and crowds of clean ones (fuzz/stages.h); false: all at once
-  bool quick = false;             // where staged: pairs and crowds come after one round of single actions
   double guided = 0.5;            // where not staged: of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
   double uniform = 0.02;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
   std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion

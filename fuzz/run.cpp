@@ -110,7 +110,7 @@ class Run {
   }
 
   Lineage lineage_of(std::size_t island, std::int64_t index) const {
-    return odds_.staged ? state_.ingredients[island].lineage_of(odds_.seed, index, odds_.quick)
+    return odds_.staged ? state_.ingredients[island].lineage_of(odds_.seed, index)
                         : state_.islands[island].lineage_of(odds_, index);
   }
 

@@ -19,10 +19,6 @@ constexpr std::array<CaseStage, kEpochRounds> kStages = {CaseStage::single, Case
                                                          CaseStage::crowd,  CaseStage::single, CaseStage::pair,
                                                          CaseStage::pair,   CaseStage::crowd};
 
-constexpr std::array<CaseStage, kEpochRounds> kQuickStages = {CaseStage::single, CaseStage::crowd, CaseStage::pair,
-                                                              CaseStage::crowd,  CaseStage::single, CaseStage::crowd,
-                                                              CaseStage::pair,   CaseStage::crowd};
-
 std::int64_t round_of(std::int64_t index) { return index / kRound; }
 
 Ingredients::Pair pair_of(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -67,8 +63,8 @@ void add_action(RawSpec& raw, Dice& dice, RawAction action, int ways) {
 
 }  // namespace
 
-CaseStage planned_stage(std::int64_t index, bool quick) {
-  return (quick ? kQuickStages : kStages)[static_cast<std::size_t>(round_of(index) % kEpochRounds)];
+CaseStage planned_stage(std::int64_t index) {
+  return kStages[static_cast<std::size_t>(round_of(index) % kEpochRounds)];
 }
 
 std::int64_t setting_of(std::int64_t index) {
@@ -76,8 +72,8 @@ std::int64_t setting_of(std::int64_t index) {
   return first_round * kRound + std::int64_t{island_of(index)} * kGeneration;
 }
 
-Lineage Ingredients::lineage_of(std::int64_t seed, std::int64_t index, bool quick) const {
-  const CaseStage stage = planned_stage(index, quick);
+Lineage Ingredients::lineage_of(std::int64_t seed, std::int64_t index) const {
+  const CaseStage stage = planned_stage(index);
   if (stage == CaseStage::single || setting != setting_of(index) || clean.size() < 2) return {index};
   Dice dice(seed, index, kChoose);
   const std::size_t wanted =

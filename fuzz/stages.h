@@ -21,9 +21,8 @@ inline constexpr std::size_t kMostIngredients = 8;  // actions of a crowd
 
 enum class CaseStage { single, pair, crowd };
 
-// The stage that case `index` has where there are enough clean singles; a single where there are not. `quick` as in
-// Profile.
-CaseStage planned_stage(std::int64_t index, bool quick = false);
+// The stage that case `index` has where there are enough clean singles; a single where there are not.
+CaseStage planned_stage(std::int64_t index);
 // The stage that a case with these ingredients has.
 inline CaseStage stage_of(const Lineage& lineage) {
   return lineage.size() == 1 ? CaseStage::single : lineage.size() == 3 ? CaseStage::pair : CaseStage::crowd;
@@ -37,7 +36,7 @@ struct Ingredients {
   using Pair = std::array<std::int64_t, 2>;
 
   // The indices of the singles that case `index` is made of, ascending, with its own behind them.
-  Lineage lineage_of(std::int64_t seed, std::int64_t index, bool quick = false) const;
+  Lineage lineage_of(std::int64_t seed, std::int64_t index) const;
   // Takes in the result of a case. To be called in the order of cases.
   void learn(const Lineage& lineage, bool is_clean);
 

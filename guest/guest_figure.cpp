@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kLongestName = 40;     // of a joint
 constexpr double kBoneThickness = 0.08;      // radius of a drawn bone, as a share of its length
+constexpr double kFixed_deg = 0.01;          // a range needs two ends
+constexpr double kEndless_deg = 1e5;
 constexpr double kShortestBone_m = 1e-4;
 constexpr double kEndRadius_m = 0.01;        // of a joint without children
 constexpr std::string_view kDock = "dock_";  // sockets on which other slots hang
@@ -42,6 +44,14 @@ struct GuestFigure {
   std::string local_name(std::size_t j) const { return j == 0 ? "" : names[j]; }
 };
 
+// A hinge that may go all the way round has no ends: its angle is counted on over several turns.
+void set_range(const GuestJoint& joint, JointDesc& out) {
+  const bool is_endless = joint.type == GuestJointType::hinge && joint.high_deg - joint.low_deg >= 360.0;
+  const bool is_fixed = joint.type == GuestJointType::fixed || joint.low_deg == joint.high_deg;
+  out.low_deg = is_fixed ? -kFixed_deg : is_endless ? -kEndless_deg : joint.low_deg;
+  out.high_deg = is_fixed ? kFixed_deg : is_endless ? kEndless_deg : joint.high_deg;
+}
+
 JointDesc joint_desc(const GuestFigure& figure, std::size_t j) {
   const GuestJoint& joint = figure.from.joints[j];
   JointDesc out;
@@ -52,9 +62,7 @@ JointDesc joint_desc(const GuestFigure& figure, std::size_t j) {
   const auto& [x, y, z, w] = joint.rotation;
   out.rotation_deg = to_rotation_vector(normalize(figure.basis.rotation(x, y, z, w))) * kDegPerRad;
   out.axis = glm::normalize(figure.basis.axis(joint.axis));
-  const bool is_fixed = joint.type == GuestJointType::fixed;
-  out.low_deg = is_fixed ? 0.0 : joint.low_deg;
-  out.high_deg = is_fixed ? 0.0 : joint.high_deg;
+  set_range(joint, out);
   if (out.type == JointType::ball) {
     out.swing_axis = perpendicular(out.axis);
     out.swing_deg = {joint.swing_deg, joint.swing_deg};

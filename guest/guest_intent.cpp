@@ -43,11 +43,23 @@ Goal goal_of(const GuestManifest& manifest, const PlacedUse& placed, const Chara
 
 }  // namespace
 
+namespace {
+
+// A goal that another use of its slot takes over before its end is nobody's promise any more.
+bool is_taken_over(const PlacedUse& placed, const std::vector<PlacedUse>& uses) {
+  return std::ranges::any_of(uses, [&](const PlacedUse& other) {
+    return &other != &placed && other.use->slot == placed.use->slot && other.start_frame >= placed.start_frame &&
+           other.start_frame <= placed.end_frame();
+  });
+}
+
+}  // namespace
+
 Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& uses, const Character& character) {
   Intent intent;
   for (const PlacedUse& placed : uses) {
     intent.actions.push_back(intended(placed, character));
-    if (!placed.action->goal) continue;
+    if (!placed.action->goal || is_taken_over(placed, uses)) continue;
     if (const Goal goal = goal_of(manifest, placed, character); goal.socket >= 0) intent.goals.push_back(goal);
   }
   return intent;

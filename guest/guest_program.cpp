@@ -15,7 +15,7 @@ constexpr std::size_t kMostRefusal = 500;  // bytes of a text
 // Without a shell in between the program is our child, and ends with us whatever happens.
 std::vector<std::string> shell_command(const std::string& command) {
   const bool needs_shell = command.find_first_of("|&;<>()`\n") != std::string::npos;
-  return {"/bin/sh", "-c", needs_shell ? command : "exec " + command};
+  return {"/bin/sh", "-c", needs_shell ? command : "exec env " + command};
 }
 
 std::string text_of(const Json& reply, const char* name) {

@@ -121,7 +121,7 @@ void fields(V& v, const GuestParam*) {
   v.field("low", &GuestParam::low, {.low = -1e9, .high = 1e9}, "Least value.");
   v.field("high", &GuestParam::high, {.low = -1e9, .high = 1e9}, "Greatest value.");
   v.field("default", &GuestParam::preset, {.text = Text::label}, "Value where a spec gives none.");
-  v.field("choices", &GuestParam::choices, {.max_count = 256, .text = Text::label}, "Of a choice.");
+  v.field("choices", &GuestParam::choices, {.max_count = 256}, "Of a choice: words of a-z, 0-9 and _.");
   v.field("special", &GuestParam::special, {.max_count = 64, .text = Text::label},
           "Values that are drawn more often than others.");
   v.field("help", &GuestParam::help, kGuestText, "One sentence.");

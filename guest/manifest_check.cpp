@@ -52,6 +52,8 @@ void check_joint(const GuestCharacter& character, std::size_t index, const std::
                 "found a quaternion x y z w whose length is not 1");
   faults.expect(is_unit(joint.axis), "bad_axis", at + "/axis", "found an axis whose length is not 1");
   faults.expect(joint.low_deg <= joint.high_deg, "bad_range", at + "/low_deg", "found a value above high_deg");
+  faults.expect(joint.low_deg <= 0.0 && joint.high_deg >= 0.0, "bad_range", at + "/low_deg",
+                "the range must hold 0, which is the rest pose: choose a rest pose within the range");
 }
 
 // A slot begins where its first joint hangs on a joint of another one; a second such place would split it.

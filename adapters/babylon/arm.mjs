@@ -23,7 +23,6 @@ export const armActions = [
       limit_deg: { type: 'number', low: 0, high: 180, default: 180 } } }];
 
 export function startArm(BABYLON, engine, request) {
-  request.refuseOverlaps('reach', 'the hand has one target at a time');
   const { Bone, Matrix, Mesh, Scene, Skeleton, Vector3 } = BABYLON;
   const scene = new Scene(engine);
   scene.useRightHandedSystem = true;

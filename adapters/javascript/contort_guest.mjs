@@ -47,12 +47,6 @@ export class Request {
     return new Pose(this.joints);
   }
 
-  // Refuses a request in which a use of an action begins before an earlier one has ended.
-  refuseOverlaps(action, reason) {
-    const uses = this.uses.filter((use) => use.action === action);
-    if (uses.some((use, i) => i > 0 && use.start_s <= uses[i - 1].end_s)) throw new Refused(reason);
-  }
-
   // The share of a use that is over at a time: 0 before and at its start, 1 at its end and after it.
   progress(use, timeS) {
     return timeS >= use.end_s ? 1 : Math.max(0, (timeS - use.start_s) / use.duration_s);

@@ -22,7 +22,6 @@ export const craneAction = { name: 'reach', slots: ['crane'], layer: 'ik', effec
   goal: { param: 'target', tip: 'hook', within: 0.02 } };
 
 export function startCrane(THREE, request) {
-  request.refuseOverlaps('reach', 'the hook has one target at a time');
   const names = craneJoints.map(({ name }) => name);
   const bones = craneJoints.map(({ name, position, rotation }) => {
     const bone = new THREE.Bone();

@@ -67,7 +67,7 @@ class Contort:
 
     def fuzz(self, corpus):
         self.run("fuzz", "--generator", self.generator, "--corpus", corpus, "--time", f"{self.options.time}s", "--seed",
-                 self.options.seed, "--jobs", self.options.jobs, "--profile", HERE / "profile.json")
+                 self.options.seed, "--jobs", self.options.jobs)
 
     def verdicts(self, cases):
         """What a replay says of each case file: `passes` where nothing fails any more."""

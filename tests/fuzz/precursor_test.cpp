@@ -47,6 +47,16 @@ TEST(Precursor, OfThoseThatBeginTogetherIsTheDeepest) {
       << "no number is deeper";
 }
 
+TEST(Precursor, OfNaNInEveryCheckIsTheOneThatTellsIt) {
+  const double nan = std::nan("");
+  Case range = shown("knee", 50, 52, nan), finite = shown("knee", 50, 52, nan);
+  range.expect.check = "joint_range", finite.expect.check = "non_finite";
+  const Case* precursor = precursor_of(range, {finite});
+  ASSERT_NE(precursor, nullptr);
+  EXPECT_EQ(precursor->expect.check, "non_finite");
+  EXPECT_EQ(precursor_of(finite, {range}), nullptr);
+}
+
 TEST(Precursor, IsNoFurtherThanAFifthOfASecond) {
   Case hip = shown("hip", 50, 52, 1.0);
   EXPECT_EQ(precursor_among(hip, {shown("knee", 20, 38, 3.0)}), "knee");
