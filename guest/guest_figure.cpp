@@ -18,7 +18,6 @@ constexpr double kFixed_deg = 0.01;          // a range needs two ends
 constexpr double kEndless_deg = 1e5;
 constexpr double kShortestBone_m = 1e-4;
 constexpr double kEndRadius_m = 0.01;        // of a joint without children
-constexpr std::string_view kDock = "dock_";  // sockets on which other slots hang
 
 std::string legal_name(const std::string& text) {
   std::string out;
@@ -109,7 +108,7 @@ std::vector<ColliderDesc> colliders_of(const GuestFigure& figure, const std::str
 std::vector<SocketDesc> sockets_of(const GuestFigure& figure, const std::string& slot) {
   std::vector<SocketDesc> sockets;
   for (std::size_t j = 0; j < figure.names.size(); ++j)
-    if (figure.slots[j] == slot) sockets.push_back({std::string(kDock) + figure.names[j], figure.local_name(j)});
+    if (figure.slots[j] == slot) sockets.push_back({figure.names[j], figure.local_name(j)});
   return sockets;
 }
 
@@ -131,7 +130,7 @@ SlotDesc slot_desc(const GuestFigure& figure, std::size_t first_joint) {
   slot.kind = figure.from.name + "_" + slot.name;
   if (first_joint > 0) {
     slot.on_slot = figure.slots[at(figure.parent(first_joint))];
-    slot.on_socket = std::string(kDock) + figure.names[at(figure.parent(first_joint))];
+    slot.on_socket = figure.names[at(figure.parent(first_joint))];
   }
   const auto parts = figure.from.parts.find(slot.name);
   const std::size_t count = parts == figure.from.parts.end() ? 1 : parts->second.size();

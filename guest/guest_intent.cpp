@@ -32,7 +32,7 @@ Goal goal_of(const GuestManifest& manifest, const PlacedUse& placed, const Chara
   Goal goal;
   goal.first_frame = goal.last_frame = placed.end_frame();
   goal.part = character.find_part(placed.use->slot);
-  goal.socket = joint < 0 ? -1 : character.find_socket(slots_of(from)[at(joint)] + "/dock_" + joint_names(from)[at(joint)]);
+  goal.socket = joint < 0 ? -1 : character.find_socket(slots_of(from)[at(joint)] + "/" + joint_names(from)[at(joint)]);
   const auto given = placed.use->params.find(promised.param);
   const auto def = std::ranges::find(placed.offer->params, promised.param, &ParamDef::name);
   goal.target_m = basis.point_m(std::get<Vec3>(given == placed.use->params.end() ? def->preset : given->second));
