@@ -63,7 +63,7 @@ void try_replies(int replies) {
 
 TEST(GuestChaos, WrongRepliesEndOneCaseAndNoMore) { try_replies(400); }
 
-TEST(GuestChaos, TenThousandWrongRepliesLoseNoCase) { try_replies(10'000); }
+TEST(GuestChaos, ThousandsOfWrongRepliesLoseNoCase) { try_replies(3'000); }
 
 }  // namespace
 }  // namespace contort
