@@ -51,7 +51,8 @@ TEST(Precursor, OfNaNInEveryCheckIsTheOneThatTellsIt) {
   const double nan = std::nan("");
   Case range = shown("knee", 50, 52, nan), finite = shown("knee", 50, 52, nan);
   range.expect.check = "joint_range", finite.expect.check = "non_finite";
-  const Case* precursor = precursor_of(range, {finite});
+  const std::vector<Case> others{finite};
+  const Case* precursor = precursor_of(range, others);
   ASSERT_NE(precursor, nullptr);
   EXPECT_EQ(precursor->expect.check, "non_finite");
   EXPECT_EQ(precursor_of(finite, {range}), nullptr);
