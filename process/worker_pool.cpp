@@ -89,7 +89,7 @@ void WorkerSlot::note(std::string_view text) {
 
 void WorkerSlot::end(std::string_view ending) {
   ending_length_ = std::min(ending.size(), sizeof ending_);
-  std::memcpy(ending_, ending.data(), ending_length_);
+  if (ending_length_ > 0) std::memcpy(ending_, ending.data(), ending_length_);
 }
 
 WorkerPool::WorkerPool(int workers, const WorkerLimits& limits, Work work)
