@@ -28,6 +28,7 @@
 #include "fuzz/run.h"
 #include "fuzz/run_state.h"
 #include "model/core/files.h"
+#include "model/core/hash.h"
 #include "model/core/inside_folder.h"
 #include "model/core/output.h"
 
@@ -269,6 +270,11 @@ void tell_discarded(const RunRecord& record, bool of_program) {
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n", count);
 }
 
+// Cases of two generators do not belong into one corpus.
+std::string corpus_of_generator(const std::string& name) {
+  return name.empty() ? "contort-out/corpus" : "contort-out/program-" + content_id(name).substr(0, 8);
+}
+
 void run(FuzzOptions options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
@@ -284,7 +290,8 @@ void run(FuzzOptions options, Context& context) {
   Result<std::optional<AgainstConfig>> base = choose_base(options.against, config.limits, context);
   if (!base) return context.fail(base.issue());
   config.against = std::move(base).value();
-  if (options.corpus.empty()) options.corpus = config.against ? folder_of_pair(*config.against) : "contort-out/corpus";
+  if (options.corpus.empty())
+    options.corpus = config.against ? folder_of_pair(*config.against) : corpus_of_generator(config.generator);
   if (const Result<Done> ready = check_results(options); !ready)
     return context.fail(ready.issue(), exit_of(ready.issue()));
   // Now, not after an hour of fuzzing; it is read again at the end, when others may have added to it.
