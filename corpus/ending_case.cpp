@@ -4,22 +4,6 @@
 
 namespace contort {
 
-namespace {
-
-constexpr std::size_t kMostLegible = 2000;  // bytes
-
-// The end of a text as one line of ASCII.
-std::string legible(const std::string& text) {
-  std::string out;
-  for (const char c : text.size() > kMostLegible ? text.substr(text.size() - kMostLegible) : text) {
-    const bool is_plain = c >= ' ' && c <= '~';
-    if (is_plain || out.empty() || out.back() != ' ') out += is_plain ? c : ' ';
-  }
-  return out;
-}
-
-}  // namespace
-
 Case ending_case(const Spec& spec, const Ending& ending, const Isolation& isolation) {
   CONTORT_ASSERT(ending.kind != Ending::Kind::finished);
   Case ended;
@@ -27,7 +11,7 @@ Case ending_case(const Spec& spec, const Ending& ending, const Isolation& isolat
   const bool crashed = ending.kind == Ending::Kind::crash;
   ended.expect.check = crashed ? "crash" : ending.kind == Ending::Kind::timeout ? "timeout" : "memory";
   ended.expect.subject = crashed ? ending.signal : "evaluation";
-  ended.expect.printed = legible(ending.printed);
+  ended.expect.printed = ending.printed;
   ended.expect.worst_margin = -1.0;
   ended.expect.depth = 1.0;
   if (ending.kind == Ending::Kind::timeout) ended.expect.limit_s = isolation.seconds;

@@ -23,7 +23,7 @@ struct Ending {
   Kind kind = Kind::finished;
   std::string signal;  // crash: "SIGSEGV"; "exit 1" where it left without a signal
   std::string result;  // finished: what the work returned
-  std::string printed{};  // the last output of a program that ended (ended.h), at most kMostPrinted bytes
+  std::string printed{};  // the last output of a program that ended (ended.h), one line of at most kMostPrinted ASCII characters
   bool operator==(const Ending&) const = default;
 };
 

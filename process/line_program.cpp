@@ -32,6 +32,16 @@ std::string ending_of_status(int status) {
   return "exit " + std::to_string(WEXITSTATUS(status));
 }
 
+// One line of ASCII: a program may print anything, and its last words go to terminals and into files.
+std::string legible(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_plain = c >= ' ' && c <= '~';
+    if (is_plain || out.empty() || out.back() != ' ') out += is_plain ? c : ' ';
+  }
+  return out;
+}
+
 void close_all(std::initializer_list<int> descriptors) {
   for (const int descriptor : descriptors)
     if (descriptor >= 0) ::close(descriptor);
@@ -192,7 +202,7 @@ Ending LineProgram::end_as(Ending::Kind kind) {
   }
   pid_ = -1;
   hear_messages();
-  ending_ = {kind, kind == Ending::Kind::crash ? ending_of_status(status) : "", {}, printed_};
+  ending_ = {kind, kind == Ending::Kind::crash ? ending_of_status(status) : "", {}, legible(printed_)};
   return ending_;
 }
 

@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// What happens to a program's standard error: it goes where ours goes, nowhere, or into `Ending::printed`.
+// The way of a program's standard error: to ours, nowhere, or into `Ending::printed`.
 enum class Messages { shown, dropped, kept };
 
 class LineProgram {

@@ -8,7 +8,7 @@ namespace contort {
 // Listens on a free port, which it tells. -1 where the system has no socket.
 int listen_on_loopback(int& port);
 
-// The first connection that waits, without Nagle's delay; -1 where there is none.
+// The first connection that waits, without Nagle's delay, or -1 if none does.
 int accept_on_loopback(int listener);
 
 // 32 hex digits that nobody can guess.
