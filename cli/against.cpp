@@ -174,7 +174,8 @@ Result<std::string> build_of_generator(const Sources& sources) {
 
 // This program measures the motions of both generators.
 Result<Pair> pair_of_generators(const std::string& base, const WorkerLimits& limits, const Context& context) {
-  const Sources other{{}, base};
+  Sources other = context.sources;
+  other.generator = base;
   const Result<std::string> named = build_of_generator(other), build = build_of_generator(context.sources);
   if (!named) return named.issue();
   if (!build) return build.issue();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "model/motion/kinematics.h"
 #include "process/clock.h"
 #include "process/ended.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -27,26 +27,20 @@ constexpr double kSmallest_m = 0.05, kGreatest_m = 20.0;  // of a plausible figu
 constexpr double kWild_rad = 0.35;            // in a frame: 20 degrees
 constexpr double kOften = 0.5;                // share of motions
 
-std::string figure_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string ending_text(const ProgramEnded& ended) {
   const Ending& ending = ended.ending();
   const std::string printed = ending.printed.empty() ? "" : " It printed: " + ending.printed;
   if (ending.kind == Ending::Kind::timeout)
     return "The generator does not answer in time; a request needs an answer within seconds." + printed;
   if (ending.kind == Ending::Kind::memory) return "The generator uses more than 4 GiB of memory." + printed;
-  if (ending.signal == "no JSON")
+  if (ending.signal == kNoJson)
     return "The generator writes something else than replies to its standard output after the manifest; write logs to "
            "standard error." + printed;
-  if (ending.signal == "wrong length")
+  if (ending.signal == kWrongLength)
     return "A reply has another number of bytes than the frames that were asked for: frames x (3 + 4 x joints) numbers "
            "of the format that the manifest names." + printed;
-  if (ending.signal == "wrong id") return "A reply has another id than its request." + printed;
-  if (ending.signal == "failed") return "The generator fails for a request that its manifest allows." + printed;
+  if (ending.signal == kWrongId) return "A reply has another id than its request." + printed;
+  if (ending.signal == kFailed) return "The generator fails for a request that its manifest allows." + printed;
   return "The generator ends while it makes a motion (" + ending.signal + ")." + printed;
 }
 
@@ -73,7 +67,7 @@ class Examination {
     if (std::ranges::find(out_.remarks, remark) == out_.remarks.end()) out_.remarks.push_back(remark);
   }
 
-  // Nothing where the generator ended, which is then a fault.
+  // The answer has no value if the generator ended; its ending is then a fault.
   template <class Ask>
   auto guarded(const Ask& ask, const std::string& about = "") -> std::optional<decltype(ask())> {
     try {
@@ -115,15 +109,15 @@ class Examination {
     const Rigid rest = root_at_rest(generator_.said(), name), root = execution.motion.root.front();
     const double turned = rotation_angle(glm::conjugate(rest.q) * root.q);
     if (turned > kAtRest_rad)
-      fault(name + ": without actions the root is turned by " + figure_text(turned * kDegPerRad) +
+      fault(name + ": without actions the root is turned by " + rounded_text(turned * kDegPerRad) +
             " degrees against the manifest's rest pose; are up, forward and handed of the convention those of the frames?");
     if (const double moved = length(rest.p_m - root.p_m); moved > kAtRest_m)
-      fault(name + ": without actions the root is " + figure_text(moved) +
+      fault(name + ": without actions the root is " + rounded_text(moved) +
             " m from its position in the manifest; are the axes and unit_m of the convention those of the frames?");
     examine_size(name, *execution.character, root);
     for (const Joint& joint : execution.character->joints().subspan(1))
       if (const double away = away_from_rest(joint, execution); away > kAtRest_rad)
-        return note(name + ": without actions " + joint.name + " is " + figure_text(away * kDegPerRad) +
+        return note(name + ": without actions " + joint.name + " is " + rounded_text(away * kDegPerRad) +
                     " degrees from its rest pose; rotations are against the parent, x y z w, and include the rest "
                     "rotation.");
   }
@@ -140,7 +134,7 @@ class Examination {
     for (const Rigid& joint : world) low = glm::min(low, joint.p_m), high = glm::max(high, joint.p_m);
     const double size_m = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (world.size() > 1 && (size_m < kSmallest_m || size_m > kGreatest_m))
-      note(name + ": the figure is " + figure_text(size_m) + " m large; is unit_m the length of one unit in metres?");
+      note(name + ": the figure is " + rounded_text(size_m) + " m large; is unit_m the length of one unit in metres?");
   }
 
   std::optional<std::string> frames_of(const Spec& spec) {
@@ -252,29 +246,29 @@ class Examination {
       return found == failing.end() ? 0.0 : static_cast<double>(found->second) / std::max(1, out_.motions);
     };
     if (share("non_finite") > 0.0)
-      fault("Frames have NaN or infinite values in " + figure_text(100.0 * share("non_finite")) + " % of the motions.");
+      fault("Frames have NaN or infinite values in " + rounded_text(100.0 * share("non_finite")) + " % of the motions.");
     if (share("quaternion_length") > 0.0)
-      fault("Quaternions do not have length 1 in " + figure_text(100.0 * share("quaternion_length")) +
+      fault("Quaternions do not have length 1 in " + rounded_text(100.0 * share("quaternion_length")) +
             " % of the motions; are they x y z w, and normalised?");
     if (!wild_joint_.empty())
       fault(wild_joint_ + " turns by more than 20 degrees from frame to frame most of the time; is an angle in degrees "
             "used where radians are expected?");
     else if (share("angular_velocity") > kOften)
-      fault("Joints turn faster than the manifest declares in " + figure_text(100.0 * share("angular_velocity")) +
+      fault("Joints turn faster than the manifest declares in " + rounded_text(100.0 * share("angular_velocity")) +
             " % of the motions; is max_speed_deg_s in degrees per second, and true?");
     if (share("joint_range") > kOften)
-      fault("Joints leave the ranges that the manifest declares in " + figure_text(100.0 * share("joint_range")) +
+      fault("Joints leave the ranges that the manifest declares in " + rounded_text(100.0 * share("joint_range")) +
             " % of the motions; are low_deg and high_deg in degrees against rest, and true?");
     if (share("off_axis") > kOften)
-      fault("Hinges turn about other axes than the manifest declares in " + figure_text(100.0 * share("off_axis")) +
+      fault("Hinges turn about other axes than the manifest declares in " + rounded_text(100.0 * share("off_axis")) +
             " % of the motions; is axis in the joint's own frame?");
     if (refused * 2 > out_.motions)
-      fault(figure_text(100.0 * refused / std::max(1, out_.motions)) +
+      fault(rounded_text(100.0 * refused / std::max(1, out_.motions)) +
             " % of the motions that the manifest allows are refused: " + refusal_);
     if (out_.frames_per_s > 0.0 && out_.frames_per_s < kSlow_frames_s)
-      note("The generator makes " + figure_text(out_.frames_per_s) +
+      note("The generator makes " + rounded_text(out_.frames_per_s) +
            " frames per second; a night of eight hours then sees " +
-           figure_text(out_.frames_per_s * 8.0 * 3600.0 / 120.0) + " motions of two seconds on a core.");
+           rounded_text(out_.frames_per_s * 8.0 * 3600.0 / 120.0) + " motions of two seconds on a core.");
   }
 
   // Each number at the ends of its range, everything else at its default.
@@ -302,7 +296,7 @@ class Examination {
     ClipDesc clip;
     clip.actions = {use};
     spec.sequences.push_back({"", 0, {clip}});
-    const std::string what = action.name + " with " + def.name + " = " + figure_text(end);
+    const std::string what = action.name + " with " + def.name + " = " + rounded_text(end);
     const auto evaluation = guarded([&] { return evaluator_.run(spec); }, what + ": ");
     if (evaluation && !*evaluation)
       fault("The manifest allows " + what + ", but the generator refuses it: " + (*evaluation).issue().text);

@@ -278,6 +278,8 @@ std::string corpus_of_generator(const std::string& name) {
 void run(FuzzOptions options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
+  context.sources.case_timeout_s = options.limits.case_timeout_s;
+  context.sources.memory_MB = options.limits.memory_MB;
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   if (options.profile.empty() && !context.sources.generator.empty()) options.profile = "guest";

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/conformance.h"
+#include "cli/print.h"
 #include "process/clock.h"
 
 namespace contort::cli {
@@ -14,7 +15,8 @@ namespace {
 constexpr GuestLimits kExamined{60.0, 5.0};  // nobody waits longer for an answer
 
 void print_understood(const GuestManifest& said) {
-  std::printf("%s%s%s\n", said.name.c_str(), said.build.empty() ? "" : ", build ", said.build.c_str());
+  std::printf("%s%s%s\n", printable(said.name).c_str(), said.build.empty() ? "" : ", build ",
+              printable(said.build).c_str());
   for (const GuestCharacter& character : said.characters)
     std::printf("  character %s: %zu joints, %zu colliders\n", character.name.c_str(), character.joints.size(),
                 character.colliders.size());
@@ -48,7 +50,7 @@ void print_conformance(const Conformance& found) {
   for (const auto& [check, reason] : found.not_judged)
     std::printf("not judged: %s: %s\n", check.c_str(), reason.c_str());
   for (const Remark& remark : found.remarks)
-    std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", remark.text.c_str());
+    std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", printable(remark.text).c_str());
   if (!found.has_fault()) std::printf("OK: the generator keeps the protocol.\n");
 }
 

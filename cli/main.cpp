@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/print.h"
 #include "cli/start.h"
 #include "cli/tested.h"
 #include "cli/usage_text.h"
@@ -64,7 +65,7 @@ Result<CheckSettings> Context::load_settings_without_waivers() const {
 std::string Context::day() const { return today.empty() ? day_of_clock() : today; }
 
 void Context::fail(const Issue& issue, Exit code) {
-  std::fprintf(stderr, "contort: %s\n", to_line(issue).c_str());
+  std::fprintf(stderr, "contort: %s\n", printable(to_line(issue)).c_str());
   exit_code = code;
 }
 

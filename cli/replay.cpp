@@ -259,6 +259,8 @@ class ReplayCommand {
 };
 
 void run(const ReplayOptions& options, Context& context) {
+  context.sources.case_timeout_s = options.limits.case_timeout_s;
+  context.sources.memory_MB = options.limits.memory_MB;
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();

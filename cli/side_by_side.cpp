@@ -17,7 +17,7 @@ namespace {
 // A case in one of the two programs.
 struct SideResult {
   std::string verdict;              // or how the program ended
-  std::optional<Execution> motion;  // nothing where there is none
+  std::optional<Execution> motion;  // no value if the program made none
 };
 
 SideResult play(const Case& stored, Evaluator& evaluator) {
@@ -73,7 +73,9 @@ void compare_case(const std::string& path, Evaluator& a, Evaluator& b, SideCount
 
 void replay_side_by_side(const std::vector<std::string>& paths, const std::string& other, Generator& generator,
                          Context& context) {
-  const Result<Tested> base = load_tested({{}, other});
+  Sources sources = context.sources;
+  sources.generator = other;
+  const Result<Tested> base = load_tested(sources);
   if (!base) return context.fail(base.issue());
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
   if (!settings) return context.fail(settings.issue());

@@ -11,7 +11,8 @@ namespace {
 Result<Tested> load_program(const Sources& sources) {
   if (!sources.libraries.empty())
     return Issue{"generator.own_library", "", "a program under test brings its characters along; leave --library out"};
-  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(sources.generator);
+  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(
+      sources.generator, {.case_s = sources.case_timeout_s, .bytes = sources.memory_MB << 20});
   if (!started) return started.issue();
   return Tested{nullptr, std::move(started).value()};
 }

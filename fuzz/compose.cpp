@@ -293,9 +293,10 @@ bool is_level(const std::array<int, kRawGround>& ground, const Profile& profile)
 
 Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator) {
   const Manifest& manifest = generator.manifest();
-  Profile profile = config.profile;
-  profile.speeds = profile.speeds && manifest.can.speeds;
-  const Features features(profile, raw.omitted);
+  Profile without_speeds;
+  const bool leaves_out_speeds = config.profile.speeds && !manifest.can.speeds;
+  if (leaves_out_speeds) without_speeds = config.profile, without_speeds.speeds = false;
+  const Features features(leaves_out_speeds ? without_speeds : config.profile, raw.omitted);
   const std::string& name = config.characters[pick(raw.character, config.characters.size())];
   Spec spec;
   spec.character = compose_character(raw, name, features, *manifest.library);

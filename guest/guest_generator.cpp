@@ -86,15 +86,14 @@ Result<const GuestGenerator::Figure*> GuestGenerator::figure_of(const CharacterC
   if (!built) return built.issue();
   auto character = std::make_shared<const Character>(std::move(built).value());
   std::vector<int> joints = joints_of(*find_character(said(), choice.name), *character);
-  Offers offered = offers_of(said(), *character);
-  figure_ = std::make_unique<Figure>(Figure{choice, std::move(character), std::move(joints), std::move(offered)});
+  figure_ = std::make_unique<Figure>(Figure{choice, std::move(character), std::move(joints)});
   return static_cast<const Figure*>(figure_.get());
 }
 
 Result<Admission> GuestGenerator::admit(const Spec& spec) {
   const Result<const Figure*> figure = figure_of(spec.character);
   if (!figure) return Issue{figure.issue().code, "/character" + figure.issue().pointer, figure.issue().text};
-  const Result<Done> admitted = admit_request(spec, *(*figure)->character, (*figure)->offers);
+  const Result<Done> admitted = admit_request(spec, *(*figure)->character, offers(*(*figure)->character));
   if (!admitted) return admitted.issue();
   return Admission{frames_of(spec)};
 }
@@ -153,8 +152,8 @@ Result<Done> GuestGenerator::add_promised(const Spec& spec, const Figure& figure
 Result<Done> GuestGenerator::add_relations(const Spec& spec, const Figure& figure, const GuestRequest& whole,
                                            ForeignFacts& facts) {
   if (said().declares("history")) {
-    const Spec others = spec_of_all_actions(spec.character, *figure.character, figure.offers, spec.rate_hz);
-    GuestRequest other{0, spec.rate_hz, frames_of(others), placed_uses(said(), others, *figure.character, figure.offers)};
+    const Spec others = spec_of_all_actions(spec.character, *figure.character, offers(*figure.character), spec.rate_hz);
+    GuestRequest other{0, spec.rate_hz, frames_of(others), placed_uses(said(), others, *figure.character, offers(*figure.character))};
     if (const Result<GuestAnswer> asked = ask(others, figure, other); !asked) return asked.issue();
     if (const Result<Done> added = add_equal(spec, figure, whole, {Equality::history, 0, 1, {}, {}}, facts); !added)
       return added;
@@ -169,7 +168,7 @@ Result<Done> GuestGenerator::run(const Spec& spec, Execution& execution) {
   if (const Result<Admission> admitted = admit(spec); !admitted) return admitted.issue();
   const Figure& figure = *figure_;
   const GuestRequest whole{0, spec.rate_hz, frames_of(spec),
-                           placed_uses(said(), spec, *figure.character, figure.offers)};
+                           placed_uses(said(), spec, *figure.character, offers(*figure.character))};
   ForeignFacts& facts = execution.foreign.emplace();
   execution.motion = {};
   if (const Result<Done> asked = ask_motion(spec, figure, whole, execution.motion, facts); !asked) return asked;
@@ -184,7 +183,7 @@ Result<Done> GuestGenerator::run(const Spec& spec, Execution& execution) {
 Result<std::string> GuestGenerator::raw_frames(const Spec& spec) {
   if (const Result<Admission> admitted = admit(spec); !admitted) return admitted.issue();
   GuestRequest whole{0, spec.rate_hz, frames_of(spec),
-                     placed_uses(said(), spec, *figure_->character, figure_->offers)};
+                     placed_uses(said(), spec, *figure_->character, offers(*figure_->character))};
   Result<GuestAnswer> answer = ask(spec, *figure_, whole);
   if (!answer) return answer.issue();
   return std::move(answer).value().bytes;

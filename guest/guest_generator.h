@@ -14,7 +14,7 @@
 
 namespace contort {
 
-// What a manifest says, for all generators that speak to programs of the same command. Immutable.
+// A manifest and all that follows from it, shared by the generators that speak to programs of one command. Immutable.
 struct GuestDescription {
   std::string command;
   GuestLimits limits;
@@ -51,7 +51,6 @@ class GuestGenerator final : public Generator {
     CharacterChoice choice;
     std::shared_ptr<const Character> character;
     std::vector<int> joints;
-    Offers offers;
   };
 
   Result<const Figure*> figure_of(const CharacterChoice& choice);

@@ -71,15 +71,15 @@ GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, std::
   program_.send_line(request);
   const std::string line = read(program_.read_line());
   const Result<Json> reply = json_fields::parse_document(line);
-  if (!reply || !reply->is_object()) fail("no JSON", "found instead of a reply: " + line.substr(0, kMostRefusal));
+  if (!reply || !reply->is_object()) fail(kNoJson, "found instead of a reply: " + line.substr(0, kMostRefusal));
   if (const auto found = reply->find("id"); found == reply->end() || *found != id)
-    fail("wrong id", "found another id than " + std::to_string(id) + " in: " + line.substr(0, kMostRefusal));
+    fail(kWrongId, "found another id than " + std::to_string(id) + " in: " + line.substr(0, kMostRefusal));
   const std::string error = text_of(*reply, "error");
   if (error == "refused") return {"the generator refuses: " + text_of(*reply, "text"), {}};
-  if (!error.empty()) fail("failed", text_of(*reply, "text"));
+  if (!error.empty()) fail(kFailed, text_of(*reply, "text"));
   const auto count = reply->find("bytes");
   if (count == reply->end() || !count->is_number_integer() || *count != bytes)
-    fail("wrong length", "asked for " + std::to_string(bytes) + " bytes of frames; the reply was: " +
+    fail(kWrongLength, "asked for " + std::to_string(bytes) + " bytes of frames; the reply was: " +
                              line.substr(0, kMostRefusal));
   return {{}, read(program_.read_bytes(bytes))};
 }

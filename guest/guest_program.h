@@ -9,6 +9,12 @@
 
 namespace contort {
 
+// How a program breaks the protocol: the signal of the ending that it then has.
+inline constexpr char kNoJson[] = "no JSON";
+inline constexpr char kWrongId[] = "wrong id";
+inline constexpr char kWrongLength[] = "wrong length";
+inline constexpr char kFailed[] = "failed";  // it says so itself
+
 struct GuestLimits {
   double start_s = 60.0;  // until the manifest
   double case_s = 10.0;   // for a motion
