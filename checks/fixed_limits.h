@@ -12,7 +12,7 @@ inline constexpr double kSink_m = 0.005;         // into the ground: soles are a
 inline constexpr double kPress_m = 0.005;        // into an obstacle
 inline constexpr double kReachLimit_m = 0.001;
 inline constexpr double kLeft_rad = 0.1 * kRadPerDeg;  // of an additive action that is over
-inline constexpr double kBack_rad = 3.0 * kRadPerDeg;  // of a joint's target, in time after a blow
-inline constexpr double kBack_m = 0.01;                // the same for travels
+inline constexpr double kBack_rad = 3.0 * kRadPerDeg;  // distance of a joint from its target in time after an impact
+inline constexpr double kBack_m = 0.01;                // the same for prismatic joints
 
 }  // namespace contort

@@ -41,7 +41,7 @@ struct Context {
   const Library* load_library();
 
   // The generator under test: the program of --generator with its own characters, or the built-in one over that library.
-  // Nothing where it cannot be had, with the reason printed.
+  // If it cannot be had, the reason is printed and there is no generator.
   Generator* load_generator();
 
   // The settings of checks; the defaults without --settings.

@@ -21,7 +21,7 @@ std::vector<int> joints_of(const GuestCharacter& from, const Character& characte
 std::string part_name(const GuestCharacter& character, const std::string& slot, std::size_t index);
 std::string part_asked_for(const GuestCharacter& character, const std::string& slot, const std::string& part);
 
-// Where the manifest has the root at rest, in our world.
+// The root at rest as the manifest has it, in our world.
 Rigid root_at_rest(const GuestManifest& manifest, std::string_view character);
 
 const GuestCharacter* find_character(const GuestManifest& manifest, std::string_view name);

@@ -13,7 +13,7 @@ Result<Done> check_manifest(const GuestManifest& manifest);
 // The slot of each joint, in their order. The joints must be parents first.
 std::vector<std::string> slots_of(const GuestCharacter& character);
 
-// Index of the joint; -1 where there is none.
+// Index of the joint, or -1 if there is no such joint.
 int find_joint(const GuestCharacter& character, std::string_view name);
 
 Vec3 as_three(const NumberOrThree& value);

@@ -22,7 +22,7 @@ std::string check_title(std::string_view check) {
       {"queue_gap", "Gap between sequences"},
       {"joint_torque", "Needs more effort than its strength"},
       {"balance", "Loses balance"},
-      {"tracking_error", "Does not recover from a blow"},
+      {"tracking_error", "Does not recover from an impact"},
       {"ground_penetration", "Sinks into the ground"},
       {"obstacle_penetration", "Goes into an obstacle"},
       {"foot_slide", "Foot slides"},

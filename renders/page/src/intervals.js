@@ -1,7 +1,7 @@
 // The frames in which a check is violated. A finding has only its first and last frame; the curve of the failure says
 // which frames between them are.
 
-// Runs of frames with a margin below the limit: [{ first, last }]. A margin that rounding may have made is none.
+// Runs of frames with a margin below the limit: [{ first, last }]. A margin that rounding may have made is not counted.
 export function violatedRuns(curve) {
   const runs = [];
   curve.margins.forEach((value, frame) => {
