@@ -1,12 +1,14 @@
 // The causes of failures on the terminal: after a run, and of a whole corpus.
 #pragma once
 
-#include <cstdio>
+#include <cstddef>
+#include <cstdint>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "cli/sources.h"
 #include "corpus/causes.h"
 
 namespace contort::cli {
