@@ -58,6 +58,7 @@ struct Context {
 };
 
 void add_generator(CLI::App& app, Context& context);
+void add_guest_builtin(CLI::App& app, Context& context);
 void add_fuzz(CLI::App& app, Context& context);
 void add_replay(CLI::App& app, Context& context);
 void add_generate(CLI::App& app, Context& context);

@@ -25,6 +25,7 @@ constexpr double kAtRest_rad = 1.0 * kRadPerDeg;
 constexpr double kAtRest_m = 0.01;
 constexpr double kSmallest_m = 0.05, kGreatest_m = 20.0;  // of a plausible figure
 constexpr double kWild_rad = 0.35;            // in a frame: 20 degrees
+constexpr int kMostPairsNamed = 6;
 constexpr double kOften = 0.5;                // share of motions
 
 std::string ending_text(const ProgramEnded& ended) {
@@ -36,6 +37,8 @@ std::string ending_text(const ProgramEnded& ended) {
   if (ending.signal == kNoJson)
     return "The generator writes something else than replies to its standard output after the manifest; write logs to "
            "standard error." + printed;
+  if (ending.signal == kWrongChannels)
+    return "A reply must have every channel of the manifest, with one value of its type for each frame." + printed;
   if (ending.signal == kWrongLength)
     return "A reply has another number of bytes than the frames that were asked for: frames x (3 + 4 x joints) numbers "
            "of the format that the manifest names." + printed;
@@ -53,6 +56,7 @@ class Examination {
 
   Conformance run() {
     examine_manifest();
+    examine_contacts();
     if (!examine_rest()) return std::move(out_);
     examine_determinism();
     examine_drawn();
@@ -90,6 +94,20 @@ class Examination {
         }
     if (hinges > 0 && in_radians == hinges)
       fault("All ranges of hinges are within 6.3: they look like radians, but low_deg and high_deg are degrees.");
+  }
+
+  // Contacts at rest are not judged, so a typo in a radius would hide collisions.
+  void examine_contacts() {
+    for (const auto& [name, desc] : generator_.manifest().library->characters) {
+      std::string pairs;
+      int count = 0;
+      for (const AllowedPairDesc& pair : desc.allowed_pairs)
+        if (pair.reason == kOverlapAtRest && ++count <= kMostPairsNamed)
+          pairs += (pairs.empty() ? "" : ", ") + pair.a + " ~ " + pair.b;
+      if (count > 0)
+        note(name + ": " + std::to_string(count) + " pairs of colliders overlap at rest and are not judged: " + pairs +
+             (count > kMostPairsNamed ? ", ..." : ""));
+    }
   }
 
   // The pose of a request without actions, against the rest pose of the manifest.

@@ -6,7 +6,9 @@
 #include "cli/commands.h"
 #include "cli/conformance.h"
 #include "cli/print.h"
+#include "guest/manifest_check.h"
 #include "process/clock.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -25,6 +27,12 @@ void print_understood(const GuestManifest& said) {
                 action.duration_s[0], action.duration_s[1]);
 }
 
+std::string swing_text(const GuestJoint& joint) {
+  const std::array<double, 2> swing = as_two(joint.swing_deg);
+  const std::string one = rounded_text(swing[0]);
+  return swing[0] == swing[1] ? one : one + " and " + rounded_text(swing[1]);
+}
+
 void print_limits(const GuestCharacter& character) {
   std::printf("limits of %s as understood:\n", character.name.c_str());
   for (const GuestJoint& joint : character.joints) {
@@ -35,8 +43,8 @@ void print_limits(const GuestCharacter& character) {
       std::printf("  %-24s %g to %g degrees about its axis, at most %g degrees/s\n", joint.name.c_str(), joint.low_deg,
                   joint.high_deg, joint.max_speed_deg_s);
     else
-      std::printf("  %-24s swing %g degrees, twist %g to %g degrees, at most %g degrees/s\n", joint.name.c_str(),
-                  joint.swing_deg, joint.low_deg, joint.high_deg, joint.max_speed_deg_s);
+      std::printf("  %-24s swing %s degrees, twist %g to %g degrees, at most %g degrees/s\n", joint.name.c_str(),
+                  swing_text(joint).c_str(), joint.low_deg, joint.high_deg, joint.max_speed_deg_s);
   }
 }
 

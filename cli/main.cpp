@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 nothing gating, 1 gating findings, 2 bad usage or input, 3 internal error,\n"
       "4 inconclusive, 75 interrupted. 'contort COMMAND --help' and 'contort help COMMAND' explain one command.");
   for (const auto add :
-       {add_fuzz, add_generator, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
+       {add_fuzz, add_generator, add_guest_builtin, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
         add_corpus, add_causes, add_explain, add_merge, add_import, add_contacts, add_list, add_schema, add_tables,
         add_serve, add_version, add_help})
     add(app, context);

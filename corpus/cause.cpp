@@ -82,11 +82,15 @@ constexpr Verb kVerbs[] = {
     {"tracking_error", "does not come back to its target after an impact"},
     {"ground_penetration", "sinks into the ground"},
     {"foot_slide", "slides on the ground"},
+    {"contact_slide", "moves although it is said to stand still"},
     {"rest_error", "is not brought back to rest"},
     {"fresh_error", "moves otherwise than after a fresh start"},
     {"none_error", "is changed by an action that changes nothing"},
     {"history_error", "moves otherwise after other requests"},
     {"rate_error", "moves otherwise at half the rate"},
+    {"undo_error", "does not return when an action is over"},
+    {"gain_error", "moves otherwise with parameters that are nearly the same"},
+    {"mirror_error", "moves otherwise on the other side"},
 };
 
 std::string what_happens(std::string_view check, std::string_view subject) {

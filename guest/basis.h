@@ -19,6 +19,7 @@ class Basis {
   Vec3 axis(const Vec3& theirs) const { return handedness_ * direction(theirs); }
   Quat rotation(double x, double y, double z, double w) const;
   double unit_m() const { return unit_m_; }
+  Vec3 left() const { return left_; }  // of the figure, in their coordinates
 
  private:
   Vec3 left_, up_, forward_;  // our x, y and z in their coordinates

@@ -64,8 +64,10 @@ double before_of(const Joint& joint, const Motion& motion, int frame) {
   return frame > 0 ? motion.row(frame - 1)[at(joint.coord)] : 0.5 * (joint.low + joint.high);
 }
 
-void set_joint(const Joint& joint, const RawRotation& raw, int frame, Motion& motion, double& off_axis_rad) {
-  const Quat from_rest = raw.is_zero() ? kNoRotation : glm::conjugate(joint.parent_from_joint.q) * raw.q;
+}  // namespace
+
+void set_rotation(const Joint& joint, const Quat& in_parent, int frame, Motion& motion, double& off_axis_rad) {
+  const Quat from_rest = glm::conjugate(joint.parent_from_joint.q) * in_parent;
   double* coord = motion.row(frame).data() + joint.coord;
   if (joint.kind == JointKind::ball) {
     coord[0] = from_rest.w, coord[1] = from_rest.x, coord[2] = from_rest.y, coord[3] = from_rest.z;
@@ -74,8 +76,6 @@ void set_joint(const Joint& joint, const RawRotation& raw, int frame, Motion& mo
   const double before = before_of(joint, motion, frame);
   coord[0] = hinge_angle(joint, from_rest, std::isfinite(before) ? before : 0.0, off_axis_rad);
 }
-
-}  // namespace
 
 std::size_t bytes_of(const FrameLayout& layout, int frames) {
   return at(frames) * (3 + 4 * layout.joints.size()) * size_of(layout.format);
@@ -100,7 +100,8 @@ void read_frames(std::string_view bytes, const FrameLayout& layout, int frames, 
       if (j == 0)
         motion.root[at(frame)].q = raw.q;
       else
-        set_joint(joints[at(j)], raw, frame, motion, facts.off_axis_rad[place]);
+        set_rotation(joints[at(j)], raw.is_zero() ? joints[at(j)].parent_from_joint.q : raw.q, frame, motion,
+                     facts.off_axis_rad[place]);
     }
   }
 }

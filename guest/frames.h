@@ -27,4 +27,7 @@ std::size_t bytes_of(const FrameLayout& layout, int frames);
 // of length 0 stands for no rotation against rest. NaN stays NaN.
 void read_frames(std::string_view bytes, const FrameLayout& layout, int frames, Motion& motion, ForeignFacts& facts);
 
+// Sets a joint to a rotation against its parent. What a hinge cannot take of it is added to off_axis_rad.
+void set_rotation(const Joint& joint, const Quat& in_parent, int frame, Motion& motion, double& off_axis_rad);
+
 }  // namespace contort

@@ -7,6 +7,8 @@
 #include "guest/basis.h"
 #include "guest/manifest_check.h"
 #include "model/core/index.h"
+#include "model/geometry/distance.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
@@ -28,6 +30,31 @@ std::string legal_name(const std::string& text) {
     out += is_letter || is_digit ? low : '_';
   }
   return out.empty() ? "joint" : out.substr(0, kLongestName);
+}
+
+// A joint may be named "slot/joint": the slot is no part of its own name.
+std::string own_name(const std::string& name, const std::string& slot) {
+  return legal_name(name.starts_with(slot + "/") ? name.substr(slot.size() + 1) : name);
+}
+
+// Names that would be there twice get a number.
+std::vector<std::string> unique_names(const std::vector<std::string>& names) {
+  std::vector<std::string> unique;
+  std::set<std::string> taken;
+  for (const std::string& wanted : names) {
+    std::string name = wanted;
+    for (int n = 2; !taken.insert(name).second; ++n) name = wanted + "_" + std::to_string(n);
+    unique.push_back(name);
+  }
+  return unique;
+}
+
+std::vector<std::string> collider_names(const GuestCharacter& character) {
+  const std::vector<std::string> slots = slots_of(character);
+  std::vector<std::string> names;
+  for (const GuestCollider& collider : character.colliders)
+    names.push_back(own_name(collider.name, slots[at(find_joint(character, collider.joint))]));
+  return unique_names(names);
 }
 
 // A character on its way into the library.
@@ -63,8 +90,9 @@ JointDesc joint_desc(const GuestFigure& figure, std::size_t j) {
   out.axis = glm::normalize(figure.basis.axis(joint.axis));
   set_range(joint, out);
   if (out.type == JointType::ball) {
-    out.swing_axis = perpendicular(out.axis);
-    out.swing_deg = {joint.swing_deg, joint.swing_deg};
+    out.swing_axis = joint.swing_axis ? glm::normalize(figure.basis.axis(*joint.swing_axis)) : perpendicular(out.axis);
+    out.swing_deg = as_two(joint.swing_deg);
+    out.swing_center_deg = figure.basis.axis(joint.swing_center_deg);
   }
   out.max_speed_deg_s = joint.max_speed_deg_s;
   return out;
@@ -92,14 +120,24 @@ std::vector<MeshDesc> bones_of(const GuestFigure& figure, const std::string& slo
   return mesh;
 }
 
+// Half of each side along our axes, which are theirs in another order.
+Vec3 half_m(const Vec3& half, const Basis& basis) { return glm::abs(basis.point_m(half)); }
+
+ColliderShape shape_of(const GuestCollider& collider, const Basis& basis) {
+  if (collider.type == GuestShape::capsule)
+    return Capsule{basis.point_m(collider.from), basis.point_m(collider.to), basis.unit_m() * collider.radius};
+  const auto& [x, y, z, w] = collider.rotation;
+  return Box{basis.point_m(collider.center), half_m(collider.half, basis),
+             to_rotation_vector(normalize(basis.rotation(x, y, z, w))) * kDegPerRad};
+}
+
 std::vector<ColliderDesc> colliders_of(const GuestFigure& figure, const std::string& slot) {
   std::vector<ColliderDesc> out;
-  for (const GuestCapsule& capsule : figure.from.colliders) {
-    const std::size_t j = at(find_joint(figure.from, capsule.joint));
-    if (figure.slots[j] != slot) continue;
-    const Capsule shape{figure.basis.point_m(capsule.from), figure.basis.point_m(capsule.to),
-                        figure.basis.unit_m() * capsule.radius};
-    out.push_back({legal_name(capsule.name), figure.local_name(j), shape});
+  const std::vector<std::string> names = collider_names(figure.from);
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const GuestCollider& collider = figure.from.colliders[c];
+    const std::size_t j = at(find_joint(figure.from, collider.joint));
+    if (figure.slots[j] == slot) out.push_back({names[c], figure.local_name(j), shape_of(collider, figure.basis)});
   }
   return out;
 }
@@ -138,17 +176,42 @@ SlotDesc slot_desc(const GuestFigure& figure, std::size_t first_joint) {
   return slot;
 }
 
+std::string full_name(const GuestFigure& figure, const std::string& collider) {
+  const std::size_t c = at(find_collider(figure.from, collider));
+  const std::size_t j = at(find_joint(figure.from, figure.from.colliders[c].joint));
+  return figure.slots[j] + "/" + collider_names(figure.from)[c];
+}
+
+void allow_contacts_at_rest(const std::string& name, Library& library) {
+  const Result<Character> built = build_character({name, {}, {}}, library);
+  if (!built) return;  // start() tells the fault
+  std::vector<Rigid> world(built->joints().size());
+  forward_kinematics(*built, built->rest_root(), built->rest_coords(), world);
+  const auto placed = [&](int c) {
+    const Collider& collider = built->colliders()[at(c)];
+    return moved(world[at(collider.joint)], solid_of(collider.shape));
+  };
+  for (const ColliderPair& pair : built->judged_colliders())
+    if (signed_distance(placed(pair.a), placed(pair.b), 0.0) < 0.0)
+      library.characters[name].allowed_pairs.push_back(
+          {built->colliders()[at(pair.a)].name, built->colliders()[at(pair.b)].name, std::string(kOverlapAtRest)});
+}
+
 void add_character(const GuestCharacter& from, const Basis& basis, Library& library) {
   const GuestFigure figure{from, basis, joint_names(from), slots_of(from)};
   CharacterDesc character;
   character.name = from.name;
   for (std::size_t j = 0; j < figure.names.size(); ++j) {
     if (j > 0 && !figure.begins_slot(j)) continue;
+    if (std::ranges::find(character.slots, figure.slots[j], &SlotDesc::name) != character.slots.end()) continue;
     character.slots.push_back(slot_desc(figure, j));
     for (const std::string& part : character.slots.back().parts)
       library.parts[part] = part_desc(figure, figure.slots[j], part);
   }
+  for (const auto& [a, b] : from.may_touch)
+    character.allowed_pairs.push_back({full_name(figure, a), full_name(figure, b), "The manifest allows it."});
   library.characters[from.name] = std::move(character);
+  allow_contacts_at_rest(from.name, library);
 }
 
 }  // namespace
@@ -156,12 +219,11 @@ void add_character(const GuestCharacter& from, const Basis& basis, Library& libr
 std::vector<std::string> joint_names(const GuestCharacter& character) {
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (const GuestJoint& joint : character.joints) {
-    const std::string legal = legal_name(joint.name);
-    std::string name = legal;
-    for (int n = 2; !taken.insert(name).second; ++n) name = legal + "_" + std::to_string(n);
-    names.push_back(name);
-  }
+  const std::vector<std::string> slots = slots_of(character);
+  for (std::size_t j = 0; j < slots.size(); ++j)
+    names.push_back(slots[j] + "/" + own_name(character.joints[j].name, slots[j]));
+  names = unique_names(names);
+  for (std::size_t j = 0; j < slots.size(); ++j) names[j].erase(0, slots[j].size() + 1);
   return names;
 }
 

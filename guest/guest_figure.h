@@ -9,9 +9,13 @@ namespace contort {
 
 // A library of the manifest's characters alone. A slot of joints is a part of its own; each of the names in `parts` is
 // one with the same joints. Figures without colliders are drawn as thin bones.
+// Colliders that overlap at rest always do, as joints that are not neighbours may still be near each other. They are
+// allowed to touch, for this reason.
+inline constexpr std::string_view kOverlapAtRest = "They overlap at rest.";
 Library library_of(const GuestManifest& manifest);
 
-// The names of a character's joints in our library: legal, and unique within the character, in the manifest's order.
+// The names of a character's joints in our library: legal, unique within their slot, and without it, in the manifest's
+// order.
 std::vector<std::string> joint_names(const GuestCharacter& character);
 
 // For each joint of the manifest's character our joint; the root is 0.

@@ -7,7 +7,7 @@
 #include "guest/guest_figure.h"
 #include "guest/guest_intent.h"
 #include "guest/guest_offers.h"
-#include "guest/promised.h"
+#include "guest/relations.h"
 #include "model/core/index.h"
 #include "process/ended.h"
 
@@ -31,6 +31,12 @@ std::shared_ptr<GuestDescription> describe(const std::string& command, const Gue
   manifest.rate_hz = description->said.rate_hz;
   manifest.build = description->said.build + " " + manifest_hash(description->said);
   return description;
+}
+
+EqualMotion with_frames(EqualMotion equal, const Motion& motion, int first_row) {
+  equal.coords.assign(motion.coords.begin() + first_row * motion.coord_count, motion.coords.end());
+  equal.root.assign(motion.root.begin() + first_row, motion.root.end());
+  return equal;
 }
 
 }  // namespace
@@ -102,8 +108,8 @@ Result<GuestAnswer> GuestGenerator::ask(const Spec& spec, const Figure& figure, 
   const FrameLayout layout{*figure.character, figure.joints, Basis(said().convention), said().frames};
   request.id = ++id_;
   try {
-    GuestAnswer answer =
-        program().ask(print_request(request, said(), spec), request.id, bytes_of(layout, request.frames));
+    GuestAnswer answer = program().ask(print_request(request, said(), spec), request.id,
+                                       {request.frames, bytes_of(layout, request.frames)}, said().channels);
     if (!answer.refusal.empty()) return Issue{"guest.refused", "", answer.refusal};
     return answer;
   } catch (const ProgramEnded&) {
@@ -114,25 +120,21 @@ Result<GuestAnswer> GuestGenerator::ask(const Spec& spec, const Figure& figure, 
 
 Result<Done> GuestGenerator::ask_motion(const Spec& spec, const Figure& figure, GuestRequest request, Motion& motion,
                                         ForeignFacts& facts) {
-  const Result<GuestAnswer> answer = ask(spec, figure, request);
+  Result<GuestAnswer> answer = ask(spec, figure, request);
   if (!answer) return answer.issue();
+  facts.runs = std::move(answer->channels.runs), facts.numbers = std::move(answer->channels.numbers);
   const FrameLayout layout{*figure.character, figure.joints, Basis(said().convention), said().frames};
   read_frames(answer->bytes, layout, request.frames, motion, facts);
   motion.rate_hz = request.rate_hz;
   return Done{};
 }
 
-Result<Done> GuestGenerator::add_equal(const Spec& spec, const Figure& figure, GuestRequest request, EqualMotion equal,
-                                       ForeignFacts& facts) {
+Result<Done> GuestGenerator::add_equal(const Spec& spec, const Figure& figure, Promised promised, ForeignFacts& facts) {
   Motion motion;
   ForeignFacts unused;
-  if (const Result<Done> asked = ask_motion(spec, figure, std::move(request), motion, unused); !asked) return asked;
-  if (equal.why == Equality::fresh) {
-    motion.coords.erase(motion.coords.begin(), motion.coords.begin() + motion.coord_count);
-    motion.root.erase(motion.root.begin());
-  }
-  equal.coords = std::move(motion.coords), equal.root = std::move(motion.root);
-  facts.equals.push_back(std::move(equal));
+  const Result<Done> asked = ask_motion(spec, figure, std::move(promised.request), motion, unused);
+  if (!asked) return asked;
+  facts.equals.push_back(with_frames(std::move(promised.equal), motion, promised.first_row));
   return Done{};
 }
 
@@ -143,32 +145,57 @@ Result<Done> GuestGenerator::add_promised(const Spec& spec, const Figure& figure
       facts.equals.push_back(rest_motion(*figure.character, root_at_rest(said(), spec.character.name), promised));
       continue;
     }
-    if (const Result<Done> added = add_equal(spec, figure, promised.request, promised.equal, facts); !added)
-      return added;
+    if (const Result<Done> added = add_equal(spec, figure, promised, facts); !added) return added;
   }
   return Done{};
+}
+
+Result<Done> GuestGenerator::add_mirrored(const Spec& spec, const Figure& figure, const GuestRequest& whole,
+                                          ForeignFacts& facts) {
+  const std::optional<Spec> other =
+      mirrored(said(), spec, whole.uses, *figure.character, offers(*figure.character));
+  if (!other) return Done{};
+  Motion motion;
+  ForeignFacts unused;
+  const Result<Done> asked = ask_motion(*other, figure, request_of(*other, figure), motion, unused);
+  if (!asked) return asked;
+  const FrameLayout layout{*figure.character, figure.joints, Basis(said().convention), said().frames};
+  const Rigid rest = root_at_rest(said(), spec.character.name);
+  motion = mirror_image(*find_character(said(), spec.character.name), rest, layout, motion);
+  facts.equals.push_back(with_frames({Equality::mirror, 0, 1, {}, {}}, motion, 0));
+  return Done{};
+}
+
+GuestRequest GuestGenerator::request_of(const Spec& spec, const Figure& figure) {
+  return {0, spec.rate_hz, frames_of(spec), placed_uses(said(), spec, *figure.character, offers(*figure.character))};
 }
 
 Result<Done> GuestGenerator::add_relations(const Spec& spec, const Figure& figure, const GuestRequest& whole,
                                            ForeignFacts& facts) {
   if (said().declares("history")) {
     const Spec others = spec_of_all_actions(spec.character, *figure.character, offers(*figure.character), spec.rate_hz);
-    GuestRequest other{0, spec.rate_hz, frames_of(others), placed_uses(said(), others, *figure.character, offers(*figure.character))};
+    GuestRequest other = request_of(others, figure);
     if (const Result<GuestAnswer> asked = ask(others, figure, other); !asked) return asked.issue();
-    if (const Result<Done> added = add_equal(spec, figure, whole, {Equality::history, 0, 1, {}, {}}, facts); !added)
+    if (const Result<Done> added = add_equal(spec, figure, {whole, {Equality::history, 0, 1, {}, {}}}, facts); !added)
       return added;
   }
+  if (said().declares("gain")) {
+    const Spec near = nudged(spec, whole.uses);
+    const Promised promised{request_of(near, figure), {Equality::gain, 0, 1, {}, {}}};
+    if (const Result<Done> added = add_equal(near, figure, promised, facts); !added) return added;
+  }
+  if (said().declares("mirror"))
+    if (const Result<Done> added = add_mirrored(spec, figure, whole, facts); !added) return added;
   if (!said().declares("rate")) return Done{};
   GuestRequest half = whole;
   half.rate_hz = 0.5 * whole.rate_hz, half.frames = (whole.frames - 1) / 2 + 1;
-  return add_equal(spec, figure, half, {Equality::rate, 0, 2, {}, {}}, facts);
+  return add_equal(spec, figure, {half, {Equality::rate, 0, 2, {}, {}}}, facts);
 }
 
 Result<Done> GuestGenerator::run(const Spec& spec, Execution& execution) {
   if (const Result<Admission> admitted = admit(spec); !admitted) return admitted.issue();
   const Figure& figure = *figure_;
-  const GuestRequest whole{0, spec.rate_hz, frames_of(spec),
-                           placed_uses(said(), spec, *figure.character, offers(*figure.character))};
+  const GuestRequest whole = request_of(spec, figure);
   ForeignFacts& facts = execution.foreign.emplace();
   execution.motion = {};
   if (const Result<Done> asked = ask_motion(spec, figure, whole, execution.motion, facts); !asked) return asked;
@@ -176,14 +203,14 @@ Result<Done> GuestGenerator::run(const Spec& spec, Execution& execution) {
   execution.intent = intent_of(said(), whole.uses, *figure.character);
   execution.motion.spans = spans_of(*execution.intent, execution.motion.frame_count);
   facts.jumps = jumps_of(whole.uses);
+  facts.contacts = contacts_of(said(), spec.character.name, figure.joints, facts.runs);
   if (const Result<Done> added = add_promised(spec, figure, whole, facts); !added) return added;
   return add_relations(spec, figure, whole, facts);
 }
 
 Result<std::string> GuestGenerator::raw_frames(const Spec& spec) {
   if (const Result<Admission> admitted = admit(spec); !admitted) return admitted.issue();
-  GuestRequest whole{0, spec.rate_hz, frames_of(spec),
-                     placed_uses(said(), spec, *figure_->character, offers(*figure_->character))};
+  GuestRequest whole = request_of(spec, *figure_);
   Result<GuestAnswer> answer = ask(spec, *figure_, whole);
   if (!answer) return answer.issue();
   return std::move(answer).value().bytes;

@@ -9,6 +9,7 @@
 
 #include "guest/frames.h"
 #include "guest/guest_program.h"
+#include "guest/promised.h"
 #include "guest/request.h"
 #include "model/generator.h"
 
@@ -57,9 +58,10 @@ class GuestGenerator final : public Generator {
   Result<GuestAnswer> ask(const Spec& spec, const Figure& figure, GuestRequest& request);
   Result<Done> ask_motion(const Spec& spec, const Figure& figure, GuestRequest request, Motion& motion,
                           ForeignFacts& facts);
-  Result<Done> add_equal(const Spec& spec, const Figure& figure, GuestRequest request, EqualMotion equal,
-                         ForeignFacts& facts);
+  Result<Done> add_equal(const Spec& spec, const Figure& figure, Promised promised, ForeignFacts& facts);
   Result<Done> add_promised(const Spec& spec, const Figure& figure, const GuestRequest& whole, ForeignFacts& facts);
+  Result<Done> add_mirrored(const Spec& spec, const Figure& figure, const GuestRequest& whole, ForeignFacts& facts);
+  GuestRequest request_of(const Spec& spec, const Figure& figure);
   Result<Done> add_relations(const Spec& spec, const Figure& figure, const GuestRequest& whole, ForeignFacts& facts);
   GuestProgram& program();
 

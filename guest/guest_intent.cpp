@@ -74,6 +74,18 @@ std::vector<ActionSpan> spans_of(const Intent& intent, int frames) {
   return spans;
 }
 
+std::vector<ContactRun> contacts_of(const GuestManifest& manifest, const std::string& character,
+                                    std::span<const int> joints, std::span<const ChannelRun> runs) {
+  std::vector<ContactRun> contacts;
+  for (const ChannelRun& run : runs) {
+    const auto channel = std::ranges::find(manifest.channels, run.channel, &GuestChannel::name);
+    if (channel->contact.empty()) continue;
+    const int joint = find_joint(*find_character(manifest, character), channel->contact);
+    if (joint >= 0) contacts.push_back({joints[at(joint)], run.first_frame, run.last_frame});
+  }
+  return contacts;
+}
+
 std::vector<int> jumps_of(const std::vector<PlacedUse>& uses) {
   std::vector<int> jumps;
   for (const PlacedUse& placed : uses) {

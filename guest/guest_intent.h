@@ -1,6 +1,8 @@
 // The intent that follows from a request and a manifest.
 #pragma once
 
+#include <span>
+
 #include "guest/request.h"
 #include "model/motion/foreign.h"
 #include "model/motion/intent.h"
@@ -11,6 +13,10 @@ namespace contort {
 Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& uses, const Character& character);
 
 std::vector<ActionSpan> spans_of(const Intent& intent, int frames);
+
+// The frames in which joints stand still, by the channels that say so. `joints` are ours, in the order of the manifest.
+std::vector<ContactRun> contacts_of(const GuestManifest& manifest, const std::string& character,
+                                    std::span<const int> joints, std::span<const ChannelRun> runs);
 
 // The frames into which the pose may jump.
 std::vector<int> jumps_of(const std::vector<PlacedUse>& uses);

@@ -1,5 +1,6 @@
 #include "guest/guest_program.h"
 
+#include "guest/channel_fields.h"
 #include "model/core/json_fields.h"
 #include "process/ended.h"
 
@@ -67,7 +68,8 @@ std::string GuestProgram::read(Ending ending) {
   return std::move(ending.result);
 }
 
-GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, std::size_t bytes) {
+GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, const AnswerSize& size,
+                              std::span<const GuestChannel> channels) {
   program_.send_line(request);
   const std::string line = read(program_.read_line());
   const Result<Json> reply = json_fields::parse_document(line);
@@ -75,13 +77,15 @@ GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, std::
   if (const auto found = reply->find("id"); found == reply->end() || *found != id)
     fail(kWrongId, "found another id than " + std::to_string(id) + " in: " + line.substr(0, kMostRefusal));
   const std::string error = text_of(*reply, "error");
-  if (error == "refused") return {"the generator refuses: " + text_of(*reply, "text"), {}};
+  if (error == "refused") return {"the generator refuses: " + text_of(*reply, "text"), {}, {}};
   if (!error.empty()) fail(kFailed, text_of(*reply, "text"));
   const auto count = reply->find("bytes");
-  if (count == reply->end() || !count->is_number_integer() || *count != bytes)
-    fail(kWrongLength, "asked for " + std::to_string(bytes) + " bytes of frames; the reply was: " +
+  if (count == reply->end() || !count->is_number_integer() || *count != size.bytes)
+    fail(kWrongLength, "asked for " + std::to_string(size.bytes) + " bytes of frames; the reply was: " +
                              line.substr(0, kMostRefusal));
-  return {{}, read(program_.read_bytes(bytes))};
+  Result<ChannelFacts> facts = read_channels(*reply, channels, size.frames);
+  if (!facts) fail(kWrongChannels, facts.issue().pointer + ": " + facts.issue().text);
+  return {{}, read(program_.read_bytes(size.bytes)), std::move(facts).value()};
 }
 
 }  // namespace contort

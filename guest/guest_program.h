@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
+#include "guest/channels.h"
 #include "guest/manifest.h"
 #include "process/line_program.h"
 
@@ -13,6 +15,7 @@ namespace contort {
 inline constexpr char kNoJson[] = "no JSON";
 inline constexpr char kWrongId[] = "wrong id";
 inline constexpr char kWrongLength[] = "wrong length";
+inline constexpr char kWrongChannels[] = "wrong channels";
 inline constexpr char kFailed[] = "failed";  // it says so itself
 
 struct GuestLimits {
@@ -25,6 +28,13 @@ struct GuestLimits {
 struct GuestAnswer {
   std::string refusal;  // why the generator refuses the request; "" if it does not
   std::string bytes;    // the frames
+  ChannelFacts channels{};
+};
+
+// The size of an answer.
+struct AnswerSize {
+  int frames = 0;
+  std::size_t bytes = 0;
 };
 
 class GuestProgram {
@@ -35,9 +45,10 @@ class GuestProgram {
   // Exchanges the greeting. Codes generator.ended, generator.silent, generator.bad_token and those of parse_manifest.
   Result<GuestManifest> greet();
 
-  // Asks for a motion of so many bytes. Throws ProgramEnded if the program ends, is silent, fails, or answers what the
+  // Asks for a motion of this size, with the channels that the manifest declares. Throws ProgramEnded if the program ends, is silent, fails, or answers what the
   // protocol does not allow. It is over after that.
-  GuestAnswer ask(const std::string& request, std::int64_t id, std::size_t bytes);
+  GuestAnswer ask(const std::string& request, std::int64_t id, const AnswerSize& size,
+                  std::span<const GuestChannel> channels);
 
  private:
   Result<GuestManifest> manifest_in(const std::string& line);

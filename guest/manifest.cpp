@@ -16,7 +16,9 @@ using json_fields::Text;
 constexpr std::string_view kAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
 constexpr std::string_view kHands[] = {"right", "left"};
 constexpr std::string_view kGuestJointTypes[] = {"ball", "hinge", "fixed"};
+constexpr std::string_view kGuestShapes[] = {"capsule", "box"};
 constexpr std::string_view kGuestParamTypes[] = {"number", "integer", "flag", "choice", "vec3"};
+constexpr std::string_view kOtherSides[] = {"by_type", "same", "opposite"};
 constexpr std::string_view kLayers[] = {"overwrite", "ik", "additive"};
 constexpr std::string_view kEffects[] = {"continuous", "cut", "rest", "equals", "none"};
 constexpr std::string_view kChannelTypes[] = {"number", "flag", "text"};
@@ -33,19 +35,19 @@ const Rule kGuestSeconds{.low = 0.0, .high = 60.0};
 
 namespace json_fields {
 
-template <>
-struct Codec<NumberOrThree> {
-  static void read(const Json& in, const Rule& r, NumberOrThree& out, ReadContext& c) {
+template <class Many>
+struct Codec<std::variant<double, Many>> {
+  static void read(const Json& in, const Rule& r, std::variant<double, Many>& out, ReadContext& c) {
     if (in.is_array())
-      Codec<Vec3>::read(in, r, out.emplace<Vec3>(), c);
+      Codec<Many>::read(in, r, out.template emplace<Many>(), c);
     else
-      Codec<double>::read(in, r, out.emplace<double>(), c);
+      Codec<double>::read(in, r, out.template emplace<double>(), c);
   }
-  static Json write(const NumberOrThree& v, const Rule& r) {
+  static Json write(const std::variant<double, Many>& v, const Rule& r) {
     return std::visit([&](const auto& x) { return Codec<std::decay_t<decltype(x)>>::write(x, r); }, v);
   }
   static Json schema(const Rule& r) {
-    return {{"anyOf", Json::array({Codec<double>::schema(r), Codec<Vec3>::schema(r)})}};
+    return {{"anyOf", Json::array({Codec<double>::schema(r), Codec<Many>::schema(r)})}};
   }
 };
 
@@ -94,25 +96,39 @@ void fields(V& v, const GuestJoint*) {
           "Axis of the hinge, or of a ball's twist, in the joint's own frame.");
   v.field("low_deg", &GuestJoint::low_deg, {.low = -360, .high = 360}, "Lower end of the range; 0 is rest.");
   v.field("high_deg", &GuestJoint::high_deg, {.low = -360, .high = 360}, "Upper end.");
-  v.field("swing_deg", &GuestJoint::swing_deg, {.low = 0.1, .high = 180}, "Greatest swing of a ball.");
+  v.field("swing_deg", &GuestJoint::swing_deg, {.low = 0.1, .high = 180},
+          "Greatest swing of a ball: one angle, or one about swing_axis and one at a right angle to it.");
+  v.field("swing_axis", &GuestJoint::swing_axis, {.low = -1.001, .high = 1.001},
+          "Of a ball: unit axis at a right angle to its axis, in the joint's own frame.");
+  v.field("swing_center_deg", &GuestJoint::swing_center_deg, {.low = -360, .high = 360},
+          "Of a ball: rotation vector to the middle of its swing.");
   v.field("max_speed_deg_s", &GuestJoint::max_speed_deg_s, {.low = 1, .high = 1e5}, "Greatest angular speed.");
 }
 
 template <class V>
-void fields(V& v, const GuestCapsule*) {
-  v.field("name", &GuestCapsule::name, kGuestLabel, "Unique in the character.");
-  v.field("joint", &GuestCapsule::joint, kGuestLabel, "The joint that moves it.");
-  v.field("from", &GuestCapsule::from, kGuestLength, "One end, in the frame of the joint.");
-  v.field("to", &GuestCapsule::to, kGuestLength, "The other end.");
-  v.field("radius", &GuestCapsule::radius, {.low = 1e-6, .high = 1e6}, "Radius.");
+void fields(V& v, const GuestCollider*) {
+  v.field("name", &GuestCollider::name, kGuestLabel, "Unique in the character.");
+  v.field("joint", &GuestCollider::joint, kGuestLabel, "The joint that moves it.");
+  v.field("type", &GuestCollider::type, {.names = kGuestShapes}, "Shape.");
+  v.field("from", &GuestCollider::from, kGuestLength, "Of a capsule: one end, in the frame of the joint.");
+  v.field("to", &GuestCollider::to, kGuestLength, "Of a capsule: the other end.");
+  v.field("radius", &GuestCollider::radius, {.low = 1e-6, .high = 1e6}, "Of a capsule: radius.");
+  v.field("center", &GuestCollider::center, kGuestLength, "Of a box: its middle, in the frame of the joint.");
+  v.field("half", &GuestCollider::half, {.low = 1e-6, .high = 1e6}, "Of a box: half of each side.");
+  v.field("rotation", &GuestCollider::rotation, {.low = -1.001, .high = 1.001},
+          "Of a box: quaternion x y z w in the frame of the joint.");
 }
 
 template <class V>
 void fields(V& v, const GuestCharacter*) {
   v.field("name", &GuestCharacter::name, kGuestName, "Unique name.");
   v.field("joints", &GuestCharacter::joints, {.max_count = 1000, .required = true}, "Parents first.");
-  v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Capsules.");
+  v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Shapes that must not overlap.");
+  v.field("may_touch", &GuestCharacter::may_touch, {.max_count = 1000, .text = Text::label},
+          "Pairs of colliders that may overlap.");
   v.field("parts", &GuestCharacter::parts, {.max_count = 64}, "For a slot, names of the parts that can be there.");
+  v.field("mirror", &GuestCharacter::mirror, {.max_count = 1000, .text = Text::label, .key_text = Text::label},
+          "For a joint of one side, the joint of the other side.");
 }
 
 template <class V>
@@ -124,6 +140,8 @@ void fields(V& v, const GuestParam*) {
   v.field("choices", &GuestParam::choices, {.max_count = 256}, "Of a choice: words of a-z, 0-9 and _.");
   v.field("special", &GuestParam::special, {.max_count = 64, .text = Text::label},
           "Values that are drawn more often than others.");
+  v.field("mirror", &GuestParam::mirror, {.names = kOtherSides},
+          "The value on the other side of the figure: same, or opposite; a vec3 is then reflected.");
   v.field("help", &GuestParam::help, kGuestText, "One sentence.");
 }
 
@@ -146,12 +164,17 @@ void fields(V& v, const GuestAction*) {
   v.field("effect", &GuestAction::effect, {.names = kEffects}, "What it may do to the pose.");
   v.field("params", &GuestAction::params, {.max_count = 64}, "Parameters by name.");
   v.field("goal", &GuestAction::goal, {}, "A point that a joint reaches.");
+  v.field("returns_s", &GuestAction::returns_s, {.low = 0.0, .high = 60.0},
+          "This long after its end the motion is as if the action had not been asked for.");
+  v.field("mirror", &GuestAction::mirror, {.may_be_empty = true}, "The action of the other side; empty: itself.");
 }
 
 template <class V>
 void fields(V& v, const GuestChannel*) {
   v.field("name", &GuestChannel::name, kGuestLabel, "Unique name.");
   v.field("type", &GuestChannel::type, {.names = kChannelTypes}, "Type of its values.");
+  v.field("contact", &GuestChannel::contact, {.text = Text::label, .may_be_empty = true},
+          "Of a flag: the joint that stands still in the world while the flag is set.");
 }
 
 template <class V>
@@ -168,7 +191,7 @@ void fields(V& v, const GuestManifest*) {
   v.field("characters", &GuestManifest::characters, {.max_count = 64, .required = true}, "At least one.");
   v.field("actions", &GuestManifest::actions, {.max_count = 256, .required = true}, "At least one.");
   v.field("channels", &GuestManifest::channels, {.max_count = 64}, "Values per frame.");
-  v.field("relations", &GuestManifest::relations, {.max_count = 2}, "Relations between motions that hold.");
+  v.field("relations", &GuestManifest::relations, {.max_count = 4}, "Relations between motions that hold.");
 }
 
 bool GuestManifest::declares(std::string_view relation) const {
@@ -183,6 +206,8 @@ Result<GuestManifest> parse_manifest(std::string_view json) {
 }
 
 std::string manifest_schema() { return json_fields::write_schema<GuestManifest>("contort.generator/1: manifest"); }
+
+std::string print_manifest(const GuestManifest& manifest) { return json_fields::write_canonical(manifest); }
 
 std::string manifest_hash(const GuestManifest& manifest) {
   GuestManifest same = manifest;

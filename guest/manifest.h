@@ -29,6 +29,10 @@ struct GuestConvention {
   bool operator==(const GuestConvention&) const = default;
 };
 
+// A single number stands for all components.
+using NumberOrTwo = std::variant<double, std::array<double, 2>>;
+using NumberOrThree = std::variant<double, Vec3>;
+
 enum class GuestJointType { ball, hinge, fixed };
 
 struct GuestJoint {
@@ -41,32 +45,43 @@ struct GuestJoint {
   Vec3 axis{0.0, 1.0, 0.0};
   double low_deg = -180.0;
   double high_deg = 180.0;
-  double swing_deg = 180.0;
+  NumberOrTwo swing_deg = 180.0;  // about swing_axis, and at a right angle to it and to the axis
+  std::optional<Vec3> swing_axis{};
+  Vec3 swing_center_deg{0.0};  // rotation vector: the middle of the swing against rest
   double max_speed_deg_s = 720.0;
   bool operator==(const GuestJoint&) const = default;
 };
 
-struct GuestCapsule {
+enum class GuestShape { capsule, box };
+
+struct GuestCollider {
   std::string name;
   std::string joint;
-  Vec3 from{0.0};
+  GuestShape type = GuestShape::capsule;
+  Vec3 from{0.0};  // of a capsule; a sphere where both ends are in one place
   Vec3 to{0.0};
   double radius = 0.05;
-  bool operator==(const GuestCapsule&) const = default;
+  Vec3 center{0.0};  // of a box
+  Vec3 half{0.05};
+  std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};  // x y z w
+  bool operator==(const GuestCollider&) const = default;
 };
 
 struct GuestCharacter {
   std::string name;
   std::vector<GuestJoint> joints;
-  std::vector<GuestCapsule> colliders;
+  std::vector<GuestCollider> colliders;
   std::map<std::string, std::vector<std::string>> parts;  // by slot, the first is the default
+  std::vector<std::array<std::string, 2>> may_touch{};    // names of colliders
+  std::map<std::string, std::string> mirror{};  // joints and those of the other side; the others are in the middle
   bool operator==(const GuestCharacter&) const = default;
 };
 
 enum class GuestParamType { number, integer, flag, choice, vec3 };
 
-// A single number stands for all three components.
-using NumberOrThree = std::variant<double, Vec3>;
+// The value on the other side of the figure: the same, or the opposite one (a vec3 is reflected).
+enum class OtherSide { by_type, same, opposite };
+
 using GuestValue = std::variant<double, Vec3, std::string, bool>;
 
 struct GuestParam {
@@ -76,6 +91,7 @@ struct GuestParam {
   std::optional<GuestValue> preset;  // "default"
   std::vector<std::string> choices;
   std::vector<GuestValue> special;
+  OtherSide mirror = OtherSide::by_type;  // vec3: opposite; all others: same
   std::string help;
   bool operator==(const GuestParam&) const = default;
 };
@@ -100,6 +116,8 @@ struct GuestAction {
   Effect effect = Effect::continuous;
   std::map<std::string, GuestParam> params;
   std::optional<GuestGoal> goal;
+  std::optional<double> returns_s{};  // so long after its end the motion is as if the action had not been asked for
+  std::string mirror{};               // the action of the other side; "": itself
   bool operator==(const GuestAction&) const = default;
 };
 
@@ -108,6 +126,7 @@ enum class ChannelType { number, flag, text };
 struct GuestChannel {
   std::string name;
   ChannelType type = ChannelType::number;
+  std::string contact{};  // of a flag: the joint that stands still in the world while it is set
   bool operator==(const GuestChannel&) const = default;
 };
 
@@ -123,16 +142,17 @@ struct GuestManifest {
   std::vector<GuestCharacter> characters;
   std::vector<GuestAction> actions;
   std::vector<GuestChannel> channels;
-  std::vector<std::string> relations;  // "history", "rate"
+  std::vector<std::string> relations;  // some of kRelations
   bool operator==(const GuestManifest&) const = default;
 
   bool declares(std::string_view relation) const;
 };
 
-inline constexpr std::string_view kRelations[] = {"history", "rate"};
+inline constexpr std::string_view kRelations[] = {"history", "rate", "gain", "mirror"};
 
 // Checks the text, the limits of each field, and that names refer to what there is. Codes json.* and generator.*.
 Result<GuestManifest> parse_manifest(std::string_view json);
+std::string print_manifest(const GuestManifest& manifest);  // one line
 std::string manifest_schema();
 
 // Hash of the canonical text without build and token: 16 hex digits. Another hash means another generator.

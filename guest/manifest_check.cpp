@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "guest/basis.h"
+#include "guest/relations.h"
 #include "model/core/index.h"
 
 namespace contort {
@@ -11,6 +14,7 @@ namespace contort {
 namespace {
 
 constexpr double kLengthTolerance = 1e-3;
+constexpr double kAsymmetry = 0.01;  // of a rest pose, as a share of the figure's size
 
 // Collects the first fault. Each check below does nothing once there is one.
 class ManifestFaults {
@@ -51,25 +55,45 @@ void check_joint(const GuestCharacter& character, std::size_t index, const std::
   faults.expect(is_unit(joint.rotation), "bad_rotation", at + "/rotation",
                 "found a quaternion x y z w whose length is not 1");
   faults.expect(is_unit(joint.axis), "bad_axis", at + "/axis", "found an axis whose length is not 1");
+  faults.expect(!joint.swing_axis || (is_unit(*joint.swing_axis) &&
+                                      std::fabs(glm::dot(*joint.swing_axis, joint.axis)) <= kLengthTolerance),
+                "bad_axis", at + "/swing_axis", "expected an axis of length 1 at a right angle to \"axis\"");
   faults.expect(joint.low_deg <= joint.high_deg, "bad_range", at + "/low_deg", "found a value above high_deg");
   faults.expect(joint.low_deg <= 0.0 && joint.high_deg >= 0.0, "bad_range", at + "/low_deg",
                 "the range must hold 0, which is the rest pose: choose a rest pose within the range");
 }
 
-// A slot begins where its first joint hangs on a joint of another one; a second such place would split it.
+// A slot hangs on one joint of another one, by one joint or by several, such as fingers.
 void check_slots(const GuestCharacter& character, const std::string& at, ManifestFaults& faults) {
   const std::vector<std::string> slots = slots_of(character);
-  std::set<std::string> begun;
+  std::map<std::string, int> begun;  // and the joint that carries the slot
   for (std::size_t j = 0; j < slots.size(); ++j) {
     const int parent = find_joint(character, character.joints[j].parent);
     if (parent >= 0 && slots[contort::at(parent)] == slots[j]) continue;
-    faults.expect(begun.insert(slots[j]).second, "split_slot", at + "/joints/" + std::to_string(j) + "/slot",
-                  "the joints of slot " + in_quotes(slots[j]) + " are not connected; use a slot for each limb");
+    const bool is_first = begun.try_emplace(slots[j], parent).second;
+    faults.expect(is_first || begun.at(slots[j]) == parent, "split_slot", at + "/joints/" + std::to_string(j) + "/slot",
+                  "the joints of slot " + in_quotes(slots[j]) + " hang on several joints; use a slot for each limb");
   }
   for (const auto& [slot, parts] : character.parts) {
     faults.expect(begun.contains(slot), "unknown_slot", at + "/parts/" + slot, "no joint is in this slot");
     faults.expect(!parts.empty(), "bad_choice", at + "/parts/" + slot, "found no names; expected at least one");
   }
+}
+
+void check_colliders(const GuestCharacter& character, const std::string& at, ManifestFaults& faults) {
+  expect_unique(character.colliders, at + "/colliders", faults);
+  for (std::size_t c = 0; c < character.colliders.size(); ++c) {
+    const GuestCollider& collider = character.colliders[c];
+    const std::string place = at + "/colliders/" + std::to_string(c);
+    faults.expect(find_joint(character, collider.joint) >= 0, "unknown_joint", place + "/joint",
+                  "found " + in_quotes(collider.joint) + ", which is no joint of " + character.name);
+    faults.expect(is_unit(collider.rotation), "bad_rotation", place + "/rotation",
+                  "found a quaternion x y z w whose length is not 1");
+  }
+  for (std::size_t p = 0; p < character.may_touch.size(); ++p)
+    for (const std::string& name : character.may_touch[p])
+      faults.expect(find_collider(character, name) >= 0, "unknown_collider", at + "/may_touch/" + std::to_string(p),
+                    in_quotes(name) + " is no collider of " + character.name);
 }
 
 void check_character(const GuestCharacter& character, const std::string& at, ManifestFaults& faults) {
@@ -79,11 +103,53 @@ void check_character(const GuestCharacter& character, const std::string& at, Man
     check_joint(character, j, at + "/joints/" + std::to_string(j), faults);
   if (!faults.outcome()) return;
   check_slots(character, at, faults);
-  expect_unique(character.colliders, at + "/colliders", faults);
-  for (std::size_t c = 0; c < character.colliders.size(); ++c)
-    faults.expect(find_joint(character, character.colliders[c].joint) >= 0, "unknown_joint",
-                  at + "/colliders/" + std::to_string(c) + "/joint",
-                  "found " + in_quotes(character.colliders[c].joint) + ", which is no joint of " + character.name);
+  check_colliders(character, at, faults);
+}
+
+// Places of the joints at rest, in our world.
+std::vector<Vec3> rest_points(const GuestCharacter& character, const Basis& basis) {
+  std::vector<Rigid> world;
+  for (const GuestJoint& joint : character.joints) {
+    const auto& [x, y, z, w] = joint.rotation;
+    const Rigid local{glm::normalize(basis.rotation(x, y, z, w)), basis.point_m(joint.position)};
+    const int parent = find_joint(character, joint.parent);
+    world.push_back(parent < 0 ? local : world[contort::at(parent)] * local);
+  }
+  std::vector<Vec3> points;
+  for (const Rigid& joint : world) points.push_back(joint.p_m);
+  return points;
+}
+
+// The partners must be each other's mirror image at rest, or no motion could be one.
+void check_symmetry(const GuestCharacter& character, const Basis& basis, const std::string& at, ManifestFaults& faults) {
+  const std::vector<Vec3> points = rest_points(character, basis);
+  const std::vector<std::size_t> partners = partners_of(character);
+  double size_m = 0.0;
+  for (const Vec3& point : points) size_m = std::max(size_m, length(point - points[0]));
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const Vec3& other = points[partners[j]];
+    const std::string pair = in_quotes(character.joints[j].name) + " and " + in_quotes(character.joints[partners[j]].name);
+    faults.expect(length(points[j] - Vec3(-other.x, other.y, other.z)) <= kAsymmetry * size_m + 1e-9, "not_symmetric", at,
+                  "at rest " + pair + " are not each other's mirror image about the plane between left and right of " +
+                      "the world");
+    faults.expect(character.joints[j].type == character.joints[partners[j]].type, "not_symmetric", at,
+                  pair + " are joints of different types");
+  }
+}
+
+void check_mirror(const GuestManifest& manifest, const GuestCharacter& character, const std::string& at,
+                  ManifestFaults& faults) {
+  std::set<std::string> paired;
+  for (const auto& [one, other] : character.mirror)
+    for (const std::string& name : {one, other}) {
+      faults.expect(find_joint(character, name) >= 0, "unknown_joint", at + "/" + one, in_quotes(name) + " is no joint");
+      const auto back = character.mirror.find(other);
+      const bool is_said_twice = back != character.mirror.end() && back->second == one;
+      faults.expect(paired.insert(name).second || is_said_twice, "duplicate_name", at + "/" + one,
+                    in_quotes(name) + " is in two pairs");
+    }
+  if (faults.outcome() && manifest.declares("mirror"))
+    check_symmetry(character, Basis(manifest.convention), at, faults);
 }
 
 bool is_value_of(GuestParamType type, const GuestValue& value) {
@@ -121,6 +187,27 @@ void check_param(const GuestParam& param, const std::string& at, ManifestFaults&
     expect_value(param.special[i], at + "/special/" + std::to_string(i));
 }
 
+// An action is there once, or once for each slot, as its parameters may differ between them.
+void expect_distinct(const std::vector<GuestAction>& actions, ManifestFaults& faults) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t a = 0; a < actions.size(); ++a)
+    for (const std::string& slot : actions[a].slots.empty() ? std::vector<std::string>{""} : actions[a].slots)
+      faults.expect(seen.insert({actions[a].name, slot}).second, "duplicate_name",
+                    "/actions/" + std::to_string(a) + "/name",
+                    in_quotes(actions[a].name) + " is there twice" + (slot.empty() ? "" : " for slot " + in_quotes(slot)));
+}
+
+bool is_joint(const GuestManifest& manifest, const std::string& name) {
+  return std::ranges::any_of(manifest.characters, [&](const GuestCharacter& c) { return find_joint(c, name) >= 0; });
+}
+
+void check_channel(const GuestManifest& manifest, const GuestChannel& channel, const std::string& at,
+                   ManifestFaults& faults) {
+  if (channel.contact.empty()) return;
+  faults.expect(channel.type == ChannelType::flag, "bad_channel", at, "only a flag says that a joint stands still");
+  faults.expect(is_joint(manifest, channel.contact), "unknown_joint", at, in_quotes(channel.contact) + " is no joint");
+}
+
 bool is_slot(const GuestManifest& manifest, const std::string& slot) {
   return std::ranges::any_of(manifest.characters, [&](const GuestCharacter& character) {
     const std::vector<std::string> slots = slots_of(character);
@@ -137,13 +224,14 @@ void check_action(const GuestManifest& manifest, const GuestAction& action, cons
                                      {"blend_out_s", action.blend_out_s}})
     faults.expect(range[0] <= range[1], "bad_range", at + "/" + field, "found a shortest time above the longest");
   for (const auto& [name, param] : action.params) check_param(param, at + "/params/" + name, faults);
+  faults.expect(action.mirror.empty() || std::ranges::find(manifest.actions, action.mirror, &GuestAction::name) != manifest.actions.end(),
+                "unknown_action", at + "/mirror", in_quotes(action.mirror) + " is no action");
   if (!action.goal) return;
   const auto target = action.params.find(action.goal->param);
   faults.expect(target != action.params.end() && target->second.type == GuestParamType::vec3, "unknown_param",
                 at + "/goal/param", in_quotes(action.goal->param) + " is no parameter of type vec3");
-  faults.expect(std::ranges::any_of(manifest.characters,
-                                    [&](const GuestCharacter& c) { return find_joint(c, action.goal->tip) >= 0; }),
-                "unknown_joint", at + "/goal/tip", in_quotes(action.goal->tip) + " is no joint");
+  faults.expect(is_joint(manifest, action.goal->tip), "unknown_joint", at + "/goal/tip",
+                in_quotes(action.goal->tip) + " is no joint");
 }
 
 }  // namespace
@@ -151,6 +239,16 @@ void check_action(const GuestManifest& manifest, const GuestAction& action, cons
 Vec3 as_three(const NumberOrThree& value) {
   if (const auto* three = std::get_if<Vec3>(&value)) return *three;
   return Vec3(std::get<double>(value));
+}
+
+std::array<double, 2> as_two(const NumberOrTwo& value) {
+  if (const auto* two = std::get_if<std::array<double, 2>>(&value)) return *two;
+  return {std::get<double>(value), std::get<double>(value)};
+}
+
+int find_collider(const GuestCharacter& character, std::string_view name) {
+  const auto found = std::ranges::find(character.colliders, name, &GuestCollider::name);
+  return found == character.colliders.end() ? -1 : static_cast<int>(found - character.colliders.begin());
 }
 
 int find_joint(const GuestCharacter& character, std::string_view name) {
@@ -177,16 +275,20 @@ Result<Done> check_manifest(const GuestManifest& manifest) {
   faults.expect(!manifest.characters.empty(), "no_character", "/characters", "found none; expected at least one");
   faults.expect(!manifest.actions.empty(), "no_action", "/actions", "found none; expected at least one");
   expect_unique(manifest.characters, "/characters", faults);
-  expect_unique(manifest.actions, "/actions", faults);
+  expect_distinct(manifest.actions, faults);
   expect_unique(manifest.channels, "/channels", faults);
   for (std::size_t c = 0; c < manifest.characters.size(); ++c)
     check_character(manifest.characters[c], "/characters/" + std::to_string(c), faults);
+  for (std::size_t c = 0; faults.outcome() && c < manifest.characters.size(); ++c)
+    check_mirror(manifest, manifest.characters[c], "/characters/" + std::to_string(c) + "/mirror", faults);
   if (!faults.outcome()) return faults.outcome();
   for (std::size_t a = 0; a < manifest.actions.size(); ++a)
     check_action(manifest, manifest.actions[a], "/actions/" + std::to_string(a), faults);
+  for (std::size_t c = 0; c < manifest.channels.size(); ++c)
+    check_channel(manifest, manifest.channels[c], "/channels/" + std::to_string(c) + "/contact", faults);
   for (std::size_t r = 0; r < manifest.relations.size(); ++r)
     faults.expect(std::ranges::find(kRelations, manifest.relations[r]) != std::end(kRelations), "bad_relation",
-                  "/relations/" + std::to_string(r), "expected \"history\" or \"rate\"");
+                  "/relations/" + std::to_string(r), "expected \"history\", \"rate\", \"gain\" or \"mirror\"");
   return faults.outcome();
 }
 

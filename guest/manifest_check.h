@@ -14,6 +14,9 @@ Result<Done> check_manifest(const GuestManifest& manifest);
 std::vector<std::string> slots_of(const GuestCharacter& character);
 
 // Index of the joint, or -1 if there is no such joint.
+std::array<double, 2> as_two(const NumberOrTwo& value);
+
+int find_collider(const GuestCharacter& character, std::string_view name);
 int find_joint(const GuestCharacter& character, std::string_view name);
 
 Vec3 as_three(const NumberOrThree& value);

@@ -1,6 +1,7 @@
 #include "guest/promised.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/index.h"
 
@@ -29,11 +30,18 @@ Promised until_next(const GuestRequest& whole, std::size_t use, Equality why) {
   return promised;
 }
 
-Promised without(const GuestRequest& whole, std::size_t use) {
-  Promised promised{whole, {}};
+Promised without(const GuestRequest& whole, std::size_t use, Equality why, int first_frame) {
+  Promised promised{whole, {}, first_frame};
   promised.request.uses.erase(promised.request.uses.begin() + static_cast<std::ptrdiff_t>(use));
-  promised.equal.why = Equality::none;
+  promised.equal.why = why;
+  promised.equal.first_frame = first_frame;
   return promised;
+}
+
+// The first frame in which nothing of the use may be left.
+int returned_frame(const PlacedUse& placed, double rate_hz) {
+  const double returns_s = *placed.action->returns_s;
+  return placed.end_frame() + placed.use->blend_out_frames + static_cast<int>(std::ceil(returns_s * rate_hz - 1e-9));
 }
 
 }  // namespace
@@ -47,8 +55,12 @@ std::vector<Promised> promises_of(const GuestRequest& whole) {
       promises.push_back(until_next(whole, u, Equality::fresh));
       if (promises.back().request.frames > 0) ++promises.back().request.frames;
       promises.back().request.uses.front().start_frame = 1;
+      promises.back().first_row = 1;
     }
-    if (effect == Effect::none) promises.push_back(without(whole, u));
+    if (effect == Effect::none) promises.push_back(without(whole, u, Equality::none, 0));
+    if (!whole.uses[u].action->returns_s) continue;
+    const int first = returned_frame(whole.uses[u], whole.rate_hz);
+    if (first < whole.frames) promises.push_back(without(whole, u, Equality::undo, first));
   }
   std::erase_if(promises, [](const Promised& promised) { return promised.request.frames == 0; });
   return promises;

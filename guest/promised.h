@@ -9,12 +9,13 @@ namespace contort {
 // A request, and where its motion should be equal to the whole one. A motion of rest is not asked for.
 struct Promised {
   GuestRequest request;
-  EqualMotion equal;  // without frames
+  EqualMotion equal;   // without frames
+  int first_row = 0;   // frames of the answer before this one are not compared
 };
 
 // For each use with the effect `rest`, or `equals` after another use, the frames up to the next use; for each with
-// `none` all frames. At most kMostPromised. The use of an `equals` begins in frame 1 of its request: frame 0, which
-// add_equal leaves out, is the state before it.
+// `none` all frames; for each that returns the frames after that. At most kMostPromised. The use of an `equals` begins
+// in frame 1 of its request: frame 0 is the state before it.
 std::vector<Promised> promises_of(const GuestRequest& whole);
 inline constexpr std::size_t kMostPromised = 4;
 

@@ -22,9 +22,15 @@ int content_frames(const SequenceDesc& sequence) {
   return end;
 }
 
-const GuestAction* find_action(const GuestManifest& manifest, const std::string& name) {
-  const auto found = std::ranges::find(manifest.actions, name, &GuestAction::name);
-  return found == manifest.actions.end() ? nullptr : &*found;
+// An action may be there several times, for other slots each.
+const GuestAction* find_action(const GuestManifest& manifest, const ActionUse& use) {
+  const GuestAction* named = nullptr;
+  for (const GuestAction& action : manifest.actions) {
+    if (action.name != use.action) continue;
+    if (std::ranges::find(action.slots, use.slot) != action.slots.end()) return &action;
+    named = &action;
+  }
+  return named;
 }
 
 // The first feature of the spec that no generator of this kind has.
@@ -45,23 +51,13 @@ Issue not_offered(const std::string& code, const std::string& at, const std::str
   return {"guest." + code, at, text};
 }
 
-bool is_within(const ParamDef& def, const ParamValue& value) {
-  if (const auto* word = std::get_if<std::string>(&value))
-    return def.type == ParamType::choice && std::ranges::find(def.choices, *word) != def.choices.end();
-  if (const auto* number = std::get_if<double>(&value))
-    return def.type == ParamType::number && def.low <= *number && *number <= def.high;
-  const Vec3& v = std::get<Vec3>(value);
-  return def.type == ParamType::vector && glm::all(glm::lessThanEqual(def.box[0], v)) &&
-         glm::all(glm::lessThanEqual(v, def.box[1]));
-}
-
 Result<Done> admit_params(const ActionUse& use, const OfferedAction& action, const std::string& at) {
   for (const auto& [name, value] : use.params) {
     const auto def = std::ranges::find(action.params, name, &ParamDef::name);
     const std::string place = at + "/params/" + name;
     if (def == action.params.end())
       return not_offered("unknown_param", place, action.name + " has no parameter \"" + name + "\"");
-    if (!is_within(*def, value))
+    if (!allows(*def, value))
       return not_offered("bad_param", place, "the value is not one that the manifest allows for " + name);
   }
   return Done{};
@@ -132,6 +128,16 @@ Json parts_of(const GuestManifest& manifest, const Spec& spec) {
 
 }  // namespace
 
+bool allows(const ParamDef& def, const ParamValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value))
+    return def.type == ParamType::choice && std::ranges::find(def.choices, *word) != def.choices.end();
+  if (const auto* number = std::get_if<double>(&value))
+    return def.type == ParamType::number && def.low <= *number && *number <= def.high;
+  const Vec3& v = std::get<Vec3>(value);
+  return def.type == ParamType::vector && glm::all(glm::lessThanEqual(def.box[0], v)) &&
+         glm::all(glm::lessThanEqual(v, def.box[1]));
+}
+
 std::vector<PlacedUse> placed_uses(const GuestManifest& manifest, const Spec& spec, const Character& character,
                                    const Offers& offers) {
   std::vector<PlacedUse> placed;
@@ -141,7 +147,7 @@ std::vector<PlacedUse> placed_uses(const GuestManifest& manifest, const Spec& sp
     for (std::size_t c = 0; c < sequence.clips.size(); ++c)
       for (std::size_t a = 0; a < sequence.clips[c].actions.size(); ++a) {
         const ActionUse& use = sequence.clips[c].actions[a];
-        placed.push_back({&use, find_action(manifest, use.action),
+        placed.push_back({&use, find_action(manifest, use),
                           find_offer(offers, character.find_part(use.slot), use.action), static_cast<int>(s),
                           static_cast<int>(c), static_cast<int>(a), begin + sequence.clips[c].start_frame + use.start_frame});
       }

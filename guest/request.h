@@ -31,6 +31,9 @@ std::vector<PlacedUse> placed_uses(const GuestManifest& manifest, const Spec& sp
 // Frames of the whole motion: to the end of the last use, the hold, and the frame at time 0.
 int frames_of(const Spec& spec);
 
+// True if a parameter may have the value.
+bool allows(const ParamDef& def, const ParamValue& value);
+
 // Refuses what the generator does not offer. Codes guest.unsupported, .unknown_action, .unknown_param, .bad_param,
 // .bad_duration, .too_long, with pointers into the spec.
 Result<Done> admit_request(const Spec& spec, const Character& character, const Offers& offers);

@@ -135,6 +135,11 @@ std::string name_of(const Intent& intent, const ActionSpan& span) {
   return "";
 }
 
+std::span<const ChannelRun> runs_of(const Execution& execution) {
+  if (!execution.foreign) return {};
+  return execution.foreign->runs;
+}
+
 }  // namespace
 
 Json spans_json(const Execution& execution) {
@@ -147,6 +152,11 @@ Json spans_json(const Execution& execution) {
                    {"action", span.action},
                    {"first_frame", span.first_frame},
                    {"last_frame", span.last_frame}});
+  for (const ChannelRun& run : runs_of(execution))
+    all.push_back({{"name", run.value.empty() ? run.channel : run.value},
+                   {"slot", run.channel},
+                   {"first_frame", run.first_frame},
+                   {"last_frame", run.last_frame}});
   return all;
 }
 

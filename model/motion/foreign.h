@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "model/core/math.h"
@@ -16,6 +17,9 @@ enum class Equality : std::uint8_t {
   none,     // an action changes nothing
   history,  // requests before this one change nothing
   rate,     // the rate changes nothing
+  undo,     // an action leaves nothing behind when it is over
+  gain,     // parameters that are nearly the same change nearly nothing
+  mirror,   // the request for the other side gives the mirror image
 };
 
 // Frames of another motion of the same character. Its frame i belongs to the motion's frame first_frame + i * step.
@@ -28,11 +32,38 @@ struct EqualMotion {
   bool operator==(const EqualMotion&) const = default;
 };
 
+// The frames in which a channel of the generator had the same value: of a text that is not empty, or of a flag that is
+// set, whose value is "".
+struct ChannelRun {
+  std::string channel;
+  std::string value;
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  bool operator==(const ChannelRun&) const = default;
+};
+
+struct ChannelNumbers {
+  std::string channel;
+  std::vector<double> values;  // one for each frame
+  bool operator==(const ChannelNumbers&) const = default;
+};
+
+// The frames in which the generator says that a joint stands still in the world.
+struct ContactRun {
+  int joint = 0;
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  bool operator==(const ContactRun&) const = default;
+};
+
 struct ForeignFacts {
   std::vector<double> quaternion_lengths;  // frames x joints, as they came; 1 is a rotation
   std::vector<double> off_axis_rad;        // frames x joints: of hinges, the rotation that is not about their axis
   std::vector<int> jumps;                  // ascending frames into which the pose may jump from the frame before
   std::vector<EqualMotion> equals;
+  std::vector<ChannelRun> runs;  // by channel, then by frame
+  std::vector<ChannelNumbers> numbers;
+  std::vector<ContactRun> contacts;
   bool operator==(const ForeignFacts&) const = default;
 
   bool may_jump_into(int frame) const;

@@ -62,16 +62,28 @@ Execution turned_off_axis(double room) {
   return made;
 }
 
+// The figure is said to stand while its root rises this far.
+Execution rising(double room) {
+  Execution made = resting();
+  made.foreign->contacts = {{0, 0, made.motion.frame_count - 1}};
+  made.motion.root.back().p_m.y += 0.02 - room;
+  return made;
+}
+
 using ForeignExemplar = Execution (*)(double room);
 
 const std::map<std::string, ForeignExemplar>& foreign_exemplars() {
   static const std::map<std::string, ForeignExemplar> all = {
       {"quaternion_length", with_length},
       {"off_axis", turned_off_axis},
+      {"contact_slide", rising},
       {"rest_error", [](double room) { return with_other(Equality::rest, kDegree, room); }},
       {"fresh_error", [](double room) { return with_other(Equality::fresh, kDegree, room); }},
       {"none_error", [](double room) { return with_other(Equality::none, kDegree, room); }},
       {"history_error", [](double room) { return with_other(Equality::history, kDegree, room); }},
+      {"undo_error", [](double room) { return with_other(Equality::undo, kDegree, room); }},
+      {"gain_error", [](double room) { return with_other(Equality::gain, 5.0 * kDegree, room); }},
+      {"mirror_error", [](double room) { return with_other(Equality::mirror, kDegree, room); }},
       {"rate_error", [](double room) { return with_other(Equality::rate, 5.0 * kDegree, room); }},
   };
   return all;

@@ -20,11 +20,12 @@ std::unique_ptr<GuestGenerator> promising(const std::string& more = "") {
 // The figure bends, and after ten frames it is asked for the action.
 Spec bend_and(const std::string& action, bool keeps) {
   Spec spec;
-  spec.character.name = "hero";
+  spec.character.name = "hero", spec.hold_frames = action == "pass" ? 10 : 0;
   ClipDesc clip;
   for (const std::string& name : {std::string("bend"), action}) {
     ActionUse use;
-    use.action = name, use.slot = "body", use.start_frame = name == "bend" ? 0 : 10, use.duration_frames = 20;
+    use.action = name, use.slot = "body", use.start_frame = name == "bend" ? 0 : 10, use.duration_frames = name == "pass" ? 10 : 20;
+    if (name == "lean") use.params["side"] = 0.5;
     use.params["keeps"] = std::string(name == "bend" || keeps ? "true" : "false");
     clip.actions.push_back(use);
   }
@@ -43,6 +44,7 @@ std::set<std::string> checks_that_find(GuestGenerator& guest, const Spec& spec) 
 const std::pair<const char*, const char*> kBroken[] = {
     {"rest", "rest_error"},         {"fresh", "fresh_error"},       {"nothing", "none_error"},
     {"reach", "reach_error"},       {"remember", "history_error"},  {"depend_on_rate", "rate_error"},
+    {"pass", "undo_error"},         {"near", "gain_error"},         {"lean", "mirror_error"},
 };
 
 // The actions that are continuous jump as they come; that is no matter here.

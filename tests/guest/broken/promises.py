@@ -20,11 +20,18 @@ ACTIONS = [
      "params": {**KEEPS, "to": {"type": "vec3", "low": -2, "high": 2, "default": [0, 1.3, 0]}}},
     {"name": "remember", "params": KEEPS},
     {"name": "depend_on_rate", "params": KEEPS},
+    {"name": "pass", "effect": "cut", "duration_s": [0.1, 0.2], "returns_s": 0.05, "params": KEEPS},
+    {"name": "near", "params": {**KEEPS, "by": {"type": "number", "default": 0.5}}},
+    {"name": "lean", "params": {**KEEPS, "side": {"type": "number", "low": -1, "mirror": "opposite"}}},
 ]
 JOINTS = good.MANIFEST["characters"][0]["joints"]
-MANIFEST = {**good.MANIFEST, "name": "promises", "actions": ACTIONS, "relations": ["history", "rate"],
+MANIFEST = {**good.MANIFEST, "name": "promises", "actions": ACTIONS, "relations": ["history", "rate", "gain", "mirror"],
             "characters": [{"name": "hero", "joints": JOINTS, "parts": {"body": ["plain", "bent"]}}]}
 previous = []  # the uses of the last request
+
+
+def is_over(use, time_s):
+    return time_s > use["start_s"] + use["duration_s"]
 
 
 def elbow_deg(request, time_s):
@@ -34,7 +41,9 @@ def elbow_deg(request, time_s):
     for number, use in enumerate(begun):
         broken = 0 if use["params"]["keeps"] else 20
         angle = {"bend": 30, "rest": broken, "fresh": 5 + broken * (number > 0), "nothing": angle + broken,
-                 "reach": angle, "remember": broken * (len(previous) > 3),
+                 "pass": angle + (broken if is_over(use, time_s) else 10),
+                 "near": broken * (use["params"].get("by", 0) > 0.5),
+                 "lean": broken * (use["params"].get("side", 0) > 0), "reach": angle, "remember": broken * (len(previous) > 3),
                  "depend_on_rate": broken * (request["rate_hz"] < 60)}[use["action"]]
     return angle
 

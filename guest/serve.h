@@ -1,0 +1,16 @@
+// Speaks contort.generator/1 for a generator of ours: the other side of guest_program.h.
+#pragma once
+
+#include <cstdio>
+#include <span>
+#include <string>
+
+#include "model/core/result.h"
+#include "model/generator.h"
+
+namespace contort {
+
+// Answers requests for the characters until the input ends. Codes of describe().
+Result<Done> serve_guest(Generator& generator, std::span<const std::string> characters, std::FILE* in, std::FILE* out);
+
+}  // namespace contort
