@@ -1,10 +1,21 @@
-# Tests of what a user types: the scripts of the root, and the commands of the README.
+# Tests of commands that a user types: the scripts of the root, and the commands of the README and of docs/guide.
 add_test(NAME Scripts.Packages COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/packages_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.Run COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/run_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.Test COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/test_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.ReadmeExtraction COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands_test.sh)
 add_test(NAME Scripts.ReadmeCommands
   COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
+# One test for each page of the guide: Scripts.Guide.first_night and so on.
+file(GLOB guide_pages RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/guide/*.md)
+foreach(page IN LISTS guide_pages)
+  get_filename_component(name ${page} NAME_WE)
+  add_test(NAME Scripts.Guide.${name} COMMAND
+    bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort> ${page})
+  set_tests_properties(Scripts.Guide.${name} PROPERTIES TIMEOUT 300 COST 100)
+endforeach()
+add_test(NAME Scripts.LinksExtraction COMMAND ${CMAKE_CURRENT_LIST_DIR}/links_test.py)
+add_test(NAME Scripts.Links COMMAND ${CMAKE_CURRENT_LIST_DIR}/links_test.py ${CMAKE_SOURCE_DIR})
+set_tests_properties(Scripts.LinksExtraction Scripts.Links PROPERTIES TIMEOUT 180)
 set_tests_properties(Scripts.Packages Scripts.Run Scripts.Test Scripts.ReadmeExtraction PROPERTIES TIMEOUT 180)
 # COST: what takes minutes begins first, else one core waits for it at the end.
 set_tests_properties(Scripts.ReadmeCommands PROPERTIES TIMEOUT 600 COST 300)
