@@ -203,7 +203,6 @@ GaitParams run_params(std::span<const Leg> legs, double speed_m_s, double headin
   return params;
 }
 
-// The cadence of a quick walk, 1.1 sqrt(g / l) steps a cycle of two. The foot on the side of the turn goes first.
 void spare_strength(GaitParams& params) {
   const bool runs = params.duty < 0.5;
   params.acceleration_m_s2 = runs ? 1.5 : 0.9;
@@ -211,6 +210,7 @@ void spare_strength(GaitParams& params) {
   params.rise = std::max(params.rise, 0.5), params.fall = 1.0 - params.rise;
 }
 
+// The cadence of a quick walk, 1.1 sqrt(g / l) steps a cycle of two. The foot on the side of the turn goes first.
 GaitParams turn_params(std::span<const Leg> legs, double turn_rad, double pace) {
   GaitParams params = walk_params(legs, 0.0, 0.0);
   const double length_m = least_length_m(legs);
