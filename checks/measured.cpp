@@ -9,7 +9,7 @@ namespace contort {
 
 namespace {
 
-// How a value and its limit give a margin.
+// The limit of a subject. Value and limit give the margin.
 struct LimitOfSubject {
   double limit = 0.0;
   bool is_lower = false;  // the value must stay above it

@@ -130,7 +130,8 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
                                          "Another contort program, as a path or a name in PATH, or with --generator another "
                                          "generator: only failures that it does not show count");
   base->type_name("BASE");
-  command.add_flag("--moved", options.moved, "Motions that differ from those of the base gate, too")->needs(base);
+  command.add_flag("--moved", options.moved, "Motions that merely differ from those of the base gate, too")
+      ->needs(base);
   command
       .add_option("--tolerance", options.tolerance,
                   "Depth, in the check's scale, below which a failure of one build alone does not count")

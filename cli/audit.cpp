@@ -121,16 +121,19 @@ void add_audit(CLI::App& app, Context& context) {
   auto options = std::make_shared<AuditCommand>();
   AuditOptions& audit = options->audit;
   audit.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  CLI::App* command = app.add_subcommand("audit", "Every action alone, over all parameter values that it declares");
-  command->add_option("--character", audit.characters, "Only this character (again for more)");
-  command->add_option("--action", audit.actions, "Only this action (again for more)");
-  command->add_option("--slot", audit.slots, "Only this slot (again for more)");
-  command->add_option("--draws", audit.draws, "Motions for each row")
+  CLI::App* command =
+      app.add_subcommand("audit", "Check every action alone, over all parameter values that it declares");
+  command->add_option("--character", audit.characters, "Only this character; may be repeated");
+  command->add_option("--action", audit.actions, "Only this action; may be repeated");
+  command->add_option("--slot", audit.slots, "Only this slot; may be repeated");
+  command->add_option("--draws", audit.draws, "Number of motions for each row")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--seed", audit.seed, "Other seeds draw other motions")->capture_default_str();
   command->add_option("--jobs", audit.jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
-  command->add_option("--dynamics", options->dynamics, "Figures without mass (kinematic), or with: tracking, dynamic")
+  command
+      ->add_option("--dynamics", options->dynamics,
+                   "Figures without mass (kinematic), or with mass (tracking, dynamic)")
       ->check(CLI::IsMember(std::vector<std::string>(mode_names().begin(), mode_names().end())))
       ->type_name("MODE")
       ->capture_default_str();

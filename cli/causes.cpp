@@ -135,7 +135,7 @@ void add_causes(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("causes", "Group the failures of a corpus by what causes them");
   command->add_option("corpus", options->corpus, "Folder of the corpus")->required();
   command->add_option("--baseline", options->baseline,
-                      "Another corpus, or a file with what contort corpus list --json says of it: causes that it does "
+                      "Another corpus, or a file with the output of contort corpus list --json: causes that it does "
                       "not have are new");
   command->add_flag("--all", options->all, "Print every cause, not only the most severe ones");
   command->add_flag("--json", options->json, "Print all causes with their buckets as JSON");

@@ -1,4 +1,4 @@
-// What `contort generator check` finds out about a generator that is a program of its own.
+// The results of `contort generator check` about a generator that is a program of its own.
 #pragma once
 
 #include <string>

@@ -110,15 +110,15 @@ void run(const ContactsOptions& options, Context& context) {
 
 void add_contacts(CLI::App& app, Context& context) {
   auto options = std::make_shared<ContactsOptions>();
-  CLI::App* command = app.add_subcommand("contacts", "Which contacts of a character are allowed, and which could be");
+  CLI::App* command = app.add_subcommand("contacts", "List the contacts that a character allows, and propose more");
   command
       ->add_option("CHARACTER", options->subject, "Name of a character, or a spec or case, for its parts and objects")
       ->required();
-  command->add_option("--poses", options->poses, "How many poses are tried, beside the one at rest")
+  command->add_option("--poses", options->poses, "Number of poses to try, in addition to the rest pose")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
-                      "Write \"allowed_pairs\" as a character's file has it, with the proposed");
+                      "Write the allowed and the proposed pairs as \"allowed_pairs\" of a character's file");
   command->add_flag("--json", options->json, "Print as JSON");
   command->footer("Example: contort contacts mech -o allowed.json");
   command->callback([options, &context] { run(*options, context); });

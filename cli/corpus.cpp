@@ -228,27 +228,29 @@ void add_listing(CLI::App& corpus, Context& context) {
   std::vector<std::string> states;
   for (int s = 0; s <= static_cast<int>(BucketState::invalid); ++s)
     states.emplace_back(state_name(static_cast<BucketState>(s)));
-  command->add_option("--state", options->states, "Only in this state; may be repeated")
+  command->add_option("--state", options->states, "Only buckets in this state; may be repeated")
       ->allow_extra_args(false)
       ->check(one_of(states));
-  command->add_option("--check", options->check, "Only of this check");
-  command->add_option("--character", options->character, "Only of this character");
+  command->add_option("--check", options->check, "Only failures of this check");
+  command->add_option("--character", options->character, "Only failures of this character");
   CLI::Option* folded = command->add_flag("--fold-sides", options->fold_sides,
-                                          "One line for failures that are alike but for left and right");
-  command->add_flag("--json", options->json, "Print as JSON: a list that --baseline reads")->excludes(folded);
+                                          "One line for failures that differ only in left and right");
+  command->add_flag("--json", options->json, "Print a JSON list, which --baseline can read")->excludes(folded);
   command->footer("Example: contort corpus list contort-out/corpus --state new --state regressed");
 }
 
 void add_showing(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
   CLI::App* command = add(corpus, "show", "Show all that is known about a bucket", options, context, show);
-  command->add_option("BUCKET", options->buckets, "Beginning of its id or folder's name")->required()->expected(1);
+  command->add_option("BUCKET", options->buckets, "Beginning of the bucket's id or of its folder's name")
+      ->required()
+      ->expected(1);
   command->add_flag("--json", options->json, "Print as JSON");
   command->footer("Example: contort corpus show contort-out/corpus 0123");
 }
 
 void add_choice(CLI::App& command, CorpusOptions& options) {
-  command.add_option("BUCKET", options.buckets, "Beginnings of ids or folders' names");
+  command.add_option("BUCKET", options.buckets, "Beginnings of ids or of folders' names");
   command.add_option("--cause", options.causes, "All failures of this cause (contort causes); may be repeated")
       ->allow_extra_args(false);
 }
@@ -256,28 +258,28 @@ void add_choice(CLI::App& command, CorpusOptions& options) {
 void add_ack(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
   CLI::App* command =
-      add(corpus, "ack", "Acknowledge failures: they are open, and gate no more", options, context, ack);
+      add(corpus, "ack", "Acknowledge failures: they become open, and no longer gate", options, context, ack);
   add_choice(*command, *options);
-  command->add_option("--owner", options->owner, "Who looks after it")->required();
-  command->add_option("--ticket", options->ticket, "Where that is written down")->required();
+  command->add_option("--owner", options->owner, "Person who is responsible")->required();
+  command->add_option("--ticket", options->ticket, "Ticket in which the failure is tracked")->required();
   command->footer("Example: contort corpus ack contort-out/corpus 0123 --owner ana --ticket 12");
 }
 
 void add_note(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
-  CLI::App* command = add(corpus, "note", "Write down what is known about failures", options, context, note);
+  CLI::App* command = add(corpus, "note", "Add a note to failures", options, context, note);
   add_choice(*command, *options);
-  command->add_option("--text", options->text, "The note; \"\" takes it away")->required();
+  command->add_option("--text", options->text, "The note; \"\" removes it")->required();
   command->footer("Example: contort corpus note contort-out/corpus 0123 --text 'only with the heavy torso'");
 }
 
 void add_quarantine(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
-  CLI::App* command =
-      add(corpus, "quarantine", "Let failures pass until a day; they still run", options, context, put_in_quarantine);
+  CLI::App* command = add(corpus, "quarantine", "Let failures pass until a given day; they are still replayed", options,
+                          context, put_in_quarantine);
   add_choice(*command, *options);
-  command->add_option("--owner", options->owner, "Who looks after it")->required();
-  command->add_option("--reason", options->reason, "Why it may fail")->required();
+  command->add_option("--owner", options->owner, "Person who is responsible")->required();
+  command->add_option("--reason", options->reason, "Reason why it may fail until then")->required();
   command->add_option("--expires", options->expires, "Last day, at most 30 days from today")
       ->required()
       ->type_name("YYYY-MM-DD");
@@ -289,7 +291,8 @@ void add_quarantine(CLI::App& corpus, Context& context) {
 }  // namespace
 
 void add_corpus(CLI::App& app, Context& context) {
-  CLI::App* corpus = app.add_subcommand("corpus", "Look at stored failures, acknowledge them, keep the files in order");
+  CLI::App* corpus =
+      app.add_subcommand("corpus", "List stored failures, acknowledge them, and keep the files in order");
   corpus->require_subcommand(1);
   corpus->fallthrough();
   corpus->footer("Example: contort corpus list contort-out/corpus\n'contort corpus COMMAND --help' explains one.");

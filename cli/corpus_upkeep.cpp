@@ -44,12 +44,12 @@ void run_fsck(const FsckOptions& options, Context& context) {
 
 void add_fsck(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<FsckOptions>();
-  CLI::App* command = corpus.add_subcommand("fsck", "Check the files of a corpus, and mend them");
+  CLI::App* command = corpus.add_subcommand("fsck", "Check the files of a corpus, and repair them");
   command->add_option("CORPUS", options->corpus, "Corpus folder")->required();
-  command->add_flag("--repair", options->repair, "Mend; what is not understood moves to CORPUS/invalid");
+  command->add_flag("--repair", options->repair, "Repair; files that are not understood move to CORPUS/invalid");
   command->add_flag("--json", options->json, "Print as JSON");
   command->footer(
-      "Exit code 1 where something is wrong and was not mended.\nExample: contort corpus fsck contort-out/corpus "
+      "Exit code 1 if something is wrong and was not repaired.\nExample: contort corpus fsck contort-out/corpus "
       "--repair");
   command->callback([options, &context] { run_fsck(*options, context); });
 }
@@ -75,9 +75,9 @@ void add_one(CLI::App& corpus, Context& context, const std::string& name, const 
 
 void add_upkeep(CLI::App& corpus, Context& context) {
   add_fsck(corpus, context);
-  add_one(corpus, context, "rekey", "Name buckets anew, by the rules of this version", rekey);
-  add_one(corpus, context, "prune", "Drop the originals of what is fixed", prune);
-  add_one(corpus, context, "migrate", "Rewrite buckets and their cases in today's format", migrate);
+  add_one(corpus, context, "rekey", "Rename buckets by the rules of this version", rekey);
+  add_one(corpus, context, "prune", "Delete the original cases of fixed buckets", prune);
+  add_one(corpus, context, "migrate", "Rewrite buckets and their cases in this version's format", migrate);
 }
 
 }  // namespace contort::cli

@@ -335,43 +335,48 @@ void add_fuzz(CLI::App& app, Context& context) {
   command->add_option("--cases", options->cases, "Stop after so many cases (default: 2000, or no limit with --time)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53));
   command->add_option("--time", options->time, "Stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
-  command->add_option("--seed", options->seed, "Case i is a function of the seed and i")
+  command->add_option("--seed", options->seed, "Case i depends only on the seed and on i")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Worker processes (default: one per core)")->check(CLI::Range(1, 1024));
   command->add_option("--profile", options->profile,
-                      "What is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
+                      "Profile that says what is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
   command->add_option("--seeds", options->seeds,
-                      "Folder of specs and cases (*.json) that run before all that is drawn, and on top of --cases");
-  command->add_option("--shard", options->shard,
-                      "Do share K of N, from 0: 3/16 (default: what GTEST_, TEST_, SLURM_ARRAY_, JOB_COMPLETION_ or "
-                      "CI_NODE_ variables say)");
-  command->add_flag("--resume", options->resume, "Go on where a run with the same options was killed");
+                      "Folder of specs and cases (*.json) that run before the drawn cases, in addition to --cases");
+  command->add_option(
+      "--shard", options->shard,
+      "Run share K of N, counted from 0: 3/16 (default: from the variables GTEST_, TEST_, SLURM_ARRAY_, "
+      "JOB_COMPLETION_ or CI_NODE_ of a scheduler)");
+  command->add_flag("--resume", options->resume, "Continue a run with the same options that was stopped");
   add_limit_options(*command, options->limits);
   command
       ->add_option("--shrinks-per-family", options->shrinks_per_family,
-                   "Failures of one family that are shrunk and stored")
+                   "Number of failures of one family that are shrunk and stored")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--shrinks-per-case", options->shrinks_per_case,
-                   "Families of one case that are shrunk and stored, the earliest; the others are counted")
+                   "Number of families of one case that are shrunk and stored, the earliest first; others are counted")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  command->add_option("--shrink-evaluations", options->shrink_evaluations, "Motions generated per shrink, at most")
+  command
+      ->add_option("--shrink-evaluations", options->shrink_evaluations,
+                   "Greatest number of motions generated for each shrink")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
   command->add_option("--shrink-time", options->shrink_time,
                       "Stop each shrink after this time: 45s, 1.5m; results then depend on the machine");
-  command->add_option("--corpus", options->corpus, "Where failures are kept")->default_str("contort-out/corpus");
+  command->add_option("--corpus", options->corpus, "Folder in which failures are stored")
+      ->default_str("contort-out/corpus");
   add_against_options(*command, options->against);
   command->add_option("--report", options->report, "Write an HTML report into this folder afterwards");
   command->add_option("--log", options->log, "Write every failing case as a line of JSON: index, arm, families, spec");
   add_output_options(*command, options->outputs);
   command
-      ->add_option("--fail-on", options->fail_on,
-                   "Exit with 1 only for a cause at least so severe, from 0 to 100, that is not in the baseline and that "
-                   "nobody acknowledged (docs/causes.md); 0: for any failure")
+      ->add_option(
+          "--fail-on", options->fail_on,
+          "Exit with 1 only for a cause of at least this severity (0 to 100) that is not in the baseline and that "
+          "nobody has acknowledged (docs/causes.md); 0: for any failure")
       ->check(CLI::Range(0.0, 100.0))
       ->check(refuse_nan)
       ->excludes("--against")

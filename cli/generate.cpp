@@ -108,7 +108,7 @@ void run(const GenerateOptions& options, Context& context) {
 
 void add_generate(CLI::App& app, Context& context) {
   auto options = std::make_shared<GenerateOptions>();
-  CLI::App* command = app.add_subcommand("generate", "Make one motion of a spec");
+  CLI::App* command = app.add_subcommand("generate", "Write the motion of a spec as a file");
   command->add_option("SPEC", options->spec, "Spec or case file")->required();
   command->add_option("-o,--output", options->output, "OUT.glb (animated model) or OUT.json (numbers)")->required();
   add_level_option(*command, options->level);

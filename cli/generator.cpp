@@ -83,7 +83,7 @@ void add_generator(CLI::App& app, Context& context) {
   CLI::App* group = app.add_subcommand("generator", "Examine a generator that is a program of its own");
   group->require_subcommand(1);
   CLI::App* check = group->add_subcommand(
-      "check", "Say whether a program keeps the protocol contort.generator/1, what it declares, and what is judged");
+      "check", "Check whether a program keeps the protocol contort.generator/1, and say what can be judged");
   auto command = std::make_shared<std::string>();
   auto limits = std::make_shared<bool>(false);
   check->add_option("CMD", *command, "The program, as --generator takes it")->required();

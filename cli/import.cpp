@@ -123,22 +123,22 @@ void run(ImportCall options, Context& context) {
 
 void add_import(CLI::App& app, Context& context) {
   auto options = std::make_shared<ImportCall>();
-  CLI::App* command = app.add_subcommand("import", "Make a character of a rigged model (.glb, .gltf)");
+  CLI::App* command = app.add_subcommand("import", "Make a character from a rigged model (.glb, .gltf)");
   command->add_option("MODEL", options->model, "Skinned model (.glb, .gltf; VRM's bones are understood)")->required();
   command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();
-  command->add_option("--name", options->import.name, "Name of the character; else the file's");
+  command->add_option("--name", options->import.name, "Name of the character (default: the file's name)");
   CLI::Option* scale = command->add_option("--scale", options->import.metres_per_unit,
-                                           "Metres to one of the file's units; else guessed");
+                                           "Metres in one unit of the file (default: guessed)");
   scale->check(CLI::Range(1e-6, 1e6))->check(refuse_nan);
-  command->add_option("--height-m", options->import.height_m, "How high the figure is, m; else guessed")
+  command->add_option("--height-m", options->import.height_m, "Height of the figure in metres (default: guessed)")
       ->check(CLI::Range(1e-3, 90.0))
       ->check(refuse_nan)
       ->excludes(scale);
-  command->add_option("--skin", options->import.skin, "Which skin, where the file has several skeletons")
+  command->add_option("--skin", options->import.skin, "Index of the skin, if the file has several skeletons")
       ->check(CLI::Range(0, 1000000));
   command->add_flag("--mesh", options->import.draw_mesh, "Draw the model's triangles instead of the colliders");
-  command->add_flag("--no-model", options->no_model, "Leave the model's copy out: strips show the colliders");
-  command->add_flag("--force", options->force, "Overwrite files that are there");
+  command->add_flag("--no-model", options->no_model, "Do not copy the model; strips then show the colliders");
+  command->add_flag("--force", options->force, "Overwrite existing files");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
       "Example: contort import robot.glb -o my_figures\n"

@@ -90,7 +90,7 @@ void add_level_option(CLI::App& command, std::string& level) {
   command
       .add_option("--level", level,
                   "Only a sequence, a clip or a part of it: sequence:2, clip:2/1, part:arm_right. A sequence or a clip "
-                  "begins from the state that those before it have left")
+                  "begins from the state that earlier ones have left")
       ->type_name("LEVEL");
 }
 

@@ -158,7 +158,7 @@ void add_version(CLI::App& app, Context&) {
 void add_help(CLI::App& app, Context& context) {
   auto words = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("help", "Explain the program, or one command");
-  command->add_option("COMMAND", *words, "Name of a command; two words of one that has commands of its own");
+  command->add_option("COMMAND", *words, "Name of a command; two words for a command of a command");
   command->footer("Example: contort help fuzz\n         contort help corpus list");
   command->callback([words, &app, &context] {
     const CLI::App* explained = &app;

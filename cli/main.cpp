@@ -80,12 +80,13 @@ int run(int argc, char** argv) {
   app.add_option("--generator", context.sources.generator,
                  "Test this program instead of the built-in generator (docs/guests.md)")
       ->type_name("CMD");
-  app.add_option("--settings", context.settings_file, "Limits to move and findings to waive (contort.settings/1)")
+  app.add_option("--settings", context.settings_file,
+                 "File with limits to move and findings to waive (contort.settings/1)")
       ->type_name("FILE");
   app.add_option("--today", context.today, "Judge waivers and quarantines as on this day (default: today, UTC)")
       ->type_name("YYYY-MM-DD")
       ->check(refuse_no_day);
-  app.add_option("--gl", context.gl, "Who draws pictures; none: there are none")
+  app.add_option("--gl", context.gl, "Renderer of pictures; none: no pictures are drawn")
       ->check(one_of({"auto", "osmesa", "egl", "none"}))
       ->capture_default_str();
   app.set_version_flag("--version", std::string("contort ") + CONTORT_VERSION);

@@ -58,11 +58,11 @@ void run(const MergeOptions& options, Context& context) {
 
 void add_merge(CLI::App& app, Context& context) {
   auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = app.add_subcommand("merge", "Corpora of shards, nights or machines become one");
+  CLI::App* command = app.add_subcommand("merge", "Merge the corpora of shards, nights or machines");
   command->add_option("CORPUS", options->sources, "Corpus folders")->required();
-  command->add_option("-o,--output", options->output, "Corpus that they are added to; made where it is missing")
+  command->add_option("-o,--output", options->output, "Corpus to which they are added; created if it does not exist")
       ->required();
-  command->add_flag("--require-complete", options->require_complete, "Exit with 4 where shards of a run are missing");
+  command->add_flag("--require-complete", options->require_complete, "Exit with 4 if shards of a run are missing");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort merge shard-0 shard-1 shard-2 -o night");
   command->callback([options, &context] { run(*options, context); });

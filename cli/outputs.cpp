@@ -11,14 +11,15 @@ namespace contort::cli {
 void add_baseline_option(CLI::App& command, std::string& baseline) {
   command
       .add_option("--baseline", baseline,
-                  "Corpus, or list as `contort corpus list --json` prints it: what it has does not gate")
+                  "Corpus, or file with the output of `contort corpus list --json`: failures that it has do not gate")
       ->type_name("FILE|CORPUS");
 }
 
 void add_output_options(CLI::App& command, OutputRequest& request) {
   command.add_option("--junit", request.junit, "Write JUnit XML: a test case for each bucket")->type_name("FILE");
   command.add_option("--sarif", request.sarif, "Write SARIF 2.1.0 for code scanning")->type_name("FILE");
-  command.add_option("--markdown", request.markdown, "Append a summary, as to $GITHUB_STEP_SUMMARY")->type_name("FILE");
+  command.add_option("--markdown", request.markdown, "Append a summary to this file, such as $GITHUB_STEP_SUMMARY")
+      ->type_name("FILE");
   command.add_flag("--github", request.github, "Print annotations for GitHub, at most 10");
   add_baseline_option(command, request.baseline);
 }

@@ -25,32 +25,37 @@ std::optional<double> PictureOptions::azimuth_rad() const {
 }
 
 void add_picture_options(CLI::App& command, PictureOptions& options) {
-  command.add_option("-o,--output", options.output, "The picture");
-  command.add_option("--tiles", options.tiles, "Frames on the strip")->check(CLI::Range(1, 64))->capture_default_str();
-  command.add_option("--frames", options.frames, "Which frames, instead of a choice: 0,4,8")
+  command.add_option("-o,--output", options.output, "Picture file");
+  command.add_option("--tiles", options.tiles, "Number of frames on the strip")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--frames", options.frames, "Frames to show, such as 0,4,8 (default: chosen automatically)")
       ->type_name("LIST")
       ->delimiter(',')
       ->check(refuse_empty)
       ->allow_extra_args(false);
   add_level_option(command, options.level);
-  command.add_option("--azimuth", options.azimuth_deg, "Look from here: 0 from the front, 90 from the figure's left")
+  command
+      .add_option("--azimuth", options.azimuth_deg, "Direction of view: 0 from the front, 90 from the figure's left")
       ->type_name("DEGREES")
       ->check(range(-360.0, 360.0))
       ->check(refuse_nan);
-  command.add_option("--clip", options.clip, "The failing half second as a moving picture, too (WebP)")
+  command.add_option("--clip", options.clip, "Also write the failing half second as an animation (WebP)")
       ->type_name("FILE");
-  command.add_option("--compare", options.compared, "Another case or spec, in a row below: says where the two part")
+  command
+      .add_option("--compare", options.compared,
+                  "Another case or spec, drawn in a second row; says where the two motions first differ")
       ->type_name("FILE");
-  command.add_option("--tolerance", options.tolerance_mm, "What is no farther apart is the same [1]")
+  command.add_option("--tolerance", options.tolerance_mm, "Positions that are no farther apart count as equal [1]")
       ->type_name("MM")
       ->check(range(0.0, 1e6))
       ->check(refuse_nan);
-  command.add_flag("--json", options.json, "Print what --compare found as JSON");
-  command.add_flag("--colliders", options.colliders, "The shapes that checks judge, as wires around the figure");
-  command.add_flag("--rows", options.rows, "A row for each FILE, the same frames and camera in all of them");
+  command.add_flag("--json", options.json, "Print the result of --compare as JSON");
+  command.add_flag("--colliders", options.colliders, "Draw the shapes that checks judge, as wires around the figure");
+  command.add_flag("--rows", options.rows, "One row for each FILE, with the same frames and camera");
   command.add_flag("--sheet", options.sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
   command.add_flag("--allow-unreadable", options.allow_unreadable,
-                   "With --sheet, files that cannot be shown are no error");
+                   "With --sheet, files that cannot be shown are not an error");
   command.add_option("--label", options.labels, "Title of the strip, or of the rows in turn: one for each FILE")
       ->allow_extra_args(false);
 }

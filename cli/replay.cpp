@@ -292,23 +292,25 @@ void run(const ReplayOptions& options, Context& context) {
 
 void add_replay(CLI::App& app, Context& context) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with what they say");
+  CLI::App* command = app.add_subcommand("replay", "Run stored cases again and compare with the stored results");
   command->add_option("CASE", options->paths, "Case files, or corpus folders")->required();
   add_level_option(*command, options->level);
-  command->add_option("--against", options->against,
-                      "With --generator: another program, to tell from which frame on its motions differ")
+  command
+      ->add_option("--against", options->against,
+                   "With --generator: another program; says from which frame on its motions differ")
       ->type_name("CMD");
-  command->add_flag("--update", options->update, "Of a corpus: write the states that buckets have now");
+  command->add_flag("--update", options->update, "For a corpus: write the states that buckets have now");
   command->add_option("--time", options->time,
-                      "Of a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
-  command->add_option("--build", options->build, "What --update writes behind the version: a commit of your library");
+                      "For a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
+  command->add_option("--build", options->build,
+                      "Text that --update writes after the version, such as a commit of your library");
   add_limit_options(*command, options->limits);
   add_baseline_option(*command, options->baseline);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
       "Verdicts: same (equal motion, equal finding), same family, different, passes, refused.\n"
-      "Exit code of case files: 1 while one still fails, 0 when all pass. Of a corpus: 1 while a bucket fails that is\n"
-      "new, has regressed or whose quarantine is over (docs/corpus.md).\n"
+      "Exit code for case files: 1 if one still fails, 0 if all pass. For a corpus: 1 if a bucket fails that is\n"
+      "new, has regressed, or whose quarantine is over (docs/corpus.md).\n"
       "Example: contort replay contort-out/corpus\n"
       "         contort replay CASE --level part:arm_right");
   command->callback([options, &context] { run(*options, context); });

@@ -358,13 +358,14 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
 
 void add_report(CLI::App& app, Context& context) {
   auto request = std::make_shared<ReportRequest>();
-  CLI::App* command = app.add_subcommand("report", "Report a corpus: HTML with film strips, or what CI reads");
+  CLI::App* command = app.add_subcommand("report", "Report a corpus: HTML with film strips, or files for CI");
   command->add_option("CORPUS", request->corpus, "Corpus folder")->required();
   command->add_option("-o,--output", request->folder, "Folder of the page");
-  command->add_option("--single-file", request->single_file, "The page and what belongs to it as one file, for mail")
+  command
+      ->add_option("--single-file", request->single_file, "Write the page and all that it shows as one file, for mail")
       ->type_name("FILE");
   add_output_options(*command, request->outputs);
-  command->add_flag("--gate", request->gate, "Exit with 1 where something gates");
+  command->add_flag("--gate", request->gate, "Exit with 1 if something gates");
   command->footer(
       "Example: contort report contort-out/corpus -o contort-out/report\n"
       "         contort report contort-out/corpus --junit contort.xml --github --baseline main/corpus --gate");

@@ -192,20 +192,20 @@ void add_limits(CLI::App& command, ServeOptions& options) {
     command.add_option(name, value, help)->check(some)->capture_default_str()->group(group);
   };
   add("--sessions", limits.sessions, "Sessions at a time");
-  add("--sessions-per-client", limits.sessions_of_client, "Of one address");
+  add("--sessions-per-client", limits.sessions_of_client, "Sessions of one address at a time");
   add("--streams", limits.streams, "Streams at a time");
-  add("--streams-per-client", limits.streams_of_client, "Of one address");
-  add("--calls-per-second", limits.calls_per_s, "Of one address, on average");
+  add("--streams-per-client", limits.streams_of_client, "Streams of one address at a time");
+  add("--calls-per-second", limits.calls_per_s, "Calls of one address in a second, on average");
   add("--cpu-per-client", limits.cpu_s_per_minute,
-      "Seconds of the CPU in a minute, for one address, on average; five times as many after a pause");
-  add("--idle-seconds", limits.idle_s, "After which a session that nobody uses ends");
-  add("--waiting-tasks", options.workers.most_waiting, "Motions that wait for a worker");
-  add("--task-seconds", options.workers.each.seconds, "Time of one motion");
-  command.add_option("--spec-bytes", limits.spec_bytes, "Size of a call's body")
+      "CPU seconds of one address in a minute, on average; five times as many after a pause");
+  add("--idle-seconds", limits.idle_s, "Seconds after which an unused session ends");
+  add("--waiting-tasks", options.workers.most_waiting, "Greatest number of motions that wait for a worker");
+  add("--task-seconds", options.workers.each.seconds, "Greatest time for one motion, in seconds");
+  command.add_option("--spec-bytes", limits.spec_bytes, "Greatest size of a call's body, in bytes")
       ->check(CLI::Range(1 << 10, 16 << 20))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--take-seconds", limits.take_s, "Length of a take")
+  command.add_option("--take-seconds", limits.take_s, "Length of a recording, in seconds")
       ->check(CLI::Range(2.0, 60.0))
       ->check(refuse_nan)
       ->capture_default_str()
@@ -220,21 +220,21 @@ void add_serve(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("serve", "Browse, triage and drive characters from a web page");
   command
       ->add_option("--corpus", options->corpus,
-                   "A corpus that is there: its report, live; triage writes it; what sessions show is kept here")
+                   "Existing corpus to show and to triage; failures that sessions show are stored in it")
       ->type_name("DIR");
   command
       ->add_option("--report", options->report,
-                   "Where its report is made (default: a folder that goes with the server)")
+                   "Folder of its report (default: a folder that is removed with the server)")
       ->type_name("DIR");
   command->add_option("--host", options->http.host, "Address to listen on")->capture_default_str();
-  command->add_option("--port", options->http.port, "0: any that is free")
+  command->add_option("--port", options->http.port, "Port to listen on; 0: any free port")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command->add_option("--token", options->token,
-                      "Who calls must know it; needed where other machines can reach the server");
+                      "Secret that callers must send; required if other machines can reach the server");
   command->add_option("--allow-host", options->hosts, "A name by which browsers may call it, such as one of a proxy");
-  command->add_flag("--read-only", options->read_only, "The corpus does not change");
-  command->add_option("--workers", options->workers.workers, "Processes that generate")
+  command->add_flag("--read-only", options->read_only, "Do not change the corpus");
+  command->add_option("--workers", options->workers.workers, "Number of processes that generate motions")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   add_limits(*command, *options);

@@ -149,17 +149,19 @@ void add_shrink(CLI::App& app, Context& context) {
   auto options = std::make_shared<ShrinkOptions>();
   CLI::App* command = app.add_subcommand("shrink", "Make a case smaller, with the same failure");
   command->add_option("CASE", options->input, "Case file")->required();
-  command->add_option("-o,--output", options->output, "Where to write it (default: min-<id>.json here)");
+  command->add_option("-o,--output", options->output, "File to write (default: min-<id>.json in this folder)");
   command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
   command->add_option("--time,--shrink-time", options->time,
                       "Stop after this time: 45s, 1.5m; without a unit, seconds; results then depend on the machine");
   command->add_option("--profile", options->profile,
-                      "Stay within what it draws (default: the built-in one that found the case): a name or a file");
+                      "Stay within this profile, a name or a file (default: the built-in profile that found the case)");
   command->add_flag("--json", options->json, "Print the result as JSON");
-  command->add_option("--evaluations", options->config.max_evaluations, "Motions generated, at most")
+  command->add_option("--evaluations", options->config.max_evaluations, "Greatest number of motions to generate")
       ->check(CLI::Range(0, 36000))
       ->capture_default_str();
-  command->add_option("--depth-floor", options->config.depth_floor, "Stay at least this share of the depth; 0: any")
+  command
+      ->add_option("--depth-floor", options->config.depth_floor,
+                   "Keep at least this fraction of the depth; 0: any depth")
       ->check(CLI::Range(0.0, 1.0))
       ->check(refuse_nan)
       ->capture_default_str();

@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// How the frames of a character are laid out.
+// The layout of a character's frames.
 struct FrameLayout {
   const Character& character;
   std::span<const int> joints;  // of ours, in the order of the manifest

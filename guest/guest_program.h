@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// How a program breaks the protocol: the signal of the ending that it then has.
+// The ways in which a program can break the protocol: each is the signal of the ending that it then has.
 inline constexpr char kNoJson[] = "no JSON";
 inline constexpr char kWrongId[] = "wrong id";
 inline constexpr char kWrongLength[] = "wrong length";

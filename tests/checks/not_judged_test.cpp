@@ -46,8 +46,8 @@ TEST(CheckNotJudged, PromisesNeedAnIntent) {
     EXPECT_NE(reason_of(meant_small(), check), "nothing says what the motion was meant to do (no intent)") << check;
   }
   EXPECT_EQ(reason_of(meant_small(), "stuck"), "judged");
-  EXPECT_EQ(reason_of(meant_small(), "aim_error"), "nothing was to aim");
-  EXPECT_EQ(reason_of(meant_small(), "reach_error"), "nothing was sent to a point");
+  EXPECT_EQ(reason_of(meant_small(), "aim_error"), "no action aimed");
+  EXPECT_EQ(reason_of(meant_small(), "reach_error"), "no limb was sent to a point");
 }
 
 TEST(CheckNotJudged, DynamicsNeedDynamicsAndTakeTheReachAway) {
@@ -57,7 +57,7 @@ TEST(CheckNotJudged, DynamicsNeedDynamicsAndTakeTheReachAway) {
   moved.motion = small::moved_by_dynamics(*moved.character, 5);
   EXPECT_EQ(reason_of(moved, "joint_torque"), "judged");
   EXPECT_EQ(reason_of(moved, "balance"), "judged");
-  EXPECT_EQ(reason_of(moved, "tracking_error"), "no blow struck long enough ago");
+  EXPECT_EQ(reason_of(moved, "tracking_error"), "no impact was long enough before the end");
   EXPECT_EQ(reason_of(moved, "reach_error"), "dynamics moves the figure, so that tracking_error judges");
 }
 

@@ -1,4 +1,4 @@
-// Which joints dynamic control uses together: found from the parts, or declared.
+// The groups of joints that dynamic control uses together: found from the parts, or declared.
 #include <gtest/gtest.h>
 
 #include "generator/dynamics/figure.h"

@@ -1,4 +1,4 @@
-// Which worker has what in hand.
+// The crew knows the task of each worker.
 #include "fuzz/crew.h"
 
 #include <gtest/gtest.h>

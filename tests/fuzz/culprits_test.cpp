@@ -1,4 +1,4 @@
-// Which actions of a minimal case fail alone, with a generator whose actions are known exactly.
+// Finds the actions of a minimal case that fail alone, with a generator whose actions are known exactly.
 #include "fuzz/culprits.h"
 
 #include <gtest/gtest.h>

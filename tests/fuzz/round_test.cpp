@@ -1,4 +1,4 @@
-// Which case of a round is next, and when it is whole.
+// A round says which of its cases is next, and when it is complete.
 #include "fuzz/round.h"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ int actions_of(const Spec& spec) {
   return count;
 }
 
-// Nothing crashes as it is drawn; what is shrunk to one action and few words does.
+// No drawn case crashes. A case that has been shrunk to one action and few bytes does.
 constexpr std::size_t kFewBytes = 240;
 RunConfig config_with_crash(std::int64_t cases, int jobs) {
   RunConfig config = config_of(cases, jobs);

@@ -1,4 +1,4 @@
-// Which failures of a case are shrunk, and which are told with another.
+// A run chooses the failures of a case that it shrinks, and lists others with them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class RunFamilies : public testing::Test {
   TempFolder folder_;
 };
 
-// Which failures are shrunk, by the rule alone: families of a case, the earliest first.
+// Returns the cases in which each family is shrunk, by the rule alone: families of a case, the earliest first.
 std::map<Family, std::vector<std::int64_t>> shrunk_by_the_rule(const std::vector<FailingCase>& failing,
                                                                const RunConfig& config) {
   std::map<Family, std::vector<std::int64_t>> shrunk;

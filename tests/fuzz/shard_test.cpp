@@ -1,4 +1,4 @@
-// Which share of a run is ours: on the command line, and as schedulers say it.
+// A shard knows its share of a run from the command line, or from the variables of schedulers.
 #include "fuzz/shard.h"
 
 #include <gtest/gtest.h>

@@ -128,7 +128,7 @@ TEST(Stages, APairDoesWhatItsSinglesDo) {
   }
 }
 
-// Where nothing can interrupt, no ingredient is lost.
+// If a profile has no interrupts, all actions of a crowd are still played.
 TEST(Stages, WithoutInterruptsAllActionsAreInTheQueue) {
   DrawConfig config{{"human"}};
   config.profile.interrupts = 0.0;

@@ -166,7 +166,7 @@ Solid scaled(Solid solid, double by) {
   return solid;
 }
 
-// Nothing in it may take a small thing for no thing. Worst measured: 3.3e-16; 0.13 at 1e-6 when an axis of two tiny
+// A small solid must not be treated as no solid. Worst measured: 3.3e-16; it was 0.13 at 1e-6 when an axis of two tiny
 // half sides was dropped.
 TEST_P(DistanceOf, ScalesWithTheSolids) {
   for (const double by : {1e-6, 1e-3, 1e3})

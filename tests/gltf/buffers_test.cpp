@@ -1,4 +1,4 @@
-// Which files a glTF file may make us open.
+// A glTF file may name only files in its own folder or below it.
 #include "formats/gltf/buffers.h"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ Spec one_wave() {
   return spec;
 }
 
-// How often each ending came; "motion" and "refused" are none.
+// Counts how often each ending occurred; "motion" and "refused" are no endings.
 std::map<std::string, int> endings_of(GuestGenerator& guest, int cases) {
   std::map<std::string, int> endings;
   for (int i = 0; i < cases; ++i) try {

@@ -31,7 +31,7 @@ TEST(Needs, ActionsAreNamedOnceClipsAndSequencesCounted) {
   EXPECT_EQ(needs_of(spec), "crouch + pose, 3 clips, 2 sequences");
 }
 
-// Whoever looks for the cause must hear of all that was left by shrinking.
+// A person who looks for the cause must see everything that shrinking has left in the spec.
 TEST(Needs, WhatASpecDoesNotHaveByItselfIsSaid) {
   const Spec base = [] {
     Spec spec;

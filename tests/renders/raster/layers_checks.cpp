@@ -1,4 +1,4 @@
-// Which pass draws which instance.
+// Each instance is drawn in exactly one pass, which its flags choose.
 #include "renders/raster/layers.h"
 
 #include <gtest/gtest.h>
