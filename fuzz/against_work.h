@@ -1,4 +1,4 @@
-// A worker's share of a comparison of two builds: it keeps the base at hand and says which failures count.
+// A worker's part in a comparison of two builds: it runs the base and says which failures count.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class AgainstWork {
   // build is run by the base alone.
   bool confirm(Case& found, Evaluator& evaluator, const std::string& base_hash, WorkerSlot& slot);
 
-  // Whether the base ends on the spec, or refuses it.
+  // Returns true if the spec ends the base, or if the base refuses it.
   bool is_refused(const Spec& spec, WorkerSlot& slot);
 
   BaseBuild& base();

@@ -1,4 +1,4 @@
-// A worker does the tasks of messages.h with this.
+// Does the tasks of messages.h in a worker.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@
 
 namespace contort {
 
-// The case of a failure that did not show again. Nobody wrote down its depth, so that is no number.
+// The case of a failure that did not show again. Its depth is unknown, so the margin is NaN.
 Case seen_once(const SettleTask& task, const Spec& spec, Generator& generator, const WorkerLimits& limits);
 
-// The group of each subject (islands.h). Remembered, by all that names it: naming and hashing them for each
-// case was 1 % of a run.
+// The group of each subject (islands.h). Results are cached, because naming and hashing subjects for each case took 1 %
+// of a run.
 class TargetGroups {
  public:
   const std::vector<std::int8_t>& of(const CheckDef& check, const Character& character, std::size_t subjects);

@@ -32,11 +32,10 @@ struct Comparison {
   bool operator==(const Comparison&) const = default;
 };
 
-// Depths of a family in this build and in the base, >= 0, infinite for a margin that is not finite; nothing where it
-// passes.
+// Depths of a family in this build and in the base: >= 0, infinite for a margin that is not finite, empty if it passes.
 std::optional<Change> change_between(std::optional<double> depth, std::optional<double> base_depth, double tolerance);
 
-// The depth of a family in a measurement; nothing where it passes. Waived failures count only `with_waived`.
+// The depth of a family in a measurement; empty if it passes. Waived failures count only `with_waived`.
 std::optional<double> depth_in(const Measurement& measured, const std::string& check, const std::string& subject,
                                bool with_waived);
 
@@ -44,8 +43,8 @@ std::optional<double> depth_in(const Measurement& measured, const std::string& c
 Comparison compare(const std::string& character, const Measurement& ours, const Measurement& base,
                    const CompareRules& rules);
 
-// The result of the base for a failure that broke or got worse; nothing where the failure does not count.
-// `base` may be a measurement of that check alone.
+// The result of the base for a failure that broke or got worse; empty if the failure does not count. `base` may be a
+// measurement of that check alone.
 std::optional<BaseShows> base_shows(double depth, const std::string& check, const std::string& subject,
                                     const Measurement& base, const CompareRules& rules);
 

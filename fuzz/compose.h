@@ -1,4 +1,4 @@
-// From raw numbers to a spec that builds.
+// Makes a spec that builds from raw numbers.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace contort {
 inline constexpr int kShortestStretch = 20;
 inline constexpr int kLongestStretch = 120;
 
-// Every number is read as a choice among what the generator offers and the profile allows.
+// Reads every number as a choice among the items that the generator offers and the profile allows.
 Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator);
 
-// Whether the ground that they make is a plane, where no feature is left out.
+// Returns true if the ground is a plane, assuming that no feature is left out.
 bool is_level(const std::array<int, kRawGround>& ground, const Profile& profile);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Values of an action's parameters: within what the parameter declares, its joint's range, or the profile's rules.
+// Makes values of an action's parameters, within the declared range, the joint's range, or the profile's rules.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace contort {
 void draw_params(const Character& character, const Part& part, const OfferedAction& action, const Profile& profile,
                  const std::array<int, kRawValues>& raw, ActionUse& use);
 
-// Moves one number in four to an end of its range, or to its value where a spec does not say it.
+// Moves one number in four to an end of its range, or to its default.
 void take_corners(const OfferedAction& action, Dice& dice, ActionUse& use);
 
 }  // namespace contort

@@ -1,11 +1,11 @@
-// Actions that do not get into each other's way.
+// Makes actions of one part wait for each other.
 #pragma once
 
 #include "model/generator.h"
 
 namespace contort {
 
-// Clips begin when the one before them has ended, and an action when none moves a part of its own any more.
+// A clip begins when the previous one has ended, and an action when no other action moves one of its parts.
 void take_turns(const Character& character, const Offers& offers, SequenceDesc& sequence);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Workers, and what each of them has in hand: a case of the round, by its place there, or a failure to settle.
+// The workers, and the task of each of them: a case of the round, by its place there, or a failure to process.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ class Crew {
   int busy() const { return pool_.busy(); }
   bool is_any_case_running() const;
 
-  // To one that is idle; there must be one.
+  // Gives a job to an idle worker; there must be one.
   void give(const Job& job);
 
-  // A job that a worker is done with, or that ended it; nothing where none is within the time.
+  // A job that a worker has finished, or that ended the worker; empty if there is none within the time.
   struct Finished {
     Job job;
     WorkerEvent event;
@@ -37,7 +37,7 @@ class Crew {
 
  private:
   WorkerPool pool_;
-  std::vector<std::optional<Job>> in_hand_;  // by worker
+  std::vector<std::optional<Job>> in_hand_;  // the job of each worker
 };
 
 }  // namespace contort

@@ -1,13 +1,13 @@
-// Delta debugging (Zeller and Hildebrandt 2002), by complements: which of a row of units can go.
+// Delta debugging (Zeller and Hildebrandt 2002), by complements: finds the units of a list that can be removed.
 #pragma once
 
 #include <functional>
 
 namespace contort {
 
-// `count`: how many units are left. `remove(first, n)`: takes those away if what remains still holds; whether it did.
-// Afterwards no single unit can go. Units are taken by halves, quarters, … so k of n that are needed cost about
-// k log n tries, where units do not depend on each other.
+// `count` returns the number of units left. `remove(first, n)` removes those units if the failure remains, and returns
+// whether it did. Afterwards no single unit can be removed. Units are taken by halves, quarters, … so k of n that are
+// needed cost about k log n tries, if units do not depend on each other.
 void ddmin(const std::function<int()>& count, const std::function<bool(int first, int n)>& remove);
 
 }  // namespace contort

@@ -18,11 +18,11 @@ struct DrawConfig {
   bool operator==(const DrawConfig&) const = default;
 };
 
-// Evenly drawn numbers; other streams have other ones. Safe to call from any thread.
+// Returns evenly drawn numbers, different for each stream. Safe to call from any thread.
 RawSpec draw_raw(std::int64_t seed, std::int64_t index, std::uint64_t stream = 0);
 
-// The spec that they make: parts and parameters are chosen from what the character has, values on short lattices within
-// the declared ranges. It builds.
+// Returns the spec for these numbers: parts and parameters are chosen from those of the character, and values lie on
+// coarse grids within the declared ranges. The spec builds.
 Spec draw_spec(const DrawConfig& config, Generator& generator, std::int64_t seed, std::int64_t index);
 
 }  // namespace contort

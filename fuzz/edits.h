@@ -1,4 +1,4 @@
-// Shrinking may take these out of a spec: units of one kind, in all lists together.
+// Units that shrinking may remove from a spec: those of one kind, in all lists together.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct UnitKind {
   void (*remove)(Spec&, int first, int count);
 };
 
-// Coarse to fine: sequences, interrupts, clips, actions; what is around them; swapped parts, parameters.
+// From coarse to fine: sequences, interrupts, clips, actions; the surroundings; swapped parts, parameters.
 std::span<const UnitKind> unit_kinds();
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Finds the fields of a minimal spec that could as well have other values.
+// Finds the fields of a minimal spec whose values do not matter for the failure.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@ namespace contort {
 
 class ShrinkState;
 
-// JSON pointers into the spec. A field is free if its default, both ends and the quarters of its range, and what is half
-// way to the default fail in the same family, however deep; of a choice or a part, all others that there are. One of
-// which any of them does not fail, or does not build, or which has none, matters.
+// JSON pointers into the spec. A field is free if its default, both ends and the quarters of its range, and the middle
+// between value and default all fail in the same family, at any depth. A choice or a part is free if all other values
+// fail. A field matters if one of these values does not fail or does not build, or if there is none.
 std::vector<std::string> free_fields_of(ShrinkState& state);
 
 }  // namespace contort

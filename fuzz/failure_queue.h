@@ -1,5 +1,5 @@
-// The failures of a run, from first sight to bucket: what is to be run again and shrunk, in which order, and what to do
-// with the answer of the worker that did it.
+// The failures of a run on their way to a bucket: which ones are to be run again and shrunk, in which order, and how
+// the answers of the workers are processed.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@
 
 namespace contort {
 
-// A failure of this run, on its way.
+// A failure of this run that is not in a bucket yet.
 struct WantedFailure {
   SettleTask task;
-  std::optional<Lead> ender{};  // what ended the worker that shrank it first: kept, and not confirmed yet
+  std::optional<Lead> ender{};  // the candidate that ended the first worker: stored, but not confirmed yet
 };
 
 // A lead of a run whose time was up.
 struct WaitingLead {
   ShrinkTask task;
   std::string run;
-  std::int64_t index = 0;  // of its case
+  std::int64_t index = 0;  // index of its case
 };
 
 using FailureJob = std::variant<WantedFailure, WaitingLead>;
@@ -37,36 +37,36 @@ Task task_of(const FailureJob& job);
 
 class FailureQueue {
  public:
-  // `state` is the run's; what is wanted and what was filed is written there.
+  // `state` is the run's; wanted failures and filed buckets are written to it.
   FailureQueue(const RunConfig& config, Generator& generator, const Corpus& corpus, RunState& state)
       : config_(config), generator_(generator), corpus_(corpus), state_(state) {}
 
-  // With what the state of an interrupted run wants.
+  // Adds the failures that the state of an interrupted run has.
   void go_on();
 
-  // With what runs before left in this corpus, since their time was up before it was shrunk.
+  // Adds the failures that earlier runs left in this corpus when their time was up.
   void find_waiting();
 
   void want(const SettleTask& task);
 
-  // Time is up: what is left is only kept, and another run on this corpus shrinks it.
+  // Time is up: the remaining failures are only stored, and another run on this corpus shrinks them.
   void only_keep();
 
-  // The next task for a worker. `with_waiting`: there is time for what earlier runs left.
+  // The next task for a worker. `with_waiting`: there is time for the failures of earlier runs.
   std::optional<FailureJob> next(bool with_waiting);
   bool is_done(bool with_waiting) const { return wanted_.empty() && (!with_waiting || waiting_.empty()); }
 
   // Records the outcome of a job that next() gave.
   void take(const FailureJob& job, const WorkerEvent& event);
 
-  // It ended its process and, tried again, did not.
+  // The case crashed once and not when it was run again.
   void keep_ending_of_once(const Case& ended, const Lineage& lineage);
 
-  // Paths of leads that time did not reach.
+  // Paths of leads that were not shrunk in time.
   std::vector<std::string> waiting() const;
   int waiting_count() const { return static_cast<int>(state_.wanted.size() + waiting_.size()); }
 
-  // The first trouble with the corpus; code "" where all went well.
+  // The first error of the corpus; code "" if there was none.
   const Issue& issue() const { return issue_; }
 
  private:
@@ -88,15 +88,15 @@ class FailureQueue {
   Generator& generator_;
   const Corpus& corpus_;
   RunState& state_;
-  std::deque<WantedFailure> wanted_;  // those of the state that no worker has in hand
+  std::deque<WantedFailure> wanted_;  // failures of the state on which no worker works
   std::deque<WaitingLead> waiting_;
-  std::vector<CaseId> in_hand_;    // of workers
-  std::vector<std::string> kept_;  // leads of this run that wait for another
+  std::vector<CaseId> in_hand_;    // failures on which workers work
+  std::vector<std::string> kept_;  // leads of this run that wait for another run
   Issue issue_;
 };
 
-// "crash|human|SIGSEGV": what became of the process that ran a spec: the one it noted, or `given` where it came to
-// none.
+// "crash|human|SIGSEGV": the failure of the process that ran a spec. It is about the spec that the process noted, or
+// about `given` if it noted none.
 Case case_of_ending(const WorkerEvent& event, const Spec& given, const WorkerLimits& limits);
 
 }  // namespace contort

@@ -1,7 +1,7 @@
 // The features that a case may have: those that its profile allows, without those that the case itself leaves out.
 //
-// Leaving out half of all features in each case is swarm testing (Groce et al., ISSTA 2012): some faults show only where
-// others features do not get in the way.
+// Leaving out half of all features in each case is swarm testing (Groce et al., ISSTA 2012): some faults show only if
+// other features do not interfere.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,8 @@ class Features {
   const Profile& profile() const { return profile_; }
   // "slot", "action" or "ground" with a name, "interrupt", "swap", "object", "obstacle", "blend", "speed", "stretch".
   bool omits(std::string_view kind, std::string_view name = {}) const;
-  // The list without what is not allowed; where that is everything, what the profile alone allows; else the list.
+  // The list without features that are not allowed. If none is left, those that the profile alone allows; if none of
+  // those is left either, the whole list.
   template <class T, class NameOf>
   std::vector<T> among(const std::vector<T>& list, std::string_view kind, const std::vector<std::string>& allowed,
                        const NameOf& name_of) const;

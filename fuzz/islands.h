@@ -1,6 +1,6 @@
-// The search's memory. The cases of a run are spread over 64 islands that never hear of each other, so a run gives the
-// same cases for any number of threads and machines. Every subject of a check falls to one of eight groups, and each
-// island is guided by the subjects of one: it keeps the cases that came nearest to each one's limit, and mutates them
+// The search's memory. The cases of a run are spread over 64 islands that exchange nothing, so a run gives the same
+// cases for any number of threads and machines. Every subject of a check belongs to one of eight groups, and the
+// subjects of one group guide each island: it keeps the cases that came nearest to each one's limit, and mutates them
 // until the limit is broken.
 //
 // Margins are compared in their check's scale, and one subject is chosen at a time: one sum over all checks would let
@@ -19,8 +19,8 @@
 namespace contort {
 
 inline constexpr int kIslands = 64;
-inline constexpr int kGeneration = 4;                  // cases of one island between two looks at its pools
-inline constexpr int kRound = kIslands * kGeneration;  // cases of a run between two looks
+inline constexpr int kGeneration = 4;                  // cases of one island between two uses of its pools
+inline constexpr int kRound = kIslands * kGeneration;  // cases of a run between two uses
 
 inline constexpr int kTargetGroups = 8;
 
@@ -29,7 +29,7 @@ inline int group_of(std::int64_t index) { return island_of(index) % kTargetGroup
 
 int group_of_target(const Family& family);
 
-// A case came so near to the limit of this family without breaking it.
+// The distance by which a case missed the limit of this family, without breaking it.
 struct NearMiss {
   Family family;
   double margin = 0.0;  // in the check's scale; >= 0
@@ -44,28 +44,29 @@ struct PoolEntry {
 
 // An island's knowledge of one subject.
 struct TargetPool {
-  std::vector<PoolEntry> nearest;  // nearest first, no two as near: what a mutation leaves as it was is no news
-  double farthest = 0.0;           // margin seen
+  std::vector<PoolEntry> nearest;  // nearest first; equal margins are skipped, because then the mutation had no effect
+  double farthest = 0.0;           // the greatest margin seen
   bool operator==(const TargetPool&) const = default;
 
-  // The distance to the limit over the variation of the margin so far; infinite where nothing moves it. Small is
-  // promising.
+  // The distance to the limit divided by the variation of the margin so far; infinite if the margin never varied. A
+  // small value is promising.
   double relative_distance() const;
 };
 
 class Island {
  public:
-  // The ancestry of case `index`: a mutation of one of a promising pool, where there is any and the case wants it.
+  // The ancestry of case `index`: a mutation of a case of a promising pool, if there is one and the case is to be
+  // guided.
   Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
-  // Takes in the results of a case. To be called in the order of cases.
+  // Records the results of a case. Must be called in the order of cases.
   void learn(const Lineage& lineage, const std::vector<NearMiss>& near, const std::vector<Family>& broken);
 
   bool operator==(const Island&) const = default;
 
-  // Open for whoever stores them.
+  // Public, so that they can be stored.
   std::map<Family, TargetPool> pools;
-  std::vector<Family> retired;         // broken, sorted: nothing is left to be found near them
+  std::vector<Family> retired;         // broken families, sorted; the search no longer follows them
 
  private:
   const TargetPool* promising(Dice& dice) const;

@@ -14,9 +14,9 @@
 
 namespace contort {
 
-// Ways of making a case. The first three are the stages of a staged run (stages.h). In a run that is not staged, all but
-// the even ones have other draws laid over them, or come of one that had; in files the strategy `overlaid` has the name
-// "crowded".
+// Ways of making a case. The first three are the stages of a staged run (stages.h). In a run that is not staged, all
+// strategies except `uniform` overlay several draws, or mutate such a case; in files the strategy `overlaid` has the
+// name "crowded".
 enum class Strategy { single, pair, crowd, uniform, overlaid, corners, swarm, corners_and_swarm, guided };
 std::string_view strategy_name(Strategy strategy);
 inline constexpr int kStrategies = 9;
@@ -34,15 +34,13 @@ inline Odds odds_of(std::int64_t seed, const Profile& profile) {
   return {seed, profile.guided, profile.uniform, profile.staged};
 }
 
-// Decides how case `index` is made. Guidance reaches its share little by little: what few cases have come near to is no
-// nearer than what the next draw comes near to. Where there is nothing to be guided by yet, `unguided` is the arm
-// instead.
+// Decides how case `index` is made. Early near misses carry no signal, so the share of guided cases rises slowly. If
+// there is no near miss to follow yet, the strategy is `unguided` instead.
 bool wants_guidance(const Odds& odds, std::int64_t index);
 Strategy unguided(const Odds& odds, std::int64_t index);
 Strategy strategy_of(const Odds& odds, const Lineage& lineage);
 
-// A mutation that leaves the spec as it was is thrown again, a few times: most of the numbers of a case mean nothing in
-// it.
+// A mutation that leaves the spec as it was is drawn again, a few times, because most numbers of a case have no effect.
 RawSpec raw_of(const DrawConfig& config, Generator& generator, std::int64_t seed, const Lineage& lineage);
 
 }  // namespace contort

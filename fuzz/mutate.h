@@ -9,26 +9,26 @@
 
 namespace contort {
 
-// Lists get no longer than this; those of draws are shorter still.
+// The greatest lengths of lists; lists of draws are shorter.
 inline constexpr std::size_t kMostSequences = 3;
 inline constexpr std::size_t kMostClips = 4;    // of a sequence
 inline constexpr std::size_t kMostActions = 6;  // of a clip
 inline constexpr std::size_t kMostInterrupts = 6;
 
-// Adds all that another draw has behind what is there: its actions into the clips, its clips, sequences and
-// interrupts after the others, as far as there is room. It is interrupted if one of them is, and has as many loads and
-// blows as the one that has most. So more of it meets.
+// Appends everything that another draw has: its actions to the clips, and its clips, sequences and interrupts after the
+// present ones, as far as there is room. The result is interrupted if one of the two is, and has as many loads and
+// blows as the one with more of them. So more features meet in one case.
 void overlay(RawSpec& raw, const RawSpec& mate);
 
-// Every fourth number of actions, of times of clips, and of the ground goes to an end of its range: faults like to sit
-// there, and an even draw rarely comes by.
+// Sets every fourth number of actions, of times of clips, and of the ground to an end of its range: many faults are
+// there, and even draws rarely are.
 void go_to_corners(RawSpec& raw, Dice& dice);
 
-// Half of all features are left out (features.h).
+// Leaves out half of all features (features.h).
 void leave_out(RawSpec& raw, Dice& dice);
 
-// One to three changes: a number moves a little or far or to an end; clips and actions are copied, dropped, or come
-// over from `mate`.
+// Makes one to three changes: a number moves a little, far or to an end; clips and actions are copied, removed, or
+// taken from `mate`.
 void mutate(RawSpec& raw, const RawSpec& mate, Dice& dice);
 
 }  // namespace contort

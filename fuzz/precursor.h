@@ -1,8 +1,9 @@
-// Chooses the name of a failure that does not come alone.
+// Chooses the name of a failure that occurs together with others.
 //
-// One fault mostly breaks several limits at one time: a knee that snaps straight is too fast, and so is its hip, which
-// pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows them together.
-// The earliest failure that is as deep, of those at one time, names them all (docs/shrinking.md, "Who names it").
+// One fault often breaks several limits at the same time: a knee that snaps straight is too fast, and so is its hip,
+// which pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows all of
+// them. Of the failures at that time which are at least as deep, the earliest names them all (docs/shrinking.md, "Who
+// names it").
 #pragma once
 
 #include <functional>
@@ -15,21 +16,21 @@
 
 namespace contort {
 
-// Two failures are of one time if no more than this lies between them. Measured on planted faults: buckets to a fault,
-// in the median, are 5.5 if each family has its own, 4.5 with what overlaps to 0.1 s, 4 with 0.2 s to 1 s. What lies
-// apart is another matter: with any time, three of 36 faults had no bucket left but those of known ones.
+// Two failures occur together if at most this time lies between them. Measured on planted faults, the median number of
+// buckets for each fault is 5.5 if each family has its own, 4.5 if the failures overlap or are up to 0.1 s apart, and 4
+// with 0.2 s to 1 s. With any distance in time, three of 36 faults had only buckets of known ones.
 inline constexpr double kOneTime_s = 0.2;
 
-// Chooses from the other families of one motion the earliest that is of one time with `shown` and at least as deep (in
-// each check's scale), of equally early ones the deepest, and of these one about broken numbers; none of those that
-// were left. Null where `shown` itself is that one.
+// Chooses, from the other families of one motion, the earliest that occurs together with `shown` and is at least as
+// deep (in each check's scale); among equally early ones the deepest, and among these one about broken numbers. It
+// never chooses a family that was left before. Null if `shown` itself is the earliest.
 const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
 using ShrinkStep = std::function<Shrunk(const Case& original, const PrimarySearch& search)>;
 
-// Shrinks, and shrinks on to the precursor and that one's, until there is none that it did not come by. What is handed
-// back may be of another family than `original`. `evaluations` and what was met are of all together, the latter with
-// the cheapest spec of each family.
+// Shrinks the failure, then its precursor, then the precursor of that, until there is none that was not shrunk before.
+// The result may be of another family than `original`. `evaluations` and `met` cover all these shrinks; `met` has the
+// cheapest spec of each family.
 Shrunk shrink_to_precursor(const Case& original, const ShrinkStep& shrink_step);
 
 }  // namespace contort

@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// Narrows what is drawn for some actions of some slots. Where several rules speak of one thing, the last one counts.
+// Narrows the draws of some actions of some slots. If several rules apply, the last one counts.
 struct DrawRule {
   std::vector<std::string> slots;    // empty: all
   std::vector<std::string> actions;  // empty: all
@@ -22,7 +22,7 @@ struct DrawRule {
   std::vector<double> low;           // of the parameter, in its unit: one number, or three of a vector; what lies beyond
                                      // the range that an action declares is left out
   std::vector<double> high;
-  int weight = 0;  // how often, where actions without one are drawn once; 0: the rule does not say
+  int weight = 0;  // how often the actions are drawn, compared with 1 for other actions; 0: not set by this rule
   bool operator==(const DrawRule&) const = default;
 
   bool speaks_of(std::string_view slot, std::string_view action) const;
@@ -31,34 +31,35 @@ struct DrawRule {
 struct Profile {
   std::string name = "all";
   std::string about;                    // one sentence
-  std::string base;                     // of a file: the built-in profile that it begins with; never of what was read
+  std::string base;                     // the built-in profile that a file extends; empty after reading
   std::vector<std::string> characters;  // names in the library; empty: all
   std::vector<std::string> slots;       // names of slots; empty: all
   std::vector<std::string> actions;     // empty: all
   std::vector<std::string> grounds;     // plane, slope, steps, heights; empty: all
-  double swaps = 0.5;                   // odds that a slot gets another part than its own
+  double swaps = 0.5;                   // odds that a slot gets a part other than its own
   double objects = 1.0 / 3.0;           // that an object is carried
   double interrupts = 1.0 / 3.0;
   double obstacles = 1.0 / 3.0;
   double tracking = 1.0 / 32.0;  // mode; a simulated frame costs three kinematic ones
   double dynamic = 1.0 / 32.0;
-  int impacts = 2;                // of a dynamic spec, at most
+  int impacts = 2;                // greatest number of impacts in a dynamic spec
   bool speeds = true;             // clips and actions at other speeds, stretched clips
   bool overlaps = true;           // an action may take over a part that another one of its sequence still moves
   int shortest_frames = 6;        // of an action
   int longest_frames = 90;        // of an action
   bool wild_poses = false;        // poses of parts that stand on the ground, and such that put bodies into each other
-  double range = 1.0;             // the middle share of every joint's range that poses are drawn from, (0, 1]
+  double range = 1.0;             // the middle fraction of every joint's range from which poses are drawn, (0, 1]
   std::vector<DrawRule> rules{};
   bool staged = true;             // actions alone, then pairs and crowds of clean ones (fuzz/stages.h); false: all at once
-  double guided = 0.5;            // where not staged: of the cases, at length: mutations of one that came near a limit (fuzz/lineage.h)
-  double uniform = 0.02;          // of the others: drawn evenly; with guided 0 and uniform 1 nothing is searched for
-  std::int64_t cases = 0;         // of a run, where the command line says nothing; 0: it has no opinion
+  // For runs that are not staged (fuzz/lineage.h). With guided 0 and uniform 1 there is no search.
+  double guided = 0.5;    // fraction of cases, after the first few thousand, that are mutations of near misses
+  double uniform = 0.02;  // fraction of the others that are drawn evenly
+  std::int64_t cases = 0;         // of a run, unless the command line says; 0: not set
   std::string time;               // the same: "45s", "10m", "2h"; "" where there is none
   bool operator==(const Profile&) const = default;
 
   bool never(std::string_view slot, std::string_view action) const;
-  // An action of a slot is drawn so often, where others are once: as the last rule about it says, or 1.
+  // The weight of an action of a slot: that of the last rule about it, or 1.
   int weight(std::string_view slot, std::string_view action) const;
   // The last rule for this parameter, or null.
   const DrawRule* rule_for(std::string_view slot, std::string_view action, std::string_view param) const;
@@ -68,14 +69,14 @@ std::span<const Profile> built_in_profiles();
 
 // A built-in profile by name, or a file. Codes profile.* and json.*.
 Result<Profile> load_profile(const std::string& name_or_path);
-// If the text names a base, that one's fields count for those that it does not have, and its own rules come last.
+// If the text names a base, fields that the text leaves out have the base's values, and its own rules come last.
 Result<Profile> parse_profile(std::string_view json);
 std::string print_profile(const Profile& profile);
 std::string profile_schema();
 
-// Refuses a profile that would test nothing, and look clean: names that the library does not have, a character that
-// nothing moves (profile.nothing_moves), rules for what is no number or vector, and ranges that a parameter does not
-// have (profile.bad_rule, .no_range). `characters` are those that will be drawn.
+// Refuses a profile that would test nothing and so look clean: names that the library does not have, a character that
+// no action moves (profile.nothing_moves), rules for parameters that are not numbers or vectors, and ranges that a
+// parameter does not have (profile.bad_rule, .no_range). `characters` are those that will be drawn.
 Result<Done> validate(const Profile& profile, const std::vector<std::string>& characters, Generator& generator);
 
 }  // namespace contort

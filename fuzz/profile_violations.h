@@ -1,5 +1,5 @@
-// Counts what a profile would not have drawn. Shrinking asks, so that a minimal case stays one of those that the profile
-// is about: where it asks for blends of 20 frames at least, a pop without any blend is none of its failures.
+// Counts the parts of a spec that a profile would not have drawn. With this count, shrinking stays within the profile:
+// if a profile requires blends of at least 20 frames, a pop without any blend is not one of its failures.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace contort {
 
-// Counts actions and slots that it does not draw; durations, blends and parameters outside of its limits and rules; other
-// speeds and stretched clips, and actions that take over a part, where it has none. What a generator does not know is not
-// counted. 0 for every drawn spec.
+// Counts actions and slots that the profile does not draw; durations, blends and parameters outside of its limits and
+// rules; and, if the profile has none of them, other speeds, stretched clips, and actions that take over a part. Items
+// that the generator does not know are not counted. 0 for every drawn spec.
 int profile_violations(const Spec& spec, const Profile& profile, Generator& generator);
 
-// Whether a spec departs no more than `original` does. The generator must outlive it.
+// Returns true if a spec violates the profile no more than `original` does. The generator must outlive it.
 std::function<bool(const Spec&)> within(const Profile& profile, const Spec& original, Generator& generator);
 
 }  // namespace contort

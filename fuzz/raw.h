@@ -16,7 +16,7 @@ inline constexpr std::size_t kRawParts = 16;
 inline constexpr std::size_t kRawObjects = 4;
 inline constexpr std::size_t kRawGround = 16;
 inline constexpr std::size_t kRawDynamics = 24;
-inline constexpr std::size_t kLoadCount = 1, kBlowCount = 2;  // among those: the greater, the more
+inline constexpr std::size_t kLoadCount = 1, kBlowCount = 2;  // among those: a greater number makes more loads or blows
 
 struct RawAction {
   int slot = 0;
@@ -65,17 +65,17 @@ struct RawSpec {
 
 inline double fraction(int raw) { return static_cast<double>(raw) / kLattice; }
 
-// One of `count`; raw = kLattice is the last one, not one past it.
+// Returns an index below `count`; raw = kLattice gives the last one, not one past it.
 inline std::size_t pick(int raw, std::size_t count) {
   return std::min(count - 1, static_cast<std::size_t>(raw) * count / (kLattice + 1));
 }
 
-// Whole numbers from low to high.
+// Returns a whole number from low to high.
 inline int between(int raw, int low, int high) {
   return low + static_cast<int>(pick(raw, static_cast<std::size_t>(high - low + 1)));
 }
 
-// Whether raw falls into this share of the lattice.
+// Returns true if raw falls into this share of the lattice.
 inline bool happens(int raw, double odds) { return raw < odds * kLattice; }
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// The cases between two looks at what the search knows: which of them to hand out next, and what came back. They come
-// back in any order, and are folded in their own.
+// The cases between two updates of the search: which of them to give out next, and their results. Results come back in
+// any order, and are folded in the order of the cases.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace contort {
 struct RoundCase {
   Lineage lineage;
   std::optional<EvaluateReport> report{};
-  std::optional<Case> ended_once{};  // how it ended its process the first time, and not the second
-  bool ends_process = false;         // both times
-  Family ends{};                     // then how, where the base is asked whether it ends as well
+  std::optional<Case> ended_once{};  // how it ended its process the first time, if it did not the second time
+  bool ends_process = false;         // it ended its process both times
+  Family ends{};                     // the way in which it ended its process, if the base must run it too
 };
 
 class Round {
@@ -24,15 +24,14 @@ class Round {
   explicit Round(bool asks_base = false) : asks_base_(asks_base) {}
   void add(const Lineage& lineage);
 
-  // The next case for a worker, by its place; what is to be tried again goes first.
+  // The next case for a worker, by its place; cases that are to be tried again go first.
   std::optional<int> next();
   EvaluateTask task(int place) const;
 
   void take_report(int place, EvaluateReport report);
 
-  // A task that ended its process is tried again, as it may have been ended from outside: by people, or for want of
-  // memory.
-  // `is_known`: this failure was met before, and needs no second witness.
+  // A task that ended its process is tried again, because the process may have been ended from outside: by a person, or
+  // for lack of memory. `is_known`: this failure occurred before, and needs no second run.
   void take_ending(int place, const Case& ended, bool is_known);
 
   int size() const { return static_cast<int>(cases_.size()); }

@@ -1,10 +1,9 @@
 // A fuzzing run: draw, evaluate, confirm, shrink, store.
 //
-// Cases run in rounds of kRound, in processes of their own (worker_pool.h): what crashes, hangs or eats memory there is
-// a finding. A round is folded in the order of its cases; failures of families that are new are settled: run again,
-// shrunk and stored. So a run of N cases leaves the same corpus, byte for byte, for any number of workers, and one that
-// was killed and resumed the same as one that was not. Shards leave leads; merging all of them files these
-// (corpus/merge.h).
+// Cases run in rounds of kRound, in worker processes (worker_pool.h): a crash, a hang or too much memory there is a
+// finding. A round is folded in the order of its cases. Failures of new families are run again, shrunk and stored. So a
+// run of N cases leaves the same corpus, byte for byte, for any number of workers, and whether or not it was killed and
+// resumed. Shards leave leads; merging all shards files them in buckets (corpus/merge.h).
 #pragma once
 
 #include <cstdint>
@@ -27,21 +26,21 @@ namespace contort {
 
 struct RunConfig {
   DrawConfig draw;
-  std::vector<Spec> seeds;     // the first cases, as they are; all others are drawn
+  std::vector<Spec> seeds;     // run first and unchanged; all other cases are drawn
   std::int64_t seed = 1;       // [0, 2^53]
-  std::int64_t cases = 2000;   // stop after so many, seeds too, of all shards together; < 0: no limit
-  double time_s = 0.0;         // stop after so long; 0: no limit
+  std::int64_t cases = 2000;   // stop after this number, including seeds, of all shards together; < 0: no limit
+  double time_s = 0.0;         // stop after this time; 0: no limit
   int jobs = 1;                // worker processes, >= 1
   Shard shard;
   int shrinks_per_family = 2;  // failures of one family that are shrunk; later ones are only counted
-  int shrinks_per_case = 4;    // families of one case that may be, the earliest; the others are only counted
-  bool resume = false;         // go on where a run of the same options was killed
+  int shrinks_per_case = 4;    // families of one case that are shrunk, the earliest first; the others are only counted
+  bool resume = false;         // continue a run with the same options that was stopped
   WorkerLimits limits;         // of one case
   ShrinkConfig shrink;
-  double shrink_time_s = 0.0;  // stop each shrink after so long; 0: no limit
+  double shrink_time_s = 0.0;  // stop each shrink after this time; 0: no limit
   CheckSettings checks;
-  std::optional<AgainstConfig> against;  // only failures that this build does not show count
-  std::string surroundings;  // what all cases depend on, as an id: another one is another run
+  std::optional<AgainstConfig> against;  // only failures that the base does not show count
+  std::string surroundings;  // id of everything that all cases depend on; another id is another run
   std::string tool;      // version, for provenance
   std::string generator{};        // name of the program under test, for provenance; "": the built-in generator
   std::string generator_build{};  // its build
@@ -74,12 +73,12 @@ struct RunResult {
   double elapsed_s = 0.0;
   std::vector<WaiverUse> waivers;          // of the settings: findings that each one hid
   std::vector<std::string> new_buckets;    // folders
-  std::vector<std::string> known_buckets;  // folders that were there before this run
-  std::vector<std::string> unconfirmed;    // leads whose second run differed: nondeterminism, ours to explain
-  std::vector<std::string> waiting;        // leads that time did not reach: the next run here shrinks them
-  int unsettled = 0;                       // failures of an interrupted run, with which `resume` goes on
+  std::vector<std::string> known_buckets;  // folders that existed before this run
+  std::vector<std::string> unconfirmed;    // leads whose second run differed
+  std::vector<std::string> waiting;        // leads that were not shrunk in time; the next run here shrinks them
+  int unsettled = 0;                       // failures of an interrupted run, with which `resume` continues
   bool interrupted = false;                // stopped by `stop`
-  Issue issue;                             // the corpus could not be written; code "" where all went well
+  Issue issue;                             // the corpus could not be written; code "" if there was no error
 };
 
 // "seed_7_0123abcd". Another seed, profile or generator, other characters, seeds or limits are another run.
@@ -91,9 +90,9 @@ Provenance provenance_in(const RunConfig& config, std::int64_t index);
 // A case of the run, by its ancestry.
 Spec spec_of(const RunConfig& config, Generator& generator, const Lineage& lineage);
 
-// `progress` is called now and then. `stop` is asked often; when it answers true the run ends early and keeps what it
-// found. `failing`, if there is one, hears of each failing case in the order of indices; after a resume, of some again.
-// The caller must have no other threads.
+// `progress` is called now and then. `stop` is called often; when it returns true, the run ends early and keeps its
+// findings. `failing`, if given, is called with each failing case in the order of indices; after a resume, with some of
+// them again. The caller must have no other threads.
 RunResult run_fuzz(const RunConfig& config, Generator& generator, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
                    const std::function<void(const FailingCase&)>& failing = {});

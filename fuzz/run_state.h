@@ -1,5 +1,5 @@
-// All that a run knows, so that one that was killed can go on: DIR/runs/<record>.state, written between rounds now and
-// then and removed at the end. What was done since is done again, with the same result.
+// The state of a run, with which a killed run can continue: DIR/runs/<record>.state, written between some rounds and
+// removed at the end. Work since the last write is repeated, with the same result.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@
 namespace contort {
 
 struct RunState {
-  std::string plan;       // what the run was asked for; another plan is another run
+  std::string plan;       // the options of the run; other options are another run
   std::int64_t next = 0;  // first case of the next round
   RunRecord record;
   std::vector<Island> islands = std::vector<Island>(kIslands);
   std::vector<Ingredients> ingredients = std::vector<Ingredients>(kIslands);
-  std::vector<SettleTask> wanted;          // failures that are not settled yet
+  std::vector<SettleTask> wanted;          // failures that are not processed yet
   std::vector<std::string> new_buckets;    // names of folders
   std::vector<std::string> known_buckets;  // names of folders
   std::vector<std::string> unconfirmed;    // paths of leads, in the corpus

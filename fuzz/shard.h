@@ -24,7 +24,7 @@ Result<Shard> parse_shard(const std::string& text);
 // The shard that a scheduler names, the first of: GoogleTest (GTEST_SHARD_INDEX, GTEST_TOTAL_SHARDS), Bazel
 // (TEST_SHARD_INDEX, TEST_TOTAL_SHARDS), Slurm arrays (SLURM_ARRAY_TASK_ID, _MIN, _STEP, _COUNT), Kubernetes indexed
 // jobs (JOB_COMPLETION_INDEX, with CONTORT_SHARDS for the total, which Kubernetes does not tell), GitLab and others
-// that count from 1 (CI_NODE_INDEX, CI_NODE_TOTAL). Nothing where none speaks. Codes shard.environment, shard.range.
+// that count from 1 (CI_NODE_INDEX, CI_NODE_TOTAL). Empty if no variable is set. Codes shard.environment, shard.range.
 using Variables = std::function<const char*(const char* name)>;
 Result<std::optional<Shard>> shard_of_environment(const Variables& value_of);
 

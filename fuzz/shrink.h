@@ -18,43 +18,44 @@
 
 namespace contort {
 
-// A shrink on the way to the precursor (precursor.h). What has one is neither explained nor climbed.
+// Options of a shrink on the way to the precursor (precursor.h). If the result has a precursor, free fields and the
+// worst case are not computed for it.
 struct PrimarySearch {
-  std::optional<Spec> begin_with;  // tried first: what another failure of the same case was shrunk to
-  std::set<Family> left;           // it came by these; none of them is the precursor again
+  std::optional<Spec> begin_with;  // tried first: the minimal spec of another failure of the same case
+  std::set<Family> left;           // families that were shrunk before; none of them is the precursor again
 };
 
 struct ShrinkConfig {
   int max_evaluations = 2000;  // of all stages together
-  // A candidate must stay at least this deep, as a share of the original depth: without a floor, shrinking ends at
-  // violations by a hair, which look like noise.
+  // A candidate must stay at least this deep, as a fraction of the original depth. Without a floor, shrinking ends at
+  // tiny violations, which look like noise.
   double depth_floor = 0.5;
-  CheckSettings checks;  // those that found the failure
+  CheckSettings checks;  // the settings with which the failure was found
   Isolation isolation;   // for cases that end their process
-  BaseBuild* base = nullptr;   // candidates must count against this build, by `rules`; null: candidates are not compared
+  BaseBuild* base = nullptr;   // candidates must count against this build by `rules`; null: no comparison
   CompareRules rules;
   bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
   BeforeRun before_run;  // may be empty
   std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty
-  std::optional<PrimarySearch> search;              // the caller goes on with the precursor
+  std::optional<PrimarySearch> search;              // the caller continues with the precursor
   std::function<bool()> out_of_time;         // asked before every evaluation; may be empty. Makes results differ.
 };
 
 struct Shrunk {
   Case original;  // as it was confirmed
   Case minimal;
-  Case worst;                     // what minimal needs, with numbers that make it as deep as was found
-  std::vector<Case> met;          // other families, which the original does not show: the cheapest spec seen of each
+  Case worst;                     // the structure of minimal, with the numbers that made it deepest
+  std::vector<Case> met;          // for each family that the original does not show, the cheapest spec seen
   std::optional<Case> precursor;  // of minimal (precursor.h), as the original shows it, or else as minimal does
   std::string stopped;            // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
   int evaluations = 0;            // motions generated
 };
 
-// Keeps check, subject and character of `original`. A case that ends its process (isolate.h) is run in others: then the
-// caller has one thread only. So is a guarded one.
+// Keeps check, subject and character of `original`. A case that ends its process (isolate.h), or a guarded one, runs in
+// other processes; then the caller must have only one thread.
 Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config);
 
-// The same by any way of running specs. The generator says what parameters of actions may be.
+// The same with any way of running specs. The generator knows the limits of parameters.
 Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config);
 
 }  // namespace contort

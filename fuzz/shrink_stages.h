@@ -6,26 +6,28 @@ namespace contort {
 
 class ShrinkState;
 
-// Only what moved in the worst frame a part that the subject names, else only what moved then, else only what had
-// begun.
+// Keeps only the actions that moved a part of the subject in the worst frame; else those that moved then; else those
+// that had begun.
 void cut_time(ShrinkState& state);
 
-// Everything around the actions as it is by default, in one step: parts, surroundings, dynamics.
+// Sets everything around the actions to its default in one step: parts, surroundings, dynamics.
 void try_stock(ShrinkState& state);
 
 // Delta debugging over sequences, clips, actions and so on, from coarse to fine.
 void remove_structure(ShrinkState& state);
 
-// Lets interrupts take their turn in the queue, alone or last: most failures do not ask how their motion began.
+// Moves an interrupt's sequence into the queue, alone or last, because most failures do not depend on how their motion
+// began.
 void queue_interrupts(ShrinkState& state);
 
 // Delta debugging over all fields that are not at their defaults.
 void reset_fields(ShrinkState& state);
 
-// Towards their defaults, by bisection over values of two digits.
+// Moves numbers towards their defaults, by bisection over values of two digits.
 void lower_numbers(ShrinkState& state);
 
-// Tries edits that only work together: two fields, two actions, two clips made one. Ends with the first that holds.
+// Tries edits that only work together: two fields, two actions, two clips made one. Ends with the first edit that keeps
+// the failure.
 void try_pairs(ShrinkState& state);
 
 }  // namespace contort

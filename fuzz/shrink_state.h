@@ -1,4 +1,4 @@
-// The smallest spec so far and what was tried, for the stages of shrinking.
+// The smallest spec so far and the candidates that were tried, for the stages of shrinking.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ class ShrinkState {
  public:
   ShrinkState(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config);
 
-  // Runs the original twice. Only where it fails both times, in the same way, is there something to shrink.
+  // Runs the original twice. It can be shrunk only if it fails both times in the same way.
   bool confirm();
 
   // Makes the candidate the smallest one if it builds, fails in the family, and deeply enough.
@@ -23,23 +23,24 @@ class ShrinkState {
 
   bool allows(const Spec& candidate) const { return !config_.allowed || config_.allowed(candidate); }
 
-  // Whether it fails in the family, however deep. False once the budget is spent.
+  // Returns true if the spec fails in the family, at any depth; false once the budget is spent.
   bool fails(const Spec& candidate);
 
-  // Runs it, known or not; nothing once the budget is spent.
+  // Runs the spec even if its result is known; no result once the budget is spent.
   std::optional<TrialResult> run(const Spec& candidate);
 
-  // The other families that the smallest spec shows: one more motion, whatever the budget. None of an ending.
-  // Candidates are judged by the one check alone: by all of them, shrinking takes half as long again.
+  // The other families that the smallest spec shows, from one more motion regardless of the budget; none for a failure
+  // that ends its process. Candidates are judged by one check only, because judging them by all checks takes half as
+  // long again.
   std::vector<Case> others();
 
-  // Takes a case of a family that the original does not show: something new, to be handed back.
+  // Adds a case of a family that the original does not show.
   void meet(const Case& other);
 
-  // From here on motions may have this many frames, whatever the original has.
+  // From now on motions may have this many frames, even if the original has fewer.
   void allow_frames(int most_frames) { most_frames_ = most_frames; }
 
-  // The places of a spec that has the character of best().
+  // The fields of a spec that has the character of best().
   std::vector<SpecField> spec_fields(const Spec& spec) const;
 
   const Library& library() const { return *generator_.manifest().library; }
@@ -53,10 +54,10 @@ class ShrinkState {
   int evaluations() const { return evaluations_; }
   std::vector<Case> met() const;
 
-  // The original's other families, of those of the smallest spec, that are as deep as the family itself must stay.
+  // Other families that both the original and the smallest spec show, at least as deep as the family itself must stay.
   std::vector<Family> still_shown(const std::vector<Case>& others) const;
 
-  // One of these as the original shows it, or as it is where the original does not.
+  // Such a family as the original shows it, or else as the smallest spec does.
   Case before(const Case& other) const;
 
  private:
@@ -72,7 +73,7 @@ class ShrinkState {
   int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
   std::map<Family, Case> beside_;        // the original's other families
-  std::map<Family, Case> met_;           // none of the original's
+  std::map<Family, Case> met_;           // families that the original does not show
   std::string stopped_ = "fixpoint";
   int evaluations_ = 0;
 };

@@ -3,8 +3,8 @@
 // The cases of an island come in epochs of kEpochRounds rounds. All cases of an epoch share one setting: a character
 // with its parts and objects, the ground, walls, and how the motion is controlled. A single is one action in that
 // setting. A pair is made of two singles that were clean, so whatever it shows needs both. A crowd is made of three or
-// more of them, and never holds two that failed as a pair. So one defect is told once, by the smallest case that shows
-// it.
+// more of them, and never holds two that failed as a pair. So one defect is reported once, by the smallest case that
+// shows it.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostIngredients = 8;  // actions of a crowd
 
 enum class CaseStage { single, pair, crowd };
 
-// The stage that case `index` has where there are enough clean singles; a single where there are not.
+// The stage of case `index` if there are enough clean singles; otherwise it is a single.
 CaseStage planned_stage(std::int64_t index);
 // The stage that a case with these ingredients has.
 inline CaseStage stage_of(const Lineage& lineage) {
@@ -35,9 +35,9 @@ std::int64_t setting_of(std::int64_t index);
 struct Ingredients {
   using Pair = std::array<std::int64_t, 2>;
 
-  // The indices of the singles that case `index` is made of, ascending, with its own behind them.
+  // The indices of the singles that case `index` is made of, ascending, and then its own.
   Lineage lineage_of(std::int64_t seed, std::int64_t index) const;
-  // Takes in the result of a case. To be called in the order of cases.
+  // Records the result of a case. Must be called in the order of cases.
   void learn(const Lineage& lineage, bool is_clean);
 
   std::int64_t setting = -1;

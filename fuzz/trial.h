@@ -15,19 +15,20 @@
 namespace contort {
 
 struct TrialResult {
-  bool built = false;  // a spec that is refused costs nothing
+  bool built = false;  // false if the spec was refused before any motion was made
   bool fails = false;
-  int most_frames = 0;  // that the motion can have
-  double depth = 0.0;   // infinite where the margin is no number
+  int most_frames = 0;  // the greatest number of frames that the motion can have
+  double depth = 0.0;   // infinite if the margin is NaN
   Expectation expect;
-  std::shared_ptr<const Character> character;  // null where the generator runs in another process
-  std::vector<ActionSpan> spans;               // what moved, and when
+  std::shared_ptr<const Character> character;  // null if the generator runs in another process
+  std::vector<ActionSpan> spans;               // the actions that moved parts, and their frames
   std::vector<Case> met;                       // failures of other families that were seen at no further cost
-  BaseShows base = BaseShows::passes_check;    // of a failure that counts against a base
+  BaseShows base = BaseShows::passes_check;    // the base's result, for a failure that counts against it
   std::string base_hash{};                     // of the base's motion
 };
 
-// Told each spec in the process that runs it, before it does: what it notes may be its last words.
+// Called with each spec, in the process that runs the spec and before it runs. If the process ends, the notes of this
+// call are the last ones.
 using BeforeRun = std::function<void(const Spec&)>;
 
 class Trial {
@@ -39,7 +40,7 @@ class Trial {
   virtual std::vector<Case> others(const Spec& spec) = 0;
 };
 
-// For a failure that a check found: that check alone is measured.
+// Runs specs for a failure that a check found. Only this check is measured.
 class CheckTrial final : public Trial {
  public:
   CheckTrial(const Expectation& family, Generator& generator, const CheckSettings& settings, BeforeRun before = {});
@@ -54,8 +55,8 @@ class CheckTrial final : public Trial {
   BeforeRun before_;
 };
 
-// For failures of which a candidate may end the process that runs it: each is first run in another one. What ends that
-// is met as a failure of its own; all else is as the inner trial shows it.
+// Runs specs for failures whose candidates may end their process: each candidate first runs in another process. If it
+// ends that process, it is listed as a failure of its own; otherwise the result is that of the inner trial.
 class GuardedTrial final : public Trial {
  public:
   GuardedTrial(Trial& inner, const Isolation& isolation);
@@ -69,8 +70,8 @@ class GuardedTrial final : public Trial {
   Isolation isolation_;
 };
 
-// For a crash, a timeout or memory: each candidate runs in a process of its own, up to ten times as long as the first
-// did and five seconds at least. `work` is all that is done with a spec.
+// Runs specs for a crash, a timeout or a memory failure: each candidate runs in a process of its own, for ten times as
+// long as the first one took and at least five seconds. `work` does everything that is done with a spec.
 class EndingTrial final : public Trial {
  public:
   EndingTrial(const Expectation& family, std::function<void(const Spec&)> work, const Isolation& isolation);

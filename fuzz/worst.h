@@ -1,5 +1,5 @@
-// The deepest failure that a minimal spec's structure can show: what people look at, where the minimal one is what they
-// read.
+// Finds the deepest failure that a minimal spec's structure can show. People read the minimal case, and look at this
+// one.
 #pragma once
 
 #include "corpus/case.h"
@@ -8,8 +8,8 @@ namespace contort {
 
 class ShrinkState;
 
-// Climbs the depth over the numbers that survived, one at a time, by half of the way to an end of its range and then by
-// less; 100 evaluations at most.
+// Makes the failure deeper by changing the numbers that are left, one at a time: first by half of the way to an end of
+// its range, then by less. At most 100 evaluations.
 Case worst_of(ShrinkState& state);
 
 }  // namespace contort

@@ -1,4 +1,4 @@
-// Frames of a generator that is a program of its own as a motion.
+// Converts the frames of a generator that is a program of its own to a motion.
 #pragma once
 
 #include <span>
@@ -15,16 +15,16 @@ namespace contort {
 // The layout of a character's frames.
 struct FrameLayout {
   const Character& character;
-  std::span<const int> joints;  // of ours, in the order of the manifest
+  std::span<const int> joints;  // our joints, in the order of the manifest
   Basis basis;
   FrameFormat format = FrameFormat::f64;
 };
 
 std::size_t bytes_of(const FrameLayout& layout, int frames);
 
-// Overwrites coordinates, root, and number of frames. The bytes are as many as bytes_of() says. A ball takes the whole
-// rotation. A hinge takes the part about its axis, and what is left of the rotation goes into the facts. A quaternion
-// of length 0 stands for no rotation against rest. NaN stays NaN.
+// Overwrites coordinates, root, and number of frames. There must be bytes_of() bytes. A ball takes the whole rotation.
+// A hinge takes the part about its axis, and the rest of the rotation goes into the facts. A quaternion of length 0
+// stands for no rotation relative to rest. NaN stays NaN.
 void read_frames(std::string_view bytes, const FrameLayout& layout, int frames, Motion& motion, ForeignFacts& facts);
 
 // Sets a joint to a rotation against its parent. What a hinge cannot take of it is added to off_axis_rad.

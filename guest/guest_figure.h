@@ -1,4 +1,4 @@
-// The characters of a generator's manifest as descriptions of ours.
+// Converts the characters of a generator's manifest to our descriptions.
 #pragma once
 
 #include "guest/manifest.h"
@@ -7,25 +7,26 @@
 
 namespace contort {
 
-// A library of the manifest's characters alone. A slot of joints is a part of its own; each of the names in `parts` is
-// one with the same joints. Figures without colliders are drawn as thin bones.
-// Colliders that overlap at rest always do, as joints that are not neighbours may still be near each other. They are
-// allowed to touch, for this reason.
+// The reason for which colliders that overlap at rest may touch: they always do, as joints that are not neighbours may
+// still be near each other.
 inline constexpr std::string_view kOverlapAtRest = "They overlap at rest.";
+
+// A library that has only the manifest's characters. Each slot is a part of its own, and each of the names in `parts`
+// is a part with the same joints. Figures without colliders are drawn as thin bones.
 Library library_of(const GuestManifest& manifest);
 
 // The names of a character's joints in our library: legal, unique within their slot, and without it, in the manifest's
 // order.
 std::vector<std::string> joint_names(const GuestCharacter& character);
 
-// For each joint of the manifest's character our joint; the root is 0.
+// Our joint for each joint of the manifest's character; the root is 0.
 std::vector<int> joints_of(const GuestCharacter& from, const Character& character);
 
-// The name of a slot's part in our library, and back: "" where our part is the slot's first.
+// Converts the name of a slot's part to the name in our library, and back: "" if our part is the slot's first.
 std::string part_name(const GuestCharacter& character, const std::string& slot, std::size_t index);
 std::string part_asked_for(const GuestCharacter& character, const std::string& slot, const std::string& part);
 
-// The root at rest as the manifest has it, in our world.
+// The root's rest pose of the manifest, in our world.
 Rigid root_at_rest(const GuestManifest& manifest, std::string_view character);
 
 const GuestCharacter* find_character(const GuestManifest& manifest, std::string_view name);

@@ -1,6 +1,5 @@
-// A generator that is a program of its own, behind the interface that everything else knows. It has the characters and
-// actions of its manifest, plays the uses of a spec on one time line, and has no interrupts, grounds, obstacles,
-// dynamics, or speeds.
+// A program of its own, used through the common Generator interface. It has the characters and actions of its manifest,
+// plays the uses of a spec on one time line, and has no interrupts, grounds, obstacles, dynamics, or speeds.
 #pragma once
 
 #include <map>
@@ -15,7 +14,7 @@
 
 namespace contort {
 
-// A manifest and all that follows from it, shared by the generators that speak to programs of one command. Immutable.
+// A manifest and everything derived from it, shared by all generators that start the same command. Immutable.
 struct GuestDescription {
   std::string command;
   GuestLimits limits;
@@ -36,7 +35,7 @@ class GuestGenerator final : public Generator {
   const Manifest& manifest() const override { return description_->manifest; }
   const Offers& offers(const Character& character) override;
   Result<Admission> admit(const Spec& spec) override;  // codes of admit_request and build_character
-  // Throws ProgramEnded where the program ends or breaks the protocol. Code guest.refused where it refuses.
+  // Throws ProgramEnded if the program ends or breaks the protocol. Code guest.refused if it refuses.
   Result<Done> run(const Spec& spec, Execution& execution) override;
   std::unique_ptr<Generator> another() const override;
   // Code generator.own_library: the program brings its characters along.

@@ -1,5 +1,5 @@
-// The manifest of a generator that is a program of its own, as it says it: contort.generator/1, docs/guests.md. Plain
-// values; positions, axes and rotations are in the generator's own convention.
+// The manifest that a generator sends which is a program of its own (contort.generator/1, docs/guests.md), as plain
+// values. Positions, axes and rotations are in the generator's own convention.
 #pragma once
 
 #include <array>
@@ -150,7 +150,7 @@ struct GuestManifest {
 
 inline constexpr std::string_view kRelations[] = {"history", "rate", "gain", "mirror"};
 
-// Checks the text, the limits of each field, and that names refer to what there is. Codes json.* and generator.*.
+// Checks the text, the limits of each field, and that names refer to existing items. Codes json.* and generator.*.
 Result<GuestManifest> parse_manifest(std::string_view json);
 std::string print_manifest(const GuestManifest& manifest);  // one line
 std::string manifest_schema();

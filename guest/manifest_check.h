@@ -5,7 +5,7 @@
 
 namespace contort {
 
-// Names are unique and refer to what there is, ranges are not empty, axes and rotations have length 1. Codes
+// Names are unique and refer to existing items, ranges are not empty, axes and rotations have length 1. Codes
 // generator.no_character, .no_action, .duplicate_name, .bad_root, .unknown_joint, .unknown_slot, .unknown_param,
 // .split_slot, .bad_axis, .bad_rotation, .bad_range, .bad_convention, .bad_choice, .bad_relation, with pointers.
 Result<Done> check_manifest(const GuestManifest& manifest);

@@ -1,4 +1,4 @@
-// A spec as a request to a generator that is a program of its own.
+// Converts a spec to a request to a generator that is a program of its own.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ int frames_of(const Spec& spec);
 // True if a parameter may have the value.
 bool allows(const ParamDef& def, const ParamValue& value);
 
-// Refuses what the generator does not offer. Codes guest.unsupported, .unknown_action, .unknown_param, .bad_param,
-// .bad_duration, .too_long, with pointers into the spec.
+// Refuses specs that the generator does not offer. Codes guest.unsupported, .unknown_action, .unknown_param,
+// .bad_param, .bad_duration, .too_long, with pointers into the spec.
 Result<Done> admit_request(const Spec& spec, const Character& character, const Offers& offers);
 
 struct GuestRequest {

@@ -34,9 +34,9 @@ struct Polyhedron {
   bool operator==(const Polyhedron&) const = default;
 };
 
-// Returns the hull of the points. Points within a face or an edge, or inside, are no corners. It has no faces if the
-// points span no solid: fewer than four, in one plane, or so nearly in one plane that doubles cannot tell. At most
-// kMaxHullPoints points.
+// Returns the hull of the points. Points inside of the solid, of a face or of an edge are not corners. It has no faces
+// if the points span no solid: fewer than four, in one plane, or so nearly in one plane that doubles cannot tell. At
+// most kMaxHullPoints points.
 Polyhedron convex_polyhedron(std::span<const Vec3> points_m);
 
 // Returns the reason why the points cannot be a ConvexHull; "" if they can.
