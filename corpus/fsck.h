@@ -13,7 +13,7 @@ namespace contort {
 struct CorpusFault {
   std::string path;    // below the corpus' folder
   std::string code;    // temporary, missing_case, wrong_name, wrong_folder, unknown_file, unreadable, bad_name, outside
-  std::string text;    // what is wrong
+  std::string text;    // the fault, in words
   std::string mended;  // the repair; "" if there was none
   bool operator==(const CorpusFault&) const = default;
 };

@@ -15,7 +15,7 @@ enum class Verdict {
   same,         // equal motion, bit by bit, and the expected finding in it
   same_family,  // the motion differs, but it still fails in the same way
   different,    // it fails, but in another way
-  passes,       // nothing is found any more
+  passes,       // no finding any more
   refused,      // the spec no longer builds
 };
 std::string_view verdict_name(Verdict verdict);

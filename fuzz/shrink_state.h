@@ -70,7 +70,7 @@ class ShrinkState {
   TrialResult shown_;
   double least_depth_ = 0.0;
   BaseShows most_ = BaseShows::milder;   // a candidate must not be less clear a regression than the smallest spec
-  int most_frames_ = kMaxFrames;         // nothing smaller takes longer than the original
+  int most_frames_ = kMaxFrames;         // a smaller spec must not take longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
   std::map<Family, Case> beside_;        // the original's other families
   std::map<Family, Case> met_;           // families that the original does not show

@@ -19,7 +19,7 @@ namespace contort {
 // The whole figure on its layers. Parts are moved one by one, so carriers are in this frame while what they carry still
 // is in the frame before.
 struct LayerPostures {
-  Posture base;            // what the overwrite layer has made
+  Posture base;            // the result of the overwrite layer
   Posture plain;           // with ik, without additives
   Posture shown;           // with all layers
   Posture from_overwrite;  // where the actions that have the layers took over
@@ -51,7 +51,7 @@ struct GenerateScratch {
   JointPath path;                  // of the joints that are shown
   std::vector<char> behind;        // by part: a joint is still on its way to where it is wanted
   Clearance clearance;
-  Past past;                       // what was shown
+  Past past;                       // the earlier frames
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been

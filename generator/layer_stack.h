@@ -44,7 +44,7 @@ class LayerStack {
  public:
   // The steps of a frame, in this order.
   struct Change {
-    bool settles = false;           // what ik showed becomes the base, and an overwrite beneath goes on from there
+    bool settles = false;           // the ik pose becomes the base, and an overwrite action beneath continues from it
     bool overwrite_begins = false;  // from the base
     bool ik_begins = false;         // from the base, or,
     bool ik_follows = false;        // where ik had the layer already, from what was shown

@@ -55,7 +55,7 @@ struct OfferedAction {
   std::vector<int> moves;          // parts, this one first
   std::vector<EventSource> tells;  // in the order of parts
   int file = -1;                   // index into the actions of the manifest's library; -1: the generator's own
-  std::optional<FrameRange> duration{};  // nothing: the profile of the search decides
+  std::optional<FrameRange> duration{};  // empty: the profile of the search decides
   std::optional<FrameRange> blend_in{};
   std::optional<FrameRange> blend_out{};
   bool operator==(const OfferedAction&) const = default;

@@ -11,8 +11,8 @@ namespace contort {
 
 struct Isolation {
   int seconds = 10;                                     // >= 1, of time as people know it
-  std::int64_t resident_bytes = std::int64_t{4} << 30;  // what the caller has itself counts too
-  bool silent = false;                                  // what it prints on stderr goes nowhere
+  std::int64_t resident_bytes = std::int64_t{4} << 30;  // includes the memory of the caller itself
+  bool silent = false;                                  // its output on stderr is dropped
 };
 
 inline constexpr std::size_t kMostPrinted = 4000;

@@ -66,7 +66,7 @@ class WorkerPool {
 
   // Throws std::system_error where the system gives no more processes.
   WorkerPool(int workers, const WorkerLimits& limits, Work work);
-  ~WorkerPool();  // what still runs is killed
+  ~WorkerPool();  // kills workers that still run
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 

@@ -44,7 +44,7 @@ struct ReportRow {
   std::string needs;      // of the minimal spec, in words (renders/needs.h)
   std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
-  std::string since_base; // what another build shows for the same spec (docs/against.md); "" without a comparison
+  std::string since_base;  // result of the base for the same spec (docs/against.md); "" without a comparison
   std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // the knowledge of people: "ana, ticket 12"
   std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known

@@ -22,7 +22,7 @@ struct Story {
   const Finding* finding = nullptr;          // highlighted
   const Motion* ghost = nullptr;             // instead of the response's target
   const Environment* environment = nullptr;  // null: a level plane at height 0
-  const DynamicsDesc* dynamics = nullptr;    // whose loads are drawn; null: none
+  const DynamicsDesc* dynamics = nullptr;    // source of the loads that are drawn; null: no loads
   bool colliders = false;                    // as wires around the figure
   const Skin* skin = nullptr;                // of this character; null: its parts' meshes are drawn
 };

@@ -61,7 +61,7 @@ class SessionState {
   // The next take is made before the clock needs it. It continues one revision; an edit makes it useless.
   bool needs_next(Time now) const;  // The end is near, and nobody has tried to make it.
   bool has_tried_next() const { return next_for_ == revision_; }
-  void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // nothing: it cannot be made
+  void set_next(std::optional<PlayedTake> take, std::int64_t revision);  // empty: it cannot be made
   // Begins the next take. If there is none, the clock stops in the last frame; playing again tries again to make it.
   void roll(Time now);
 

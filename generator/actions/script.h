@@ -43,7 +43,7 @@ struct ScriptPlan {
   std::vector<Value> reads;  // parameters that it does not set
   std::vector<Value> sets;
   int row_size = 0;
-  bool adds = false;  // what it sets is added to what is there
+  bool adds = false;  // its values are added to the joints' present values
 };
 
 // The rest of what a script may look at, beside parameters.

@@ -31,7 +31,7 @@ struct Sole {
   double tilt_N_m = 1e9;            // and about its Z, which bear what is beside
   std::array<Vec3, 4> corners_m{};  // of the footprint, in the link's frame, counter-clockwise seen from above
   std::vector<int> ankle_dofs;      // between the leg's tip and the sole
-  std::vector<int> leg_dofs;        // those of the leg and the foot, from the hip on
+  std::vector<int> leg_dofs;        // degrees of freedom of leg and foot, from the hip on
   std::vector<int> chain_dofs;      // all that move it but the root's, from the sole upwards
 };
 

@@ -29,7 +29,7 @@ struct LedSole {
 struct SupportRows {
   int count = 0;                        // rows
   std::vector<double> columns;          // dof_count x count: J transposed
-  std::vector<int> dofs;                // whose columns are not 0, rising
+  std::vector<int> dofs;                // the columns that are not 0, ascending
   std::vector<double> wanted;           // count
   std::vector<double> scratch;          // of the solver
   std::vector<double> project_factors;  // of J E J^T, E: ease

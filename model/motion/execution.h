@@ -17,14 +17,14 @@ namespace contort {
 enum class RootPath : std::uint8_t {
   told,         // all of it
   on_the_spot,  // only its height; the figure walks on the spot, as in clips that an engine moves
-  unknown,      // nothing: it stays where it is at rest
+  unknown,      // the file has no path: the root stays at its rest place
 };
 
 struct Execution {
   std::shared_ptr<const Character> character;  // never null once there is a motion
   Environment environment;                     // level ground at height 0 where nobody says another
   Motion motion;
-  std::optional<Intent> intent;  // nothing where the generator does not say what it meant
+  std::optional<Intent> intent;  // empty if the generator gives no intent
   RootPath path = RootPath::told;
   std::optional<ForeignFacts> foreign{};  // of a generator that is a program of its own
 

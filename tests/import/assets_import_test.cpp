@@ -34,7 +34,7 @@ struct ImportedModel {
   Imported in;
 };
 
-// Those that can be imported; the others must say why.
+// Imports all models that can be imported; the others must say why not.
 std::map<std::string, ImportedModel> import_all() {
   std::map<std::string, ImportedModel> out;
   for (const std::string& path : models()) {

@@ -1,4 +1,4 @@
-// Which contacts are proposed as no faults of a character: those that hardly any posture is without.
+// Contacts that nearly every posture has are proposed as no faults of a character.
 #include "import/contacts.h"
 
 #include "tests/checks/small_character.h"

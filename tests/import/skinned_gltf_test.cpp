@@ -78,7 +78,7 @@ TEST(SkinnedGltf, LiesAreRefusedByName) {
   EXPECT_EQ(code_of(compressed), "gltf.unsupported");
 }
 
-// Whoever asks for nodes and clips only does not look at meshes.
+// A reader that asks for nodes and clips only does not look at meshes.
 TEST(SkinnedGltf, BadMeshesHinderNobodyElse) {
   GlbBuilder b = rigged(worm(2));
   attributes(b)["POSITION"] = 9999;
