@@ -37,7 +37,7 @@ std::string named(const std::string& program) {
 
 }  // namespace
 
-std::string program_name(const Manifest& manifest) { return manifest.build.empty() ? "" : manifest.name; }
+std::string program_name(const Manifest& manifest) { return is_own_program(manifest) ? manifest.name : ""; }
 
 Result<Done> check_generator(const Case& stored, const Manifest& manifest) {
   const std::string& found_with = stored.provenance.generator;

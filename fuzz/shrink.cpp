@@ -94,7 +94,7 @@ Shrunk shrink_against(Trial& trial, const Case& original, Generator& generator, 
 Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config) {
   if (!is_abnormal_exit(original.expect)) {
     CheckTrial trial(original.expect, generator, config.checks, config.before_run);
-    GuardedTrial guarded(trial, config.isolation);
+    GuardedTrial guarded(trial, config.isolation, is_own_program(generator.manifest()));
     return shrink_against(config.guarded ? static_cast<Trial&>(guarded) : trial, original, generator, config);
   }
   const auto work = [&](const Spec& spec) {

@@ -6,6 +6,7 @@
 
 #include "corpus/ending_case.h"
 #include "process/clock.h"
+#include "process/ended.h"
 
 namespace contort {
 
@@ -56,7 +57,8 @@ std::vector<Case> CheckTrial::others_among(const Spec& spec, const Evaluation& e
   return cases;
 }
 
-GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation) : inner_(inner), isolation_(isolation) {
+GuardedTrial::GuardedTrial(Trial& inner, const Isolation& isolation, bool is_own_program)
+    : inner_(inner), isolation_(isolation), is_own_program_(is_own_program) {
   isolation_.silent = true;
 }
 
@@ -67,7 +69,20 @@ std::optional<Case> GuardedTrial::ended(const Spec& spec, const std::function<vo
   return ending_case(spec, *ending, isolation_);
 }
 
+// The program goes on from one candidate to the next: in another process of ours each would start a program anew.
+TrialResult GuardedTrial::run_here(const Spec& spec, int most_frames) {
+  try {
+    return inner_.run(spec, most_frames);
+  } catch (const ProgramEnded& program) {
+    TrialResult shown;
+    shown.built = true;
+    shown.met.push_back(ending_case(spec, program.ending(), isolation_));
+    return shown;
+  }
+}
+
 TrialResult GuardedTrial::run(const Spec& spec, int most_frames) {
+  if (is_own_program_) return run_here(spec, most_frames);
   std::optional<Case> met = ended(spec, [&] { inner_.run(spec, most_frames); });
   if (!met) return inner_.run(spec, most_frames);
   TrialResult shown;
@@ -77,6 +92,11 @@ TrialResult GuardedTrial::run(const Spec& spec, int most_frames) {
 }
 
 std::vector<Case> GuardedTrial::others(const Spec& spec) {
+  if (is_own_program_) try {
+      return inner_.others(spec);
+    } catch (const ProgramEnded& program) {
+      return {ending_case(spec, program.ending(), isolation_)};
+    }
   if (std::optional<Case> met = ended(spec, [&] { inner_.others(spec); })) return {std::move(*met)};
   return inner_.others(spec);
 }

@@ -56,18 +56,21 @@ class CheckTrial final : public Trial {
 };
 
 // Runs specs for failures whose candidates may end their process: each candidate first runs in another process. If it
-// ends that process, it is listed as a failure of its own; otherwise the result is that of the inner trial.
+// ends that process, it is listed as a failure of its own; otherwise the result is that of the inner trial. If the
+// generator is a program of its own, only that program can end, and no other process is needed.
 class GuardedTrial final : public Trial {
  public:
-  GuardedTrial(Trial& inner, const Isolation& isolation);
+  GuardedTrial(Trial& inner, const Isolation& isolation, bool is_own_program = false);
   TrialResult run(const Spec& spec, int most_frames) override;
   std::vector<Case> others(const Spec& spec) override;
 
  private:
   std::optional<Case> ended(const Spec& spec, const std::function<void()>& work) const;
+  TrialResult run_here(const Spec& spec, int most_frames);
 
   Trial& inner_;
   Isolation isolation_;
+  bool is_own_program_;
 };
 
 // Runs specs for a crash, a timeout or a memory failure: each candidate runs in a process of its own, for ten times as

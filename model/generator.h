@@ -83,6 +83,9 @@ struct Manifest {
   Capabilities can{};
 };
 
+// True if motions are made by a program of its own, which may end without ending ours.
+inline bool is_own_program(const Manifest& manifest) { return !manifest.build.empty(); }
+
 struct Admission {
   int most_frames = 1;  // >= 1; the motion may be shorter, as where an interrupt never fires
 };

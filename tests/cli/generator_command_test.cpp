@@ -113,6 +113,20 @@ TEST_F(ProgramUnderTest, IsReplayedReportedAndRefusedForAnotherOne) {
   EXPECT_NE(built_in.err.find("replay.other_generator"), std::string::npos) << built_in.err;
 }
 
+TEST_F(ProgramUnderTest, GoesOnFromOneCandidateOfAShrinkToTheNext) {
+  EXPECT_EQ(fuzz("lying_speed", {"--cases", "20"}).code, 1);
+  std::string found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus() + "/buckets"))
+    if (entry.path().filename().string().starts_with("orig-")) found = entry.path().string();
+  ASSERT_FALSE(found.empty());
+  const std::string starts = folder_ / "starts";
+  const std::string counting = "echo >>" + starts + "; exec " + script("lying_speed");
+  const Ran ran = contort_program({"shrink", found, "--generator", counting, "-o", folder_ / "small.json", "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+  EXPECT_GT(Json::parse(ran.out)["evaluations"], 20) << ran.out;
+  EXPECT_LE(slurp(starts).size(), 6U) << "a start of the program is a line";
+}
+
 TEST_F(ProgramUnderTest, IsComparedWithAnother) {
   const Ran broke = fuzz("nan", {"--against", script("good"), "--cases", "100"});
   EXPECT_EQ(broke.code, 1) << broke.out << broke.err;
