@@ -105,11 +105,26 @@ void ContactSolver::add_touch(const TouchedPoint& touch) {
 }
 
 void ContactSolver::add_stop(int dof, double sense, double least_speed) {
+  add_stop_row({.least_speed = least_speed, .stop_dof = dof, .stop_sense = Vec3(sense, 0.0, 0.0)});
+}
+
+void ContactSolver::add_ball_stop(int dof, const Vec3& sense, double least_speed) {
+  add_stop_row({.least_speed = least_speed, .stop_dof = dof, .stop_dofs = 3, .stop_sense = sense});
+}
+
+void ContactSolver::add_stop_row(const Row& row) {
   jacobians_.resize(jacobians_.size() + size_, 0.0);
-  std::span(jacobians_).last(size_)[at(dof)] = sense;
+  for (int i = 0; i < row.stop_dofs; ++i)
+    std::span(jacobians_).last(size_)[at(row.stop_dof + i)] = row.stop_sense[i];
   answers_.insert(answers_.end(), jacobians_.end() - static_cast<std::ptrdiff_t>(size_), jacobians_.end());
   solve_answer(std::span(answers_).last(size_));
-  add_row({.least_speed = least_speed, .stop_dof = dof, .stop_sense = sense});
+  add_row(row);
+}
+
+double ContactSolver::stopped_speed(const Row& row, std::span<const double> velocity) const {
+  double speed = row.stop_sense[0] * velocity[at(row.stop_dof)];
+  for (int i = 1; i < row.stop_dofs; ++i) speed += row.stop_sense[i] * velocity[at(row.stop_dof + i)];
+  return speed;
 }
 
 // Only freedoms between the row's link and the root move its point.
@@ -128,7 +143,7 @@ double ContactSolver::push(std::size_t k, std::span<double> velocity) {
   if (!(row.softness > 0.0)) return 0.0;
   const double pressed = row.normal >= 0 ? rows_[at(row.normal)].impulse + row.preload : 0.0;
   if (row.normal >= 0 && pressed == 0.0 && row.impulse == 0.0) return 0.0;  // nothing to rub with
-  const double speed = row.stop_dof >= 0 ? row.stop_sense * velocity[at(row.stop_dof)] : speed_of(k, velocity);
+  const double speed = row.stop_dof >= 0 ? stopped_speed(row, velocity) : speed_of(k, velocity);
   const double next = row.impulse + (row.least_speed - speed) / row.softness;
   double impulse = std::max(-row.preload, next);
   if (row.normal >= 0) {

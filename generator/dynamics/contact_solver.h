@@ -31,6 +31,8 @@ class ContactSolver {
   void add_touch(const TouchedPoint& touch);
   // A joint's freedom that shall have at least this speed in a sense of 1 or -1.
   void add_stop(int dof, double sense, double least_speed);
+  // The same for a ball: along a unit vector in the axes of the moved body.
+  void add_ball_stop(int dof, const Vec3& sense, double least_speed);
 
   // Changes the velocities, one a freedom.
   void solve(std::span<double> velocity);
@@ -45,12 +47,15 @@ class ContactSolver {
     double preload = 0.0;
     double softness = 0.0;  // speed for a unit impulse
     int normal = -1;        // of friction: the row of its contact
-    int stop_dof = -1;      // of a joint's end: its freedom, and in which sense it stops
-    double stop_sense = 0.0;
+    int stop_dof = -1;      // of a joint's end: its first freedom, how many it has, and in which sense it stops
+    int stop_dofs = 1;
+    Vec3 stop_sense{0.0};
     bool is_sole = false;
     std::size_t first_dof = kRootDofs, end_dof = kRootDofs;  // of a contact: behind the root's, those that move it
   };
   void add_row(const Row& row);
+  void add_stop_row(const Row& row);
+  double stopped_speed(const Row& row, std::span<const double> velocity) const;
   void solve_answer(std::span<double> right) const;
   void find_link(int link);
   std::span<double> jacobian(std::size_t row) { return std::span(jacobians_).subspan(row * size_, size_); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/strength.h"
 #include "model/core/index.h"
 
@@ -68,12 +69,15 @@ void LooseMotion::move(const Character& character, EquationOfMotion& equation, s
   has_momentum_ = true;
 }
 
-// Hinges and travels that could come to their ends in this tick.
+// Joints that could come to their ends in this tick.
 void LooseMotion::add_stops(const Character& character, const EquationOfMotion& equation) {
   for (std::size_t i = 1; i < equation.body().links().size(); ++i) {
     const Link& link = equation.body().links()[i];
-    if (link.kind == JointKind::ball) continue;
     const Joint& joint = character.joints()[i];
+    if (link.kind == JointKind::ball) {
+      add_ball_stop(joint, link, equation.state);
+      continue;
+    }
     const double now = equation.state.coords[at(link.coord)], rate = equation.state.velocity[at(link.dof)];
     const double below = joint.high - now, above = now - joint.low;
     if (below < kNearEnd + tick_s_ * std::max(rate, 0.0))
@@ -81,6 +85,17 @@ void LooseMotion::add_stops(const Character& character, const EquationOfMotion& 
     if (above < kNearEnd - tick_s_ * std::min(rate, 0.0))
       contacts_.add_stop(link.dof, 1.0, -std::max(above, 0.0) / tick_s_);
   }
+}
+
+// A ball that could come to its end: turning on a little farther than it would, it would be outside.
+void LooseMotion::add_ball_stop(const Joint& joint, const Link& link, const FigureState& state) {
+  const double* rates = &state.velocity[at(link.dof)];
+  const Vec3 rate(rates[0], rates[1], rates[2]);
+  const double speed = length(rate);
+  if (speed == 0.0) return;
+  const Vec3 turn = (tick_s_ + kNearEnd / speed) * rate;
+  if (const std::optional<BallEnd> end = ball_end(joint, &state.coords[at(link.coord)], turn); end)
+    contacts_.add_ball_stop(link.dof, -end->out, -std::max(end->room_rad, 0.0) / tick_s_);
 }
 
 Footing LooseMotion::footing(const Quat& root, const Quat& wanted_root) {

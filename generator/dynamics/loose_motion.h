@@ -37,6 +37,7 @@ class LooseMotion {
   Footing footing(const Quat& root, const Quat& wanted_root);
 
  private:
+  void add_ball_stop(const Joint& joint, const Link& link, const FigureState& state);
   void add_stops(const Character& character, const EquationOfMotion& equation);
   void fly(const EquationOfMotion& equation, Actuation& actuation) const;
 

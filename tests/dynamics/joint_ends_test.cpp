@@ -1,0 +1,101 @@
+// Balls stop at the ends of their swing and of their twist, as hinges do.
+#include "generator/dynamics/joint_ends.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "generator/built_in.h"
+#include "generator/motion/joint_clamp.h"
+
+namespace contort {
+namespace {
+
+Joint ball_with(double a_rad, double b_rad, double twist_rad) {
+  Joint ball;
+  ball.kind = JointKind::ball;
+  ball.axis = Vec3(0.0, 0.0, -1.0), ball.swing_axis = Vec3(1.0, 0.0, 0.0);
+  ball.swing_a_rad = a_rad, ball.swing_b_rad = b_rad, ball.low = -twist_rad, ball.high = twist_rad;
+  return ball;
+}
+
+std::array<double, 4> coords_of(const Joint& ball, const SwingTwist& at) {
+  std::array<double, 4> coords{};
+  set_swing_twist(ball, at, coords.data());
+  return coords;
+}
+
+double margin_after(const Joint& ball, const std::array<double, 4>& coords, const Vec3& turn_rad) {
+  const Quat q = Quat(coords[0], coords[1], coords[2], coords[3]) * from_rotation_vector(turn_rad);
+  const double then[4] = {q.w, q.x, q.y, q.z};
+  return normalised_margin(ball, then);
+}
+
+double thousandths(int from_milli, int to_milli) { return *rc::gen::inRange(from_milli, to_milli + 1) / 1000.0; }
+
+TEST(BallEnds, AreWhereSwingOrTwistLeaveTheirRange) {
+  const Joint ball = ball_with(1.0, 0.5, 0.3);
+  const std::array<double, 4> rest = coords_of(ball, {});
+  EXPECT_FALSE(ball_end(ball, rest.data(), Vec3(0.9, 0.0, 0.0)));
+  EXPECT_FALSE(ball_end(ball, rest.data(), Vec3(0.0, 0.0, 0.29)));
+  const std::optional<BallEnd> swing = ball_end(ball, rest.data(), Vec3(1.2, 0.0, 0.0));
+  ASSERT_TRUE(swing);
+  EXPECT_NEAR(swing->out.x, 1.0, 1e-6);
+  EXPECT_NEAR(swing->room_rad, 1.0, 1e-6);
+  const std::optional<BallEnd> twist = ball_end(ball, rest.data(), Vec3(0.0, 0.0, 0.5));
+  ASSERT_TRUE(twist);
+  EXPECT_NEAR(twist->out.z, 1.0, 1e-6);
+  EXPECT_NEAR(twist->room_rad, 0.3, 1e-6);
+}
+
+TEST(BallEnds, LeaveNoRoomToABallThatIsOutside) {
+  const Joint ball = ball_with(1.0, 0.5, 0.3);
+  const std::array<double, 4> outside = coords_of(ball, {1.1, 0.0, 0.0});
+  const std::optional<BallEnd> end = ball_end(ball, outside.data(), Vec3(0.0));
+  ASSERT_TRUE(end);
+  EXPECT_NEAR(end->room_rad, -0.1, 1e-6);
+}
+
+// One tick turns a ball little, and then a stopped one is inside but for the curvature of the way.
+RC_GTEST_PROP(BallEnds, KeepATurnOfATickInside, ()) {
+  const Joint ball = ball_with(thousandths(300, 1500), thousandths(300, 1500), thousandths(100, 1500));
+  const double share = thousandths(-1000, 1000), across = thousandths(-1000, 1000), twist = thousandths(-1000, 1000);
+  const double scale = 0.999 / std::max(1.0, std::sqrt(share * share + across * across));
+  const SwingTwist at{scale * share * ball.swing_a_rad, scale * across * ball.swing_b_rad, 0.999 * twist * ball.high};
+  const std::array<double, 4> coords = coords_of(ball, at);
+  Vec3 turn(thousandths(-20, 20), thousandths(-20, 20), thousandths(-20, 20));
+  for (int end_count = 0; end_count < 3; ++end_count)
+    if (const std::optional<BallEnd> end = ball_end(ball, coords.data(), turn); end)
+      turn += std::min(0.0, std::max(0.0, end->room_rad) - glm::dot(turn, end->out)) * end->out;
+  RC_ASSERT(margin_after(ball, coords, turn) > -2e-3);
+}
+
+// A blow on a hind leg while the other is lifted topples the dog; the tail whips about, within its ranges.
+TEST(BallEnds, HoldTheTailOfADogThatFalls) {
+  Spec spec;
+  spec.character.name = "quadruped";
+  spec.dynamics.mode = Mode::dynamic;
+  ImpactDesc blow;
+  blow.slot = "leg_hind_right", blow.impulse_N_s = Vec3(0.0, 0.0, -3.5);
+  spec.dynamics.impacts = {blow};
+  ActionUse use;
+  use.action = "reach", use.slot = "leg_hind_left";
+  spec.sequences.push_back({"", 0, {{}}});
+  spec.sequences[0].clips[0].actions = {use};
+  spec.hold_frames = 22;
+  BuiltInGenerator generator(stock_library());
+  const Result<Execution> made = execute(generator, spec);
+  ASSERT_TRUE(made) << to_line(made.issue());
+  double least = 1.0, most_rad = 0.0;
+  for (int frame = 0; frame < made->motion.frame_count; ++frame)
+    for (const Joint& joint : made->character->joints())
+      if (joint.kind == JointKind::ball) {
+        const double* coords = made->motion.row(frame).data() + joint.coord;
+        least = std::min(least, normalised_margin(joint, coords));
+        most_rad = std::max(most_rad, rotation_angle(quat_at(coords)));
+      }
+  EXPECT_GT(least, -0.01);
+  EXPECT_GT(most_rad, 0.5) << "it does not whip about at all";
+}
+
+}  // namespace
+}  // namespace contort
