@@ -1,8 +1,11 @@
 // balance: how far inside the support area the zero moment point is, in motions that dynamics made. Where the figure
-// does not stand although its target does, there is no such point, and a distance stands for what happens.
+// does not stand although its target does, there is no such point, and a distance stands for what happens. Frames after
+// a blow that is harder than the figure withstands are not judged.
 #include <algorithm>
 
 #include "checks/check.h"
+#include "checks/withstands.h"
+#include "model/core/index.h"
 
 namespace contort {
 
@@ -27,7 +30,8 @@ Subject balance_subject(const Character&, int) { return {"figure", "m"}; }
 
 void balance_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<Stance>& stances = in.motion.response.stances;
-  for (std::size_t f = 0; f < stances.size(); ++f) {
+  const std::size_t judged = std::min(stances.size(), at(first_overpowered_frame(in.character, in.motion)));
+  for (std::size_t f = 0; f < judged; ++f) {
     const Stance& stance = stances[f];
     const bool flies_as_planned = stance.planned == 0 && stance.footing != Footing::fallen;
     const bool lands_later = stance.standing == 0 && stance.footing == Footing::standing;

@@ -1,10 +1,12 @@
 // tracking_error: after an impact a joint must be back at its target in time. Judged while the figure stands and
-// dynamic control does nothing; what it does for loads and balance is no error.
+// dynamic control does nothing; what it does for loads and balance is no error. Nothing is judged after a blow that is
+// harder than the figure withstands.
 #include <algorithm>
 #include <cmath>
 
 #include "checks/check.h"
 #include "checks/fixed_limits.h"
+#include "checks/withstands.h"
 
 namespace contort {
 
@@ -52,7 +54,8 @@ Subject tracking_error_subject(const Character& character, int subject) {
 void tracking_error_measure(const CheckInput& in, MarginFold& fold) {
   const std::vector<ImpactMark>& impacts = in.motion.response.impacts;
   const int in_time = static_cast<int>(std::ceil(kReturn_s * in.motion.rate_hz));
-  for (std::size_t i = 0; i < impacts.size(); ++i) {
+  const int overpowered = first_overpowered_frame(in.character, in.motion);
+  for (std::size_t i = 0; i < impacts.size() && impacts[i].frame < overpowered; ++i) {
     const int end = i + 1 < impacts.size() ? impacts[i + 1].frame : in.motion.frame_count;
     judge(in, impacts[i].frame + in_time, end - 1, fold);
   }

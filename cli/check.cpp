@@ -72,6 +72,7 @@ void check_spec(const std::string& file, const std::string& level, bool as_json,
     std::printf("%s\n", finding_line(evaluation.findings[i], made.motion.rate_hz, at_worst[i]).c_str());
   for (const std::string& line : waiver_lines(*settings, evaluation.waivers)) std::printf("%s\n", line.c_str());
   for (const std::string& line : unmet_lines(made)) std::printf("%s\n", line.c_str());
+  for (const std::string& line : overpowered_lines(made)) std::printf("%s\n", line.c_str());
   print_judged(evaluation, *made.character);
   const std::size_t count = evaluation.findings.size();
   std::printf("%s\nRESULT findings=%zu", count == 0 ? "OK: nothing found." : "FAILED: limits are violated.", count);

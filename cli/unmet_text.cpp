@@ -1,8 +1,10 @@
 #include "cli/unmet_text.h"
 
+#include "checks/withstands.h"
 #include "model/core/index.h"
 #include "model/core/json_fields.h"
 #include "renders/check_words.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
@@ -28,6 +30,14 @@ std::vector<std::string> unmet_lines(const Execution& made) {
                     std::to_string(unmet.first_frame) + "-" + std::to_string(unmet.last_frame) + ": " +
                     std::string(shortfall_text(unmet.why)));
   return lines;
+}
+
+std::vector<std::string> overpowered_lines(const Execution& made) {
+  const std::optional<Blow> blow = overpowering_blow(*made.character, made.motion);
+  if (!blow) return {};
+  return {"note: the blow of " + rounded_text(blow->impulse_N_s) + " N s in frame " + std::to_string(blow->frame) +
+          " is harder than the " + rounded_text(blow->withstands_N_s) +
+          " N s that the figure must withstand: its balance and its return are not judged from then on"};
 }
 
 std::string unmet_json(const Execution& made) {

@@ -11,6 +11,9 @@ namespace contort::cli {
 // One line for each: "note: reach (arm_left) was not met in frames 38-38: it is out of reach". Empty without an intent.
 std::vector<std::string> unmet_lines(const Execution& made);
 
+// One line where a blow is harder than the figure must withstand; else none.
+std::vector<std::string> overpowered_lines(const Execution& made);
+
 // A JSON list: action, slot, first_frame, last_frame, why.
 std::string unmet_json(const Execution& made);
 

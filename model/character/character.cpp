@@ -91,6 +91,7 @@ class CharacterBuilder {
     take_over();
     if (const Result<Done> done = add_control_groups(); !done) return done.issue();
     if (const Result<Done> done = add_regions(); !done) return done.issue();
+    out_.withstands_N_s_ = desc_->withstands_N_s;
     set_rest();
     out_.hash_ = hash_of(out_);
     return std::move(out_);

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -173,6 +174,8 @@ class Character {
   std::span<const JointGroup> control_groups() const { return control_groups_; }
 
   std::span<const Region> regions() const { return regions_; }
+  // The horizontal push that its file says it shall withstand.
+  const std::optional<double>& declared_withstands_N_s() const { return withstands_N_s_; }
 
   // A hash over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
@@ -199,6 +202,7 @@ class Character {
   std::vector<ActionDesc> actions_;
   std::vector<JointGroup> control_groups_;
   std::vector<Region> regions_;
+  std::optional<double> withstands_N_s_;
   int coord_count_ = 0;
   Rigid rest_root_;
   std::uint64_t hash_ = 0;

@@ -88,6 +88,7 @@ std::uint64_t hash_of(const Character& character) {
     add_vec(hash, region.point_m);
     std::visit(HashShape{hash}, region.shape);
   }
+  if (character.declared_withstands_N_s()) hash.add(*character.declared_withstands_N_s());
   return hash.value();
 }
 

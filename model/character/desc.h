@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,7 @@ struct CharacterDesc {
   std::vector<std::string> objects;  // Objects that may be attached.
   std::vector<ControlGroupDesc> control_groups;  // In the order of control; none: found from the parts.
   std::vector<RegionDesc> regions;
+  std::optional<double> withstands_N_s{};  // the horizontal push that need not fell it; found from mass, height and soles
   bool operator==(const CharacterDesc&) const = default;
 };
 

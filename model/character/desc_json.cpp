@@ -180,6 +180,8 @@ void fields(V& v, const CharacterDesc*) {
   v.field("control_groups", &CharacterDesc::control_groups, {.max_count = 16},
           "What dynamic control uses together, in its order; none: found from the parts.");
   v.field("regions", &CharacterDesc::regions, {.max_count = 64}, "Where points of the figure must stay or not come.");
+  v.field("withstands_N_s", &CharacterDesc::withstands_N_s, {.low = 0.0, .high = 1e6},
+          "The horizontal push that it shall withstand; else found from its mass, height and soles.");
 }
 
 template <class V>

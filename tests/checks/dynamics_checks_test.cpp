@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "checks/withstands.h"
 #include "tests/checks/small_character.h"
 #include "tests/stage_evaluator.h"
 
@@ -113,6 +114,23 @@ TEST(DynamicsChecks, OnlyTheLossOfBalanceIsAFindingFromThenOn) {
     for (const Finding& finding : evaluator.judge(judged.character, judged.motion)) checks.insert(finding.check);
     EXPECT_TRUE(checks.contains("balance"));
     EXPECT_EQ(checks.contains("joint_range"), lost == 8);
+  }
+}
+
+// The figure is at rest, so that it withstands what its mass, height and soles allow.
+TEST(DynamicsChecks, JudgeNothingAfterABlowThatIsHarderThanTheFigureWithstands) {
+  Judged judged(60);
+  const double withstands = withstands_N_s(judged.character, judged.motion, 10, Vec3(0.0, 0.0, 1.0));
+  ASSERT_GT(withstands, 0.1);
+  for (const double share : {0.99, 1.01}) {
+    judged.motion.response.impacts = {{10, 1, {}, Vec3(0.0, -1e3, share * withstands)}};
+    judged.motion.response.stances[30].footing = Footing::fallen;
+    small::set(judged.motion, 55, judged.joint("arm_left/lift"), 4.0 * kRadPerDeg);
+    EXPECT_EQ(judged.margin("balance", "figure") < 0.0, share < 1.0);
+    EXPECT_EQ(judged.margin("tracking_error", "arm_left/lift") < 0.0, share < 1.0);
+    judged.motion.response.stances[5].footing = Footing::fallen;
+    EXPECT_LT(judged.margin("balance", "figure"), 0.0) << "before the blow";
+    judged.motion.response.stances[5].footing = Footing::standing;
   }
 }
 

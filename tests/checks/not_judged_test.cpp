@@ -57,7 +57,7 @@ TEST(CheckNotJudged, DynamicsNeedDynamicsAndTakeTheReachAway) {
   moved.motion = small::moved_by_dynamics(*moved.character, 5);
   EXPECT_EQ(reason_of(moved, "joint_torque"), "judged");
   EXPECT_EQ(reason_of(moved, "balance"), "judged");
-  EXPECT_EQ(reason_of(moved, "tracking_error"), "no impact was long enough before the end");
+  EXPECT_EQ(reason_of(moved, "tracking_error"), "no blow that it must withstand was long enough before the end");
   EXPECT_EQ(reason_of(moved, "reach_error"), "dynamics moves the figure, so that tracking_error judges");
 }
 
