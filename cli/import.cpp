@@ -1,4 +1,4 @@
-// contort import: a rigged model becomes a character.
+// contort import: a rigged model, or a robot, becomes a character.
 #include "import/import.h"
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,8 @@
 #include "cli/input.h"
 #include "cli/library_folder.h"
 #include "formats/gltf/read.h"
+#include "formats/robot/read.h"
+#include "import/robot.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
 #include "model/core/json_fields.h"
@@ -24,6 +26,7 @@ using json_fields::Json;
 struct ImportCall {
   std::string model;
   std::string folder;
+  std::string srdf;
   ImportOptions import;
   bool no_model = false;
   bool force = false;
@@ -31,25 +34,34 @@ struct ImportCall {
 };
 
 // --force is for files of an earlier import, and not for a folder that is no library.
-Result<Done> refuse_existing(const ImportCall& options, const Imported& imported) {
+Result<Done> refuse_existing(const ImportCall& options, const std::vector<ImportFile>& files) {
   if (const Result<Done> own = check_library_folder(options.folder); !own) return own;
   std::error_code error;
-  for (const ImportFile& file : imported.files)
+  for (const ImportFile& file : files)
     if (const std::string path = options.folder + "/" + file.name; !options.force && fs::exists(path, error))
       return Issue{"import.exists", "", path + " is there already; --force overwrites it"};
   return Done{};
 }
 
-Result<Done> write_files(const ImportCall& options, const Imported& imported) {
-  for (const char* name : {"/maps", "/skins"}) {
-    const std::string folder = options.folder + name;
-    if (name == std::string("/skins") && !options.import.wears_model) continue;
+Result<Done> write_files(const ImportCall& options, const std::vector<ImportFile>& files) {
+  for (const ImportFile& file : files) {
+    const std::size_t slash = file.name.find('/');
+    if (slash == std::string::npos) continue;
+    const std::string folder = options.folder + "/" + file.name.substr(0, slash);
     if (const Result<Done> inside = check_inside(options.folder, folder); !inside) return inside;
     if (const Result<Done> made = make_folder(folder); !made) return made;
   }
-  for (const ImportFile& file : imported.files)
+  for (const ImportFile& file : files)
     if (const Result<Done> written = write_inside(options.folder, file.name, file.text); !written) return written;
   return Done{};
+}
+
+// Returns false after a failure.
+bool save(const ImportCall& options, const std::vector<ImportFile>& files, Context& context) {
+  if (const Result<Done> free = refuse_existing(options, files); !free) return context.fail(free.issue()), false;
+  const Result<Done> written = write_files(options, files);
+  if (!written) context.fail(written.issue(), is_outside(written.issue()) ? kBadInput : kInternal);
+  return written.ok();
 }
 
 const char* build_of(const RiggedFigure& figure) {
@@ -76,6 +88,25 @@ void print_json(const ImportCall& options, const Imported& imported) {
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
+// Names of strangers must not steer the terminal.
+std::string as_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  constexpr std::size_t kShownNotes = 8;
+  for (std::size_t i = 0; i < std::min(notes.size(), kShownNotes); ++i)
+    std::printf("note: %s\n", as_one_line(notes[i]).c_str());
+  if (notes.size() > kShownNotes) std::printf("note: and %zu more in the report\n", notes.size() - kShownNotes);
+}
+
+void print_next_steps(const ImportCall& options, const std::string& name) {
+  std::printf("what was guessed: %s/%s.import.md\n", options.folder.c_str(), name.c_str());
+  std::printf("next: contort --library %s fuzz --character %s\n", shell_quoted(options.folder).c_str(), name.c_str());
+}
+
 void print_text(const ImportCall& options, const Imported& imported) {
   const std::string& name = imported.cut.character.name;
   std::printf("%s: %s, %.3g m, %.4g kg, %zu joints in %zu parts\n", name.c_str(), build_of(imported.figure),
@@ -83,8 +114,8 @@ void print_text(const ImportCall& options, const Imported& imported) {
   std::printf("limits: %d from the table of people, %d from its own clips, %d generic; contacts allowed: %zu\n",
               count_sources(imported, LimitSource::table), count_sources(imported, LimitSource::clips),
               count_sources(imported, LimitSource::generic), imported.contacts.pairs.size());
-  std::printf("what was guessed: %s/%s.import.md\n", options.folder.c_str(), name.c_str());
-  std::printf("next: contort --library %s fuzz --character %s\n", shell_quoted(options.folder).c_str(), name.c_str());
+  print_notes(imported.figure.notes);
+  print_next_steps(options, name);
 }
 
 // A .gltf may be several files: its figure is drawn by its colliders.
@@ -103,8 +134,65 @@ Result<Done> add_model(const ImportCall& options, Imported& imported) {
   return Done{};
 }
 
+void print_robot_json(const ImportCall& options, const ImportedRobot& robot) {
+  const std::string& name = robot.character.name;
+  const Json out = {{"file", options.model},
+                    {"character", name},
+                    {"folder", options.folder},
+                    {"report", name + ".import.md"},
+                    {"build", "robot"},
+                    {"joints", robot.joints.size()},
+                    {"parts", robot.parts.size()},
+                    {"mass_kg", robot.mass_kg},
+                    {"height_m", robot.height_m},
+                    {"contacts", {{"file", robot.pairs_of_file}, {"unavoidable", robot.pairs_at_rest}}},
+                    {"notes", robot.notes}};
+  std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+void print_robot_text(const ImportCall& options, const ImportedRobot& robot) {
+  const std::string& name = robot.character.name;
+  std::printf("%s: robot, %.3g m, %.4g kg, %zu joints in %zu parts; contacts allowed: %d by the file, %d unavoidable\n",
+              name.c_str(), robot.height_m, robot.mass_kg, robot.joints.size(), robot.parts.size(), robot.pairs_of_file,
+              robot.pairs_at_rest);
+  print_notes(robot.notes);
+  print_next_steps(options, name);
+}
+
+// Options that say something about a skinned model would be without effect.
+Result<Done> refuse_model_options(const ImportCall& options) {
+  const ImportOptions& given = options.import;
+  if (given.metres_per_unit == 0.0 && given.height_m == 0.0 && given.skin < 0 && !given.draw_mesh) return Done{};
+  return Issue{"import.not_for_robots", "",
+               "--scale, --height-m, --skin and --mesh are for skinned models; " + options.model + " is a robot"};
+}
+
+void run_robot(const ImportCall& options, Context& context) {
+  if (const Result<Done> plain = refuse_model_options(options); !plain) return context.fail(plain.issue());
+  const Result<RobotModel> robot = read_robot(options.model, options.srdf);
+  if (!robot) return context.fail(robot.issue());
+  const Result<ImportedRobot> made = import_robot(*robot, options.import.name);
+  if (!made) return context.fail(about_file(options.model, made.issue()));
+  if (!save(options, made->files, context)) return;
+  if (options.json) return print_robot_json(options, *made);
+  print_robot_text(options, *made);
+}
+
+// By the ending, and by the first element of XML that has another ending.
+bool is_robot_file(const std::string& path) {
+  constexpr std::size_t kBeginning = 65536;  // of a file that may begin with a long licence
+  const std::string ending = fs::path(path).extension().string();
+  for (const char* robot : {".urdf", ".xacro", ".srdf", ".mjcf", ".xml"})
+    if (ending == robot) return true;
+  return is_robot_text(beginning_of(path, kBeginning));
+}
+
 void run(ImportCall options, Context& context) {
   if (options.import.name.empty()) options.import.name = name_of_file(options.model);
+  if (is_robot_file(options.model)) return run_robot(options, context);
+  if (!options.srdf.empty())
+    return context.fail(
+        {"import.only_for_robots", "", "--srdf is for a robot in URDF, and " + options.model + " is none"});
   options.import.wears_model = !options.no_model && is_one_file(options.model);
   const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
   if (!asset) return context.fail(about_file(options.model, asset.issue()));
@@ -112,9 +200,7 @@ void run(ImportCall options, Context& context) {
   if (!made) return context.fail(about_file(options.model, made.issue()));
   Imported imported = std::move(made).value();
   if (const Result<Done> added = add_model(options, imported); !added) return context.fail(added.issue());
-  if (const Result<Done> free = refuse_existing(options, imported); !free) return context.fail(free.issue());
-  if (const Result<Done> written = write_files(options, imported); !written)
-    return context.fail(written.issue(), is_outside(written.issue()) ? kBadInput : kInternal);
+  if (!save(options, imported.files, context)) return;
   if (options.json) return print_json(options, imported);
   print_text(options, imported);
 }
@@ -123,9 +209,14 @@ void run(ImportCall options, Context& context) {
 
 void add_import(CLI::App& app, Context& context) {
   auto options = std::make_shared<ImportCall>();
-  CLI::App* command = app.add_subcommand("import", "Make a character from a rigged model (.glb, .gltf)");
-  command->add_option("MODEL", options->model, "Skinned model (.glb, .gltf; VRM's bones are understood)")->required();
+  CLI::App* command =
+      app.add_subcommand("import", "Make a character from a rigged model (.glb, .gltf) or a robot (.urdf, MJCF)");
+  command
+      ->add_option("MODEL", options->model,
+                   "Skinned model (.glb, .gltf; VRM's bones are understood), or robot (.urdf, MuJoCo's .xml)")
+      ->required();
   command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();
+  command->add_option("--srdf", options->srdf, "The robot's SRDF, which says what links may touch");
   command->add_option("--name", options->import.name, "Name of the character (default: the file's name)");
   CLI::Option* scale = command->add_option("--scale", options->import.metres_per_unit,
                                            "Metres in one unit of the file (default: guessed)");
@@ -142,7 +233,8 @@ void add_import(CLI::App& app, Context& context) {
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
       "Example: contort import robot.glb -o my_figures\n"
-      "         contort --library my_figures fuzz --character robot");
+      "         contort --library my_figures fuzz --character robot\n"
+      "         contort import panda.urdf --srdf panda.srdf -o my_robots");
   command->callback([options, &context] { run(*options, context); });
 }
 

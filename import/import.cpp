@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::size_t kMostNameBytes = 26;  // a part's name is it and its slot's
 
-Result<Done> check_name(const std::string& name) {
-  const bool is_legal = !name.empty() && name.size() <= kMostNameBytes && legal_name(name, "") == name;
-  const Library& stock = stock_library();
-  if (is_legal && !stock.characters.contains(name)) return Done{};
-  return Issue{"import.bad_name", "",
-               is_legal ? "\"" + name + "\" is a stock character"
-                        : "allowed are names of 1 to 26 of a-z, 0-9 and single _ between them"};
-}
-
 // The library that the files make; what they say is what counts, not what we meant.
 Result<Library> read_back(const CutFigure& cut) {
   Library library;
@@ -69,12 +60,21 @@ void write_files(Imported& out, bool wears_model) {
 
 }  // namespace
 
+Result<Done> check_import_name(const std::string& name) {
+  const bool is_legal = !name.empty() && name.size() <= kMostNameBytes && legal_name(name, "") == name;
+  const Library& stock = stock_library();
+  if (is_legal && !stock.characters.contains(name)) return Done{};
+  return Issue{"import.bad_name", "",
+               is_legal ? "\"" + name + "\" is a stock character"
+                        : "allowed are names of 1 to 26 of a-z, 0-9 and single _ between them"};
+}
+
 std::string name_of_file(const std::string& path) {
   return legal_name(std::filesystem::path(path).stem().string().substr(0, kMostNameBytes), "model");
 }
 
 Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& options) {
-  if (const Result<Done> named = check_name(options.name); !named) return named.issue();
+  if (const Result<Done> named = check_import_name(options.name); !named) return named.issue();
   Result<RiggedFigure> read = read_figure(asset, options);
   if (!read) return read.issue();
   Imported out;

@@ -22,6 +22,9 @@ struct Imported {
 // Codes import.*, and those of build_character if the model gives no valid character.
 Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& options);
 
+// Refuses a name that a character cannot have, or that is a stock character's. Code import.bad_name.
+Result<Done> check_import_name(const std::string& name);
+
 // Makes a legal name from a file's path, such as "Knight" from "models/Knight.glb".
 std::string name_of_file(const std::string& path);
 

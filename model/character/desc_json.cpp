@@ -175,7 +175,7 @@ void fields(V& v, const CharacterDesc*) {
   v.field("help", &CharacterDesc::help, kHelp, "One sentence for people.");
   v.field("slots", &CharacterDesc::slots, {.max_count = 64, .required = true},
           "The root slot first; carriers before what they carry.");
-  v.field("allowed_pairs", &CharacterDesc::allowed_pairs, {.max_count = 1000}, "Contacts that are no fault.");
+  v.field("allowed_pairs", &CharacterDesc::allowed_pairs, {.max_count = 10000}, "Contacts that are no fault.");
   v.field("objects", &CharacterDesc::objects, {.max_count = 64}, "Objects that may be attached.");
   v.field("control_groups", &CharacterDesc::control_groups, {.max_count = 16},
           "What dynamic control uses together, in its order; none: found from the parts.");

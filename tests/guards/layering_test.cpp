@@ -26,6 +26,7 @@ const std::vector<Layer> kLayers = {
     {"model", {"model/*"}},  // generator.h: the interface
     {"formats/gltf", {"model/*"}},
     {"formats/mocap", {"model/core", "model/asset"}},
+    {"formats/robot", {"model/*"}},
     {"generator/motion", {"model/*"}},
     {"generator/actions", {"model/*", "generator/motion"}},
     {"generator/timeline", {"model/*", "generator/motion", "generator/actions"}},
@@ -68,6 +69,7 @@ const std::vector<Door> kDoors = {
     {"lua.hpp", "generator/actions/script*.cpp"},
     {"zlib.h", "renders/gzip.cpp"},
     {"tinyxml2.h", "renders/junit.cpp"},
+    {"tinyxml2.h", "formats/robot/*.cpp"},
     {"httplib.h", "server/http.cpp"},
     {"httplib.h", "server/connection.*"},  // a stream of the library's
     {"netdb.h", "server/connection.cpp"},

@@ -101,10 +101,12 @@ Texts asf_amc_seeds() { return {small_asf() + small_amc()}; }
 Texts generator_seeds() {
   const std::string joints = R"([{"name":"hips","position":[0,1,0]},{"name":"knee","parent":"hips","slot":"leg",)"
                              R"("type":"hinge","axis":[1,0,0],"low_deg":-10,"high_deg":120}])";
-  const std::string manifest = R"({"contort":1,"name":"g","convention":{"up":"+z","forward":"-y","handed":"left"},)"
-                               R"("characters":[{"name":"hero","joints":)" + joints +
-                               R"(,"parts":{"leg":["a","b"]}}],"actions":[{"name":"kick","slots":["leg"],"effect":"cut",)"
-                               R"("params":{"far":{"low":-1,"high":2,"special":[0.5]},"to":{"type":"vec3"}}}]})";
+  const std::string manifest =
+      R"({"contort":1,"name":"g","convention":{"up":"+z","forward":"-y","handed":"left"},)"
+      R"("characters":[{"name":"hero","joints":)" +
+      joints +
+      R"(,"parts":{"leg":["a","b"]}}],"actions":[{"name":"kick","slots":["leg"],"effect":"cut",)"
+      R"("params":{"far":{"low":-1,"high":2,"special":[0.5]},"to":{"type":"vec3"}}}]})";
   constexpr double kFrame[] = {0, 1, 0, 0, 0, 0, 1, 0.6, 0, 0, 0.8};
   return {manifest, manifest + "\n#!\n" + std::string(reinterpret_cast<const char*>(kFrame), sizeof kFrame)};
 }
@@ -113,6 +115,24 @@ Texts generator_seeds() {
 Texts aim_table_seeds() {
   constexpr double kPostures[] = {1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0.5, 0, 0};
   return {std::string(reinterpret_cast<const char*>(kPostures), sizeof kPostures)};
+}
+
+// One robot in each format.
+Texts robot_seeds() {
+  const std::string link = R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>)"
+                           R"(</inertial><collision><origin xyz="0 0 1" rpy="0 1 0"/><geometry><cylinder radius="0.1" )"
+                           R"(length="1"/></geometry></collision></link>)";
+  const std::string urdf = R"(<robot name="r"><link name="a">)" + link + R"(<link name="b">)" + link +
+                           R"(<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>)"
+                           R"(<limit lower="1" upper="2" velocity="3" effort="4"/><mimic joint="j"/></joint></robot>)";
+  const std::string srdf = R"(#!<robot name="r"><disable_collisions link1="a" link2="b" reason="Never"/></robot>)";
+  const std::string mjcf =
+      R"(<mujoco><compiler angle="radian" eulerseq="XYZ"/><default><joint range="-1 1"/><default class="c"><geom )"
+      R"(type="capsule" size="0.1"/></default></default><worldbody><body name="a" childclass="c"><freejoint/><geom )"
+      R"(fromto="0 0 0 0 0 1"/><body name="b" pos="0 0 1" euler="1 0 0"><joint name="j"/><joint name="k" type="ball"/>)"
+      R"(<geom type="box" size="1 2 3" contype="2"/></body></body></worldbody><contact><exclude body1="a" body2="b"/>)"
+      R"(</contact><actuator><motor joint="j" ctrlrange="-1 1"/></actuator></mujoco>)";
+  return {urdf, urdf + srdf, mjcf};
 }
 
 constexpr Target kTargets[] = {
@@ -124,6 +144,7 @@ constexpr Target kTargets[] = {
     {"asf_amc", try_asf_amc, asf_amc_seeds},
     {"generator", try_generator, generator_seeds},
     {"aim_table", try_aim_table, aim_table_seeds},
+    {"robot", try_robot, robot_seeds},
 };
 
 }  // namespace
