@@ -24,8 +24,12 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, N>& wor
 constexpr std::array<std::string_view, 3> kLeft = {"l", "left", "lft"};
 constexpr std::array<std::string_view, 4> kRight = {"r", "right", "rgt", "rt"};
 // Say nothing about what a joint is.
-constexpr std::array<std::string_view, 12> kNoise = {"mixamorig", "skeleton", "joint", "jnt", "bone", "def",
+constexpr std::array<std::string_view, 13> kNoise = {"mixamorig", "skeleton", "joint", "jnt", "bone", "def",      "org",
                                                      "bip",       "armature", "rig",   "b",   "j",    "character"};
+
+// CMU's skeletons write the side as the first letter of a word: "lfemur".
+constexpr std::array<std::string_view, 12> kWordsOfCmu = {"femur", "tibia", "foot",  "toes",     "humerus", "radius",
+                                                          "wrist", "hand",  "thumb", "clavicle", "fingers", "hipjoint"};
 
 // The first row that fits decides: "forearm" before "arm".
 struct FamilyRow {
@@ -33,23 +37,26 @@ struct FamilyRow {
   BoneFamily family;
 };
 constexpr FamilyRow kRows[] = {
-    {"thumb", BoneFamily::finger},       {"index", BoneFamily::finger},      {"middle", BoneFamily::finger},
-    {"pinky", BoneFamily::finger},       {"little", BoneFamily::finger},     {"finger", BoneFamily::finger},
-    {"palm", BoneFamily::finger},        {"tail", BoneFamily::tail},         {"forearm", BoneFamily::forearm},
-    {"lowerarm", BoneFamily::forearm},   {"lowarm", BoneFamily::forearm},    {"elbow", BoneFamily::forearm},
-    {"upperarm", BoneFamily::upper_arm}, {"uparm", BoneFamily::upper_arm},   {"clavicle", BoneFamily::clavicle},
-    {"collar", BoneFamily::clavicle},    {"shoulder", BoneFamily::clavicle}, {"hand", BoneFamily::hand},
-    {"wrist", BoneFamily::hand},         {"arm", BoneFamily::arm},           {"thigh", BoneFamily::thigh},
-    {"upperleg", BoneFamily::thigh},     {"upleg", BoneFamily::thigh},       {"femur", BoneFamily::thigh},
-    {"calf", BoneFamily::shank},         {"shin", BoneFamily::shank},        {"shank", BoneFamily::shank},
-    {"lowerleg", BoneFamily::shank},     {"lowleg", BoneFamily::shank},      {"knee", BoneFamily::shank},
-    {"foot", BoneFamily::foot},          {"ankle", BoneFamily::foot},        {"paw", BoneFamily::foot},
-    {"hoof", BoneFamily::foot},          {"toe", BoneFamily::toe},           {"leg", BoneFamily::leg},
-    {"neck", BoneFamily::neck},          {"head", BoneFamily::head},         {"skull", BoneFamily::head},
-    {"pelvis", BoneFamily::hips},        {"hip", BoneFamily::hips},          {"spine", BoneFamily::spine},
-    {"chest", BoneFamily::spine},        {"torso", BoneFamily::spine},       {"abdomen", BoneFamily::spine},
-    {"waist", BoneFamily::spine},        {"thorax", BoneFamily::spine},      {"trunk", BoneFamily::spine},
-    {"belly", BoneFamily::spine},        {"body", BoneFamily::spine},
+    {"thumb", BoneFamily::finger},      {"index", BoneFamily::finger},       {"middle", BoneFamily::finger},
+    {"pinky", BoneFamily::finger},      {"little", BoneFamily::finger},      {"finger", BoneFamily::finger},
+    {"palm", BoneFamily::finger},       {"tail", BoneFamily::tail},          {"forearm", BoneFamily::forearm},
+    {"lowerarm", BoneFamily::forearm},  {"lowarm", BoneFamily::forearm},     {"elbow", BoneFamily::forearm},
+    {"humerus", BoneFamily::upper_arm}, {"radius", BoneFamily::forearm},     {"ulna", BoneFamily::forearm},
+    {"legpelvis", BoneFamily::unknown}, {"legupper", BoneFamily::thigh},     {"leglower", BoneFamily::shank},
+    {"hipjoint", BoneFamily::unknown},  {"tibia", BoneFamily::shank},        {"armupper", BoneFamily::upper_arm},
+    {"armlower", BoneFamily::forearm},  {"upperarm", BoneFamily::upper_arm}, {"uparm", BoneFamily::upper_arm},
+    {"clavicle", BoneFamily::clavicle}, {"collar", BoneFamily::clavicle},    {"shoulder", BoneFamily::clavicle},
+    {"hand", BoneFamily::hand},         {"wrist", BoneFamily::hand},         {"arm", BoneFamily::arm},
+    {"thigh", BoneFamily::thigh},       {"upperleg", BoneFamily::thigh},     {"upleg", BoneFamily::thigh},
+    {"femur", BoneFamily::thigh},       {"calf", BoneFamily::shank},         {"shin", BoneFamily::shank},
+    {"shank", BoneFamily::shank},       {"lowerleg", BoneFamily::shank},     {"lowleg", BoneFamily::shank},
+    {"knee", BoneFamily::shank},        {"foot", BoneFamily::foot},          {"ankle", BoneFamily::foot},
+    {"paw", BoneFamily::foot},          {"hoof", BoneFamily::foot},          {"toe", BoneFamily::toe},
+    {"leg", BoneFamily::leg},           {"neck", BoneFamily::neck},          {"head", BoneFamily::head},
+    {"skull", BoneFamily::head},        {"pelvis", BoneFamily::hips},        {"hip", BoneFamily::hips},
+    {"spine", BoneFamily::spine},       {"chest", BoneFamily::spine},        {"torso", BoneFamily::spine},
+    {"abdomen", BoneFamily::spine},     {"waist", BoneFamily::spine},        {"thorax", BoneFamily::spine},
+    {"trunk", BoneFamily::spine},       {"belly", BoneFamily::spine},        {"body", BoneFamily::spine},
 };
 
 BoneFamily family_of(std::string_view squashed, Side side) {
@@ -89,10 +96,22 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+namespace {
+
+// "lfemur" gives "l" and "femur".
+std::vector<std::string> split_cmu(std::vector<std::string> words) {
+  if (words.size() != 1 || words[0].size() < 2) return words;
+  const std::string side = words[0].substr(0, 1), rest = words[0].substr(1);
+  if ((side == "l" || side == "r") && is_one_of(rest, kWordsOfCmu)) return {side, rest};
+  return words;
+}
+
+}  // namespace
+
 NameSense sense_of(std::string_view name) {
   NameSense out;
   std::string squashed;
-  for (const std::string& word : words_of(name)) {
+  for (const std::string& word : split_cmu(words_of(name))) {
     if (is_one_of(word, kLeft))
       out.side = Side::left;
     else if (is_one_of(word, kRight))

@@ -1,6 +1,7 @@
 #include "import/roles.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "model/core/index.h"
@@ -40,7 +41,7 @@ class RoleFinder {
       if (begins(static_cast<int>(b), kLeg)) give_limb_roles(chain_from(static_cast<int>(b), kLeg), kLeg);
       if (begins(static_cast<int>(b), kArm)) give_limb_roles(chain_from(static_cast<int>(b), kArm), kArm);
     }
-    figure_.is_quadruped = stands_on_arms();
+    figure_.is_quadruped = stands_on_arms() || stands_on_four_legs();
     if (figure_.is_quadruped) turn_arms_to_legs();
     pass_on_ends();
     figure_.bones.front().role = BoneRole::root;
@@ -117,11 +118,27 @@ class RoleFinder {
       if (step(chain, i) + step(chain, i + 1) > step(chain, upper) + step(chain, upper + 1)) upper = i;
     for (std::size_t i = chain.size() - 1; i-- > 0;)
       if (bone(chain[i]).family == limb.first) upper = i;
+    const std::size_t middle = middle_of(chain, upper, limb);
     for (std::size_t i = 0; i < chain.size(); ++i)
-      bone(chain[i]).role = i < upper        ? BoneRole::other
-                            : i == upper     ? limb.upper
-                            : i == upper + 1 ? limb.middle
-                                             : BoneRole::hock;
+      bone(chain[i]).role = i == upper                                           ? limb.upper
+                            : i == middle                                        ? limb.middle
+                            : i < middle || shares_twist(chain[i], chain[i - 1]) ? BoneRole::other
+                                                                                 : BoneRole::hock;
+  }
+
+  // "shin.L.001" below "shin.L".
+  bool shares_twist(int lower, int upper) const {
+    const BoneFamily family = bone(lower).family;
+    return family == bone(upper).family && (family == BoneFamily::shank || family == BoneFamily::forearm);
+  }
+
+  // The next one, except where more bones have the upper one's name: "upper_arm.L.001" only shares its twist.
+  std::size_t middle_of(const std::vector<int>& chain, std::size_t upper, const LimbRoles& limb) const {
+    std::size_t middle = upper + 1;
+    while (middle + 1 < chain.size() && bone(chain[middle]).family == limb.first &&
+           bone(chain[middle + 1]).family != BoneFamily::unknown)
+      ++middle;
+    return bone(chain[middle]).family == limb.first ? upper + 1 : middle;
   }
 
   // Everything below a hand is its fingers, and below a foot its toes; below a head a head.
@@ -172,6 +189,19 @@ class RoleFinder {
       if (figure_.bones[b].role == BoneRole::upper_arm)
         standing += lowest_below_m(figure_, static_cast<int>(b)) < figure_.ground_m + 0.1 * figure_.height_m;
     return standing >= 2 && s.y < 0.7 * length(s);
+  }
+
+  // Some files call forelegs legs too.
+  bool stands_on_four_legs() const {
+    std::array<int, 2> standing{};
+    for (std::size_t b = 0; b < figure_.bones.size(); ++b) {
+      const Bone& own = figure_.bones[b];
+      if (own.role == BoneRole::thigh && own.side != Side::center &&
+          lowest_below_m(figure_, static_cast<int>(b)) < figure_.ground_m + 0.1 * figure_.height_m)
+        ++standing[own.side == Side::left ? 0 : 1];
+    }
+    const Vec3 s = spine();
+    return standing[0] == 2 && standing[1] == 2 && s.y < 0.85 * length(s);
   }
 
   void turn_arms_to_legs() {

@@ -28,6 +28,13 @@ TEST(BoneNames, AreUnderstoodInTheDialectsOfTools) {
               {"spine_02", BoneFamily::spine, Side::center},
               {"Tail03_014", BoneFamily::tail, Side::center},
               {"ring_01.l", BoneFamily::finger, Side::left},
+              {"lfemur", BoneFamily::thigh, Side::left},
+              {"rhumerus", BoneFamily::upper_arm, Side::right},
+              {"lhipjoint", BoneFamily::unknown, Side::left},
+              {"rhino", BoneFamily::unknown, Side::center},
+              {"DEF-shin.L.001", BoneFamily::shank, Side::left},
+              {"Front_Leg_Upper_R", BoneFamily::thigh, Side::right},
+              {"Back_Leg_Pelvis_L", BoneFamily::unknown, Side::left},
               {"Armature", BoneFamily::unknown, Side::center},
               {"spring", BoneFamily::unknown, Side::center},
               {"", BoneFamily::unknown, Side::center}};
