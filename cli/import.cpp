@@ -11,6 +11,7 @@
 #include "cli/library_folder.h"
 #include "formats/gltf/read.h"
 #include "formats/robot/read.h"
+#include "import/other_clips.h"
 #include "import/robot.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
@@ -27,6 +28,7 @@ struct ImportCall {
   std::string model;
   std::string folder;
   std::string srdf;
+  std::string clips;
   ImportOptions import;
   bool no_model = false;
   bool force = false;
@@ -124,6 +126,25 @@ bool is_one_file(const std::string& path) {
   return ending == ".glb" || ending == ".vrm";
 }
 
+// The glTF files of a folder, whose clips tell how far the model's joints turn. Returns how many clips fit.
+Result<int> add_clips_of_folder(const std::string& folder, Asset& into) {
+  std::error_code error;
+  std::vector<std::string> paths;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (const std::string ending = entry->path().extension().string(); ending == ".glb" || ending == ".gltf")
+      paths.push_back(entry->path().string());
+  if (error) return Issue{"import.no_clips", "", folder + ": " + error.message()};
+  std::sort(paths.begin(), paths.end());
+  int added = 0;
+  for (const std::string& path : paths) {
+    const Result<Asset> other = read_gltf(path);
+    if (!other) return about_file(path, other.issue());
+    added += add_clips(*other, into);
+  }
+  if (added == 0) return Issue{"import.no_clips", "", folder + " has no clip that turns the model's joints"};
+  return added;
+}
+
 // Before the report, which is the last file.
 Result<Done> add_model(const ImportCall& options, Imported& imported) {
   if (!options.import.wears_model) return Done{};
@@ -162,9 +183,12 @@ void print_robot_text(const ImportCall& options, const ImportedRobot& robot) {
 // Options that say something about a skinned model would be without effect.
 Result<Done> refuse_model_options(const ImportCall& options) {
   const ImportOptions& given = options.import;
-  if (given.metres_per_unit == 0.0 && given.height_m == 0.0 && given.skin < 0 && !given.draw_mesh) return Done{};
-  return Issue{"import.not_for_robots", "",
-               "--scale, --height-m, --skin and --mesh are for skinned models; " + options.model + " is a robot"};
+  if (given.metres_per_unit == 0.0 && given.height_m == 0.0 && given.skin < 0 && !given.draw_mesh &&
+      options.clips.empty())
+    return Done{};
+  return Issue{
+      "import.not_for_robots", "",
+      "--scale, --height-m, --skin, --mesh and --clips are for skinned models; " + options.model + " is a robot"};
 }
 
 void run_robot(const ImportCall& options, Context& context) {
@@ -196,7 +220,11 @@ void run(ImportCall options, Context& context) {
   options.import.wears_model = !options.no_model && is_one_file(options.model);
   const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
   if (!asset) return context.fail(about_file(options.model, asset.issue()));
-  Result<Imported> made = import_model(*asset, options.import);
+  SkinnedAsset model = *asset;
+  if (!options.clips.empty())
+    if (const Result<int> added = add_clips_of_folder(options.clips, model.asset); !added)
+      return context.fail(added.issue());
+  Result<Imported> made = import_model(model, options.import);
   if (!made) return context.fail(about_file(options.model, made.issue()));
   Imported imported = std::move(made).value();
   if (const Result<Done> added = add_model(options, imported); !added) return context.fail(added.issue());
@@ -217,6 +245,8 @@ void add_import(CLI::App& app, Context& context) {
       ->required();
   command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();
   command->add_option("--srdf", options->srdf, "The robot's SRDF, which says what links may touch");
+  command->add_option("--clips", options->clips,
+                      "Folder of glTF files with clips for the model: ranges and contacts are learnt from them, too");
   command->add_option("--name", options->import.name, "Name of the character (default: the file's name)");
   CLI::Option* scale = command->add_option("--scale", options->import.metres_per_unit,
                                            "Metres in one unit of the file (default: guessed)");
