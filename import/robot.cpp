@@ -166,6 +166,8 @@ Result<ImportedRobot> import_robot(const RobotModel& robot, const std::string& n
   ImportedRobot out;
   take_over(linkage, robot, *parts, name, out);
   note_guesses(linkage, out);
+  if (!(mass_of(linkage) > 0.0))
+    out.notes.push_back("The file declares no masses: motions with masses and strengths say nothing about this robot.");
   const Result<Character> plain = build_robot(out);
   if (!plain) return plain.issue();
   allow_by_file(*plain, FilePairs(robot, linkage, *parts), out);

@@ -168,6 +168,11 @@ TEST(RobotImport, FaultyMeshesAreRefused) {
   EXPECT_EQ(mesh_points("# c\nv 1 2 3\nvn 0 0 1\n", ".OBJ")->size(), 1U);
 }
 
+TEST(RobotImport, RobotWithoutMassesIsRemarked) {
+  EXPECT_TRUE(says(import_urdf(R"(<robot name="r"><link name="a"/></robot>)").notes, "no masses"));
+  EXPECT_FALSE(says(import_urdf(two_links("fixed", "")).notes, "no masses"));
+}
+
 TEST(RobotImport, LongRobotIsCutIntoSeveralParts) {
   std::string text = "<robot name=\"r\"><link name=\"l0\"/>";
   for (int i = 1; i <= 150; ++i)
