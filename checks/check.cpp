@@ -12,9 +12,13 @@ namespace contort {
   Subject name##_subject(const Character&, int);                      \
   void name##_measure(const CheckInput&, MarginFold&);
 #define CLIP(name, kind, scale, help) ClipCheckResult name##_in_clip(const ClipInput&);
+#define BOTH(name, kind, scale, resolution, needs_world, needs, nothing, help) \
+  X(name, kind, scale, resolution, needs_world, needs, nothing, help)          \
+  CLIP(name, kind, scale, help)
 #include "checks/check_list.inc"
 #undef X
 #undef CLIP
+#undef BOTH
 
 namespace {
 
@@ -35,9 +39,13 @@ std::span<const CheckDef> all_checks() {
 #define CLIP(name, kind, scale, help)                                                         \
   {#name, CheckKind::kind, scale, 0.0, false, Needs::clip, "", \
    help,  no_subjects, no_subject, measure_nothing, name##_in_clip},
+#define BOTH(name, kind, scale, resolution, needs_world, needs, nothing, help)                                     \
+  {#name,   CheckKind::kind, scale, resolution,           needs_world,    Needs::needs, \
+   nothing, help,            name##_subject_count, name##_subject, name##_measure, name##_in_clip},
 #include "checks/check_list.inc"
 #undef X
 #undef CLIP
+#undef BOTH
   };
   return checks;
 }

@@ -91,7 +91,7 @@ struct CheckDef {
   // Reports the margin of every subject in every frame that the check judges. It may leave out margins that change no
   // result (fold.h).
   void (*measure)(const CheckInput&, MarginFold&);
-  ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // of checks of clips, and of no other
+  ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // of checks that judge clips as they are in their files
 };
 
 // A check that judged, with its number of subjects. The text is that of the manifest.

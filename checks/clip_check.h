@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,11 +19,17 @@ struct ClipInput {
   std::optional<double> max_gap_m;  // joints farther from their places are faults; nothing says so without
 };
 
-// Frames of these findings are numbers of keys.
+// Frames are numbers of keys.
+struct KeyFinding : Finding {
+  double t0_s = 0.0;  // the time of the worst key; or from the key before it, if a step is what is wrong
+  double t1_s = 0.0;
+  std::string what;  // in words; "" where the margin says all
+};
+
 struct ClipCheckResult {
   int subjects = 0;          // that were judged
   std::string_view why_not;  // the reason if it judged nothing
-  std::vector<Finding> findings;
+  std::vector<KeyFinding> findings;
 };
 
 }  // namespace contort

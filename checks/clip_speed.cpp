@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/lone_steps.h"
 #include "checks/pop.h"
 #include "model/asset/sample.h"
 
@@ -32,21 +33,50 @@ std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
 struct ChannelFolds {
   MarginFold fast;
   MarginFold pops;
+  double stricter_rad_s = 0.0;  // by which a rule makes pops of steps below the limit, <= 0
   ChannelFolds(const CheckSettings& settings, const std::string& node)
-      : fast(1, settings.merge_gap_frames), pops(1, settings.merge_gap_frames) {
+      : fast(1, settings.merge_gap_frames),
+        pops(1, settings.merge_gap_frames),
+        stricter_rad_s(std::min(0.0, tolerance_of(settings, "pop", node))) {
     if (settings.limits.empty()) return;
     fast.tolerate({tolerance_of(settings, "angular_velocity", node)}, {}, 1);
     pops.tolerate({tolerance_of(settings, "pop", node)}, {}, 1);
   }
 };
 
-// Whether it is a pop is told by the keys alone: what a spline does between them is smooth.
-void judge(const ChannelSpeeds& speeds, const std::vector<SpeedInterval>& worst, double limit, ChannelFolds& folds) {
+// The largest step of each interval that would not stand alone, rad.
+std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpeeds& speeds) {
+  std::vector<Quat> keys;
+  for (const double t_s : channel.times_s) keys.push_back(sample_rotation(channel, t_s));
+  return allowed_lone_steps(
+      speeds.between_keys,
+      [&](std::size_t a, std::size_t b) { return rotation_angle(glm::conjugate(keys[a]) * keys[b]); },
+      lone_limits(channel.interpolation, {kBlip_rad, kJump_rad}));
+}
+
+// The greatest speed of interval i that is no pop: what the motion around it explains, above the limit; and below the
+// limit a leap, and what a step may turn that does not stand alone.
+double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<double>& allowed_rad, std::size_t i,
+                            double limit, bool may_leap) {
+  const SpeedInterval& step = speeds.between_keys[i];
+  const double duration_s = step.t1_s - step.t0_s, explained = explained_rad_s(speeds.between_keys, i);
+  const double general = std::max(limit, explained);
+  if (step.speed_rad_s > general || !(duration_s > 0.0)) return general;
+  const double leap = may_leap ? std::max(kLeap_rad / duration_s, explained) : general;
+  return std::min({general, leap, allowed_rad[i] / duration_s});
+}
+
+// Whether it is a pop is told by the keys alone: what a spline does between them is smooth. The fold adds the tolerance
+// of a rule again, so that one that was used to find the pop is taken off.
+void judge(const AssetChannel& channel, const ChannelSpeeds& speeds, const std::vector<SpeedInterval>& worst,
+           double limit, ChannelFolds& folds) {
+  const std::vector<double> allowed = allowed_turns(channel, speeds);
+  const bool may_leap = channel.interpolation != Interpolation::step;
   for (std::size_t i = 0; i < worst.size(); ++i) {
-    const double explained = std::max(limit, explained_rad_s(speeds.between_keys, i));
-    const bool is_pop = speeds.between_keys[i].speed_rad_s > explained;
+    const double most = greatest_without_pop(speeds, allowed, i, limit + folds.stricter_rad_s, may_leap);
+    const bool is_pop = speeds.between_keys[i].speed_rad_s > most;
     MarginFold& fold = is_pop ? folds.pops : folds.fast;
-    fold.report(0, static_cast<int>(i), (is_pop ? explained : limit) - worst[i].speed_rad_s);
+    fold.report(0, static_cast<int>(i), (is_pop ? most - folds.stricter_rad_s : limit) - worst[i].speed_rad_s);
   }
 }
 
@@ -61,7 +91,8 @@ void add_findings(const MarginFold& fold, const char* check, double scale, const
   }
 }
 
-void add_channel(const AssetNode& node, const ChannelSpeeds& speeds, const SpeedLimits& limits, ClipSpeeds& out) {
+void add_channel(const AssetNode& node, const AssetChannel& channel, const ChannelSpeeds& speeds,
+                 const SpeedLimits& limits, ClipSpeeds& out) {
   const std::vector<SpeedInterval> intervals = worst_of_each(speeds);
   const double limit = limit_of(node, limits);
   for (const SpeedInterval& interval : intervals) {
@@ -73,7 +104,7 @@ void add_channel(const AssetNode& node, const ChannelSpeeds& speeds, const Speed
     out.peak_t1_s = interval.t1_s;
   }
   ChannelFolds folds(limits.settings, node.label);
-  judge(speeds, intervals, limit, folds);
+  judge(channel, speeds, intervals, limit, folds);
   const auto first = static_cast<std::ptrdiff_t>(out.findings.size());
   add_findings(folds.fast, "angular_velocity", find_check("angular_velocity").scale, node, intervals, out.findings);
   add_findings(folds.pops, "pop", find_check("pop").scale, node, intervals, out.findings);
@@ -88,8 +119,9 @@ ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const Sp
   ClipSpeeds out;
   out.clip = clip.label;
   for (const ChannelSpeeds& speeds : joint_speeds(clip)) {
-    ++out.channels;
-    add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], speeds, limits, out);
+    if (!speeds.between_keys.empty()) ++out.channels;
+    const AssetChannel& channel = clip.channels[static_cast<std::size_t>(speeds.channel)];
+    add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], channel, speeds, limits, out);
   }
   return out;
 }

@@ -56,6 +56,13 @@ Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& 
 
 }  // namespace
 
+std::vector<std::string> dof_subjects(const AsfSkeleton& skeleton) {
+  const std::vector<LimitedDof> dofs = limited_dofs(skeleton);
+  std::vector<std::string> names;
+  for (int s = 0; s < 2 * static_cast<int>(dofs.size()); ++s) names.push_back(subject_name(dofs, s));
+  return names;
+}
+
 DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion, const CheckSettings& settings) {
   const std::vector<LimitedDof> dofs = limited_dofs(skeleton);
   MarginFold fold(2 * static_cast<int>(dofs.size()), settings.merge_gap_frames, kDofResolution_rad);

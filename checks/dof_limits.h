@@ -27,6 +27,9 @@ struct DofLimits {
 // Limits are inclusive; 1e-6 degrees beyond are the rounding of printed numbers.
 inline constexpr double kDofResolution_rad = 1e-6 * kRadPerDeg;
 
+// The subjects of all limits that the skeleton declares.
+std::vector<std::string> dof_subjects(const AsfSkeleton& skeleton);
+
 // Rules of the settings for joint_range change the findings, but not the counts.
 DofLimits check_dof_limits(const AsfSkeleton& skeleton, const AmcMotion& motion, const CheckSettings& settings = {});
 

@@ -36,6 +36,11 @@ int subjects_of(const std::vector<JudgedCheck>& judged, std::string_view check) 
   return found == judged.end() ? 0 : found->subjects;
 }
 
+// Whether a check judges both clips and motions of characters, and judged the clip: it need not judge the motion again.
+bool is_judged_in_clip(std::string_view check, const std::vector<JudgedCheck>& judged) {
+  return find_check(check).in_clip != nullptr && subjects_of(judged, check) > 0;
+}
+
 // The joints of the motion whose speeds or accelerations the check is not to judge.
 std::set<std::string> left_to_others(std::string_view check, const SpeedsElsewhere& elsewhere) {
   std::set<std::string> joints;
@@ -54,6 +59,9 @@ std::string_view reason_of(const std::vector<NotJudged>& not_judged, std::string
 ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const Capture* capture) {
   ClipEvaluation out;
   out.speeds = check_clip_speeds(in.asset, in.clip, limits);
+  out.channels = static_cast<int>(std::ranges::count_if(
+      in.clip.channels, [](const AssetChannel& channel) { return channel.times_s.size() > 1; }));
+  out.channel_count = static_cast<int>(in.clip.channels.size());
   if (capture != nullptr) out.limits = check_dof_limits(capture->skeleton, capture->motion, in.settings);
   for (const CheckDef& check : all_checks()) {
     if (check.in_clip == nullptr) {
@@ -70,10 +78,15 @@ ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const 
 void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, ClipEvaluation& into) {
   const ClipEvaluation before = into;
   into.judged.clear(), into.not_judged.clear();
+  const auto is_done = [&](std::string_view check) { return is_judged_in_clip(check, before.judged); };
   std::ranges::copy_if(motion.findings, std::back_inserter(into.motion_findings), [&](const Finding& f) {
-    return !left_to_others(f.check, elsewhere).contains(f.subject);
+    return !is_done(f.check) && !left_to_others(f.check, elsewhere).contains(f.subject);
   });
   for (const CheckDef& check : all_checks()) {
+    if (is_done(check.name)) {
+      note_verdict(check, {subjects_of(before.judged, check.name), ""}, into);
+      continue;
+    }
     const int left_out = static_cast<int>(left_to_others(check.name, elsewhere).size());
     const int joints = std::max(0, subjects_of(motion.judged, check.name) - left_out);
     const std::string_view reason =

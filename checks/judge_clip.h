@@ -23,8 +23,10 @@ struct Capture {
 struct ClipEvaluation {
   ClipSpeeds speeds;                     // angular_velocity and pop of channels
   std::optional<DofLimits> limits;       // joint_range of a capture
-  std::vector<Finding> clip_findings;    // of the manifest's checks of clips; frames are keys
+  std::vector<KeyFinding> clip_findings;  // of the manifest's checks of clips; frames are keys
   std::vector<Finding> motion_findings;  // of the character's motion
+  int channels = 0;                      // that some check judged: those with two keys or more
+  int channel_count = 0;                 // of the clip, with those that are not read
   std::vector<JudgedCheck> judged;       // of all of them, in the manifest's order, like the next
   std::vector<NotJudged> not_judged;
 };

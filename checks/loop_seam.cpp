@@ -1,8 +1,11 @@
 #include "checks/loop_seam.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "checks/clip_check.h"
+#include "checks/clip_figure.h"
+#include "checks/clip_steps.h"
+#include "model/core/index.h"
 #include "model/asset/sample.h"
 
 namespace contort {
@@ -25,6 +28,62 @@ bool has_seam(const AssetChannel& channel) {
   return channel.path == ChannelPath::rotation && channel.times_s.size() >= 3;
 }
 
+// ---- places
+
+constexpr double kSeamOfFigure = 0.01;  // 2 cm of a figure of 2 m
+constexpr double kLatestStart_s = 0.1;  // exporters begin with frame 0 or 1, of 24 a second or more
+
+bool has_place_seam(const AssetChannel& channel) {
+  return channel.path == ChannelPath::translation && channel.times_s.size() >= 3;
+}
+
+// Whether the node may end elsewhere than it began: it travels, and what it hangs on does not.
+bool may_travel(const ClipInput& in, int node) {
+  for (int n = in.asset.nodes[at(node)].parent; n >= 0; n = in.asset.nodes[at(n)].parent)
+    for (const AssetChannel& channel : in.clip.channels)
+      if (channel.node == n && channel.path == ChannelPath::translation) return false;
+  return true;
+}
+
+// How far two keys are apart; of a node that travels, in height.
+double apart_m(const ClipInput& in, const ClipFigure& figure, const AssetChannel& channel, std::size_t a,
+               std::size_t b) {
+  const Vec3 change = sample_vector(channel, channel.times_s[b]) - sample_vector(channel, channel.times_s[a]);
+  const Vec3 moved = in_world(in.asset, figure, channel.node, change);
+  return may_travel(in, channel.node) ? std::fabs(moved.y) : length(moved);
+}
+
+void add_place_seam(const ClipInput& in, const ClipFigure& figure, const AssetChannel& channel,
+                    std::vector<KeyFinding>& out) {
+  const std::size_t last = channel.times_s.size() - 1;
+  const double widest =
+      std::max(apart_m(in, figure, channel, 0, 1), apart_m(in, figure, channel, last - 1, last));
+  const double gap_m = apart_m(in, figure, channel, last, 0);
+  const std::string& node = in.asset.nodes[at(channel.node)].label;
+  const double allowed_m = std::max(kSeamOfFigure * figure.size_m, kSeamFactor * widest);
+  const double margin = allowed_m + tolerance_of(in.settings, "loop_seam", node) - gap_m;
+  if (!(margin < 0.0)) return;
+  const int key = static_cast<int>(last);
+  KeyFinding finding = at_key(in.clip, ChannelPath::translation,
+                              {"loop_seam", node, "m", key, key, key, margin, -margin / 0.02}, in.asset);
+  finding.what = "ends " + fixed_text(gap_m, 3) + " m from where it began" +
+                 (may_travel(in, channel.node) ? ", in height" : "") + ", where " + fixed_text(allowed_m, 3) +
+                 " m are allowed";
+  out.push_back(std::move(finding));
+}
+
+// Players begin at 0 s: a clip that has its first key later stands still until then, each time around.
+void add_late_start(const ClipInput& in, std::vector<KeyFinding>& out) {
+  const double margin = kLatestStart_s + tolerance_of(in.settings, "loop_seam", "figure") - in.clip.first_s;
+  if (!(margin < 0.0)) return;
+  KeyFinding finding;
+  static_cast<Finding&>(finding) = {"loop_seam", "figure", "s", 0, 0, 0, margin,
+                                    -margin / find_check("loop_seam").scale};
+  finding.t1_s = in.clip.first_s;
+  finding.what = "stands still for " + fixed_text(in.clip.first_s, 3) + " s each time around: its first key is so late";
+  out.push_back(std::move(finding));
+}
+
 }  // namespace
 
 std::vector<Finding> check_loop_seam(const Asset& asset, const AssetClip& clip, const CheckSettings& settings) {
@@ -42,9 +101,16 @@ std::vector<Finding> check_loop_seam(const Asset& asset, const AssetClip& clip, 
 
 ClipCheckResult loop_seam_in_clip(const ClipInput& in) {
   if (!in.is_loop) return {0, "nothing says that the clip is a loop (--loops)", {}};
-  const auto seams = static_cast<int>(std::ranges::count_if(in.clip.channels, has_seam));
-  if (seams == 0) return {0, "no rotation has three keys", {}};
-  return {seams, "", check_loop_seam(in.asset, in.clip, in.settings)};
+  ClipCheckResult result{0, "no joint has three keys", {}};
+  for (Finding& finding : check_loop_seam(in.asset, in.clip, in.settings))
+    result.findings.push_back(at_key(in.clip, ChannelPath::rotation, std::move(finding), in.asset));
+  const ClipFigure figure = clip_figure(in.asset);
+  for (const AssetChannel& channel : in.clip.channels) {
+    if (has_seam(channel) || has_place_seam(channel)) ++result.subjects;
+    if (has_place_seam(channel)) add_place_seam(in, figure, channel, result.findings);
+  }
+  if (result.subjects > 0) add_late_start(in, result.findings);
+  return result;
 }
 
 }  // namespace contort

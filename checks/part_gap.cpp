@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "checks/clip_check.h"
+#include "checks/clip_steps.h"
 #include "model/asset/sample.h"
 
 namespace contort {
@@ -17,11 +17,35 @@ const AssetNode* parent_of(const Asset& asset, const AssetNode& node) {
   return node.parent < 0 ? nullptr : &asset.nodes[static_cast<std::size_t>(node.parent)];
 }
 
-// Whether a joint has a joint above it that has one too.
+// Whether a joint has a joint above it that has one too. In a file without a skin, which says what joints are, every node
+// counts as one.
 bool is_inner(const Asset& asset, const AssetNode& node) {
+  const bool has_joints = std::ranges::any_of(asset.nodes, &AssetNode::is_joint);
   const AssetNode* parent = parent_of(asset, node);
   const AssetNode* above = parent == nullptr ? nullptr : parent_of(asset, *parent);
-  return node.is_joint && above != nullptr && parent->is_joint && above->is_joint;
+  return above != nullptr && (!has_joints || (node.is_joint && parent->is_joint && above->is_joint));
+}
+
+bool is_moved(const AssetClip& clip, int node) {
+  return std::ranges::any_of(clip.channels, [&](const AssetChannel& channel) { return channel.node == node; });
+}
+
+bool hangs_on(const Asset& asset, int node, int above) {
+  for (int n = node; n >= 0; n = asset.nodes[static_cast<std::size_t>(n)].parent)
+    if (n == above) return true;
+  return false;
+}
+
+// Whether the node carries the figure from place to place, in a file without a skin: nothing above it moves, and
+// something below it does.
+bool carries_figure(const Asset& asset, const AssetClip& clip, int node) {
+  if (std::ranges::any_of(asset.nodes, &AssetNode::is_joint)) return false;
+  for (int n = asset.nodes[static_cast<std::size_t>(node)].parent; n >= 0;
+       n = asset.nodes[static_cast<std::size_t>(n)].parent)
+    if (is_moved(clip, n)) return false;
+  return std::ranges::any_of(clip.channels, [&](const AssetChannel& channel) {
+    return channel.node != node && hangs_on(asset, channel.node, node);
+  });
 }
 
 double gap_m(const AssetChannel& channel, const Vec3& rest_m, double t_s) {
@@ -38,9 +62,10 @@ double widest_m(const AssetChannel& channel, const Vec3& rest_m, std::size_t key
   return widest;
 }
 
-bool has_place(const Asset& asset, const AssetChannel& channel) {
+bool has_place(const Asset& asset, const AssetClip& clip, const AssetChannel& channel) {
   return channel.path == ChannelPath::translation &&
-         is_inner(asset, asset.nodes[static_cast<std::size_t>(channel.node)]);
+         is_inner(asset, asset.nodes[static_cast<std::size_t>(channel.node)]) &&
+         !carries_figure(asset, clip, channel.node);
 }
 
 std::optional<Finding> judge(const AssetChannel& channel, const AssetNode& node, double allowed_m) {
@@ -62,7 +87,7 @@ std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, d
                                     const CheckSettings& settings) {
   std::vector<Finding> findings;
   for (const AssetChannel& channel : clip.channels) {
-    if (!has_place(asset, channel)) continue;
+    if (!has_place(asset, clip, channel)) continue;
     const AssetNode& node = asset.nodes[static_cast<std::size_t>(channel.node)];
     const double allowed_m = most_m + tolerance_of(settings, "part_gap", node.label);
     if (std::optional<Finding> finding = judge(channel, node, allowed_m)) findings.push_back(std::move(*finding));
@@ -72,10 +97,14 @@ std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, d
 
 ClipCheckResult part_gap_in_clip(const ClipInput& in) {
   if (!in.max_gap_m) return {0, "nothing says how far a joint may be from its place (--max-gap-m)", {}};
-  const auto is_one = [&](const AssetChannel& channel) { return has_place(in.asset, channel); };
-  const auto joints = static_cast<int>(std::ranges::count_if(in.clip.channels, is_one));
-  if (joints == 0) return {0, "no joint below the root's own has a translation", {}};
-  return {joints, "", check_part_gap(in.asset, in.clip, *in.max_gap_m, in.settings)};
+  // One without a translation is in its place, which is a judgement, too.
+  const auto is_one = [&](const AssetNode& node) { return is_inner(in.asset, node); };
+  const auto joints = static_cast<int>(std::ranges::count_if(in.asset.nodes, is_one));
+  if (joints == 0) return {0, "no joint hangs below the root's own", {}};
+  ClipCheckResult result{joints, "", {}};
+  for (Finding& finding : check_part_gap(in.asset, in.clip, *in.max_gap_m, in.settings))
+    result.findings.push_back(at_key(in.clip, ChannelPath::translation, std::move(finding), in.asset));
+  return result;
 }
 
 }  // namespace contort

@@ -25,6 +25,12 @@ inline constexpr double kPopFactor = 4.0;
 // Two frames at 24 Hz last 83 ms. People need longer to start and stop a limb.
 inline constexpr double kPopLongest_s = 0.1;
 
+// Below the limit, in clips as they are in their files: a step that stands alone (lone_steps.h), and a leap that the
+// motion around it does not explain. 90 degrees in a frame of 30 Hz are 2,700 deg/s, less than the fastest real moves.
+inline constexpr double kBlip_rad = 5.0 * kRadPerDeg;   // people see less; no shipped clip has such a blip
+inline constexpr double kJump_rad = 20.0 * kRadPerDeg;
+inline constexpr double kLeap_rad = 85.0 * kRadPerDeg;
+
 // The speed that the surrounding motion explains for interval i, rad/s; infinite if there are no neighbours to
 // compare with.
 double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t i);

@@ -1,6 +1,8 @@
 // contort check: a spec, or an animation made elsewhere.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "cli/check_clips.h"
 #include "cli/commands.h"
@@ -89,6 +91,11 @@ std::string option_for_animations(const CLI::App& command) {
   return "";
 }
 
+bool is_a_folder(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_directory(path, error);
+}
+
 // --known CORPUS: asks the rules of the corpus instead of making the motion.
 void ask_rules(const std::string& file, const std::string& level, const std::string& corpus, bool as_json,
                Context& context) {
@@ -99,6 +106,8 @@ void ask_rules(const std::string& file, const std::string& level, const std::str
 
 void run(const ClipCheckOptions& options, const SpecOptions& of_spec, const CLI::App& command, Context& context) {
   const auto& [level, known] = of_spec;
+  if (options.allow_unreadable && !options.all_clips)
+    return context.fail({"usage.for_folders", "", "--allow-unreadable is for folders and --all-clips"});
   if (!known.empty() && (options.all_clips || is_animation(options.files.front())))
     return context.fail({"usage.for_specs", "", "--known is for specs and cases"});
   if (!level.empty() && (options.all_clips || is_animation(options.files.front())))
@@ -124,8 +133,8 @@ void add_check(CLI::App& app, Context& context) {
       app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .gltf, .bvh, .amc)");
   command
       ->add_option("FILE", options->files,
-                   "Spec or case (.json), or animation (.glb, .gltf, .bvh, .amc); with --all-clips, any number of "
-                   "animations and folders")
+                   "Spec or case (.json), or animation (.glb, .gltf, .bvh, .amc), or a folder of them; with --all-clips, "
+                   "any number of animations and folders")
       ->required();
   CLI::Option* character = command->add_option(
       "--character", options->character, "Judge the clips as motions of this character, by every check that applies");
@@ -141,8 +150,11 @@ void add_check(CLI::App& app, Context& context) {
       ->check(refuse_nan)
       ->capture_default_str();
   CLI::Option* clip = command->add_option("--clip", options->clip, "Only this clip of the file");
-  command->add_option("--loops", options->loops, "Clips whose names match are loops: judge their seams; * is anything")
-      ->type_name("PATTERN");
+  command
+      ->add_option("--loops", options->loops,
+                   "Clips whose names match are loops: judge their seams; * is anything; may be given more than once")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--max-gap-m", options->max_gap_m,
@@ -150,15 +162,13 @@ void add_check(CLI::App& app, Context& context) {
           "in metres, as many .bvh, is meant in its own unit")
       ->check(CLI::Range(0.0, 1e6))
       ->check(refuse_nan);
-  CLI::Option* all_clips =
-      command
-          ->add_flag("--all-clips", options->all_clips,
-                     "Every clip of every file, in folders and below: one line for each, worst first")
-          ->excludes(clip);
+  command
+      ->add_flag("--all-clips", options->all_clips,
+                 "Every clip of every file, in folders and below: one line for each, worst first; a folder means it")
+      ->excludes(clip);
   command
       ->add_flag("--allow-unreadable", options->allow_unreadable,
-                 "With --all-clips: files that cannot be read are listed, and the others decide")
-      ->needs(all_clips);
+                 "With --all-clips or a folder: files that cannot be read are listed, and the others decide");
   command
       ->add_option("--max-speed-deg-s", options->max_speed_deg_s,
                    "Greatest angular speed of joints without their own limit")
@@ -180,6 +190,7 @@ void add_check(CLI::App& app, Context& context) {
       ->type_name("CORPUS");
   command->callback([options, of_spec, command, rate, &context] {
     if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
+    options->all_clips |= std::ranges::any_of(options->files, is_a_folder);
     run(*options, *of_spec, *command, context);
   });
 }

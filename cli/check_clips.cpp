@@ -9,6 +9,7 @@
 #include "checks/waive.h"
 #include "cli/clip_character.h"
 #include "cli/clip_report.h"
+#include "cli/no_effect.h"
 #include "cli/print.h"
 #include "guest/finished_file.h"
 #include "model/core/files.h"
@@ -21,6 +22,7 @@ struct Checked {
   std::vector<ClipReport> clips;
   std::vector<Unreadable> unreadable;
   std::set<std::string> unmatched;  // nodes of the map that were in no file
+  Touched touched;
   std::vector<WaiverUse> waivers;
   std::size_t waived = 0;
 };
@@ -67,7 +69,7 @@ void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked
   keep_open(
       settings, report.judged.speeds.findings, [](const ClipFinding& f) { return f.finding; }, out);
   const auto itself = [](const Finding& f) { return f; };
-  keep_open(settings, report.judged.clip_findings, itself, out);
+  keep_open(settings, report.judged.clip_findings, [](const KeyFinding& f) -> const Finding& { return f; }, out);
   keep_open(settings, report.judged.motion_findings, itself, out);
   if (report.judged.limits) keep_open(settings, report.judged.limits->findings, itself, out);
 }
@@ -103,7 +105,8 @@ Result<Done> judge_on_character(ClipJudging& with, const Asset& asset, const Ass
 
 Result<ClipReport> check_clip(const std::string& file, const Animation& animation, const AssetClip& clip,
                               ClipJudging& with) {
-  const bool is_loop = !with.options.loops.empty() && matches(with.options.loops, clip.label);
+  const bool is_loop = std::ranges::any_of(with.options.loops,
+                                           [&](const std::string& pattern) { return matches(pattern, clip.label); });
   const ClipInput in{animation.asset, clip, with.limits.settings, is_loop, with.options.max_gap_m};
   ClipReport report{file, {}, {}, with.options.animation.rate_hz, 0};
   if (const std::optional<Take>& take = animation.take; take) {
@@ -121,11 +124,13 @@ void check_file(const std::string& file, ClipJudging& with, Checked& out) {
   const Result<Animation> animation = read_animation(file, with.options.animation);
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
+  note_clips(*animation, out.touched);
   for (const AssetClip& clip : animation->asset.clips) {
     if (!with.options.clip.empty() && clip.name != with.options.clip && clip.label != with.options.clip) continue;
     Result<ClipReport> checked = check_clip(file, *animation, clip, with);
     if (!checked) return out.unreadable.push_back({file, checked.issue()});
     ClipReport report = std::move(checked).value();
+    note_judged(clip, *animation, report.judged, with.on, with.options, with.limits.settings, out.touched);
     set_waived_apart(with.limits.settings, report, out);
     out.clips.push_back(std::move(report));
   }
@@ -181,8 +186,21 @@ Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked
     return about_file(checked.unreadable.front().file, checked.unreadable.front().issue);
   if (!checked.clips.empty() || !checked.unreadable.empty()) return Done{};
   const std::string where = options.files.size() == 1 ? options.files.front() : "none of the files";
-  return Issue{"check.no_clip", "",
-               where + (options.clip.empty() ? " holds no animation" : " holds no clip \"" + options.clip + "\"")};
+  if (!options.clip.empty() && !checked.touched.clips.empty())
+    return no_such_clip(where, options.clip, checked.touched.clips);
+  return Issue{"check.no_clip", "", where + " holds no animation"};
+}
+
+// The same for options and rules that touched nothing, and for clips of which nothing was judged.
+Result<Done> judge_effects(const ClipCheckOptions& options, const std::string& settings_file,
+                           const CheckSettings& settings, const Checked& checked) {
+  if (checked.clips.empty()) return Done{};
+  if (const Result<Done> effects = check_effects(options, settings_file, settings, checked.touched); !effects)
+    return effects;
+  const auto is_judged = [](const ClipReport& clip) { return clip.judged.channels > 0; };
+  if (std::ranges::any_of(checked.clips, is_judged)) return Done{};
+  return Issue{"check.nothing_judged", "",
+               options.files.front() + ": nothing could be judged: no joint that is read has two keys or more"};
 }
 
 void print_pace(std::size_t clips, std::chrono::steady_clock::time_point start) {
@@ -207,6 +225,9 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   for (const std::string& file : files) check_file(file, with, checked);
   if (const Result<Done> fit = judge_input(options, checked); !fit)
     return context.fail(in_map(with.on.map_file, fit.issue()));
+  if (const Result<Done> effects = judge_effects(options, context.settings_file, with.limits.settings, checked);
+      !effects)
+    return context.fail(effects.issue());
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
   if (!options.all_clips) return print_one(options, with.limits.settings, checked);
   std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);

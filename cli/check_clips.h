@@ -15,7 +15,7 @@ struct ClipCheckOptions {
   std::string character;            // that is judged as the clips move it, "" for none
   std::string map;                  // a file that says which node stands for which joint of the character
   std::string clip;                 // "" for all
-  std::string loops;                // clips with such names are loops, "" for none
+  std::vector<std::string> loops;   // clips with names like one of these are loops
   std::optional<double> max_gap_m;  // joints farther from their places are part_gap; nothing is judged without
   AnimationOptions animation;
   std::optional<double> rate_hz;  // of motions of the character; each clip's own without

@@ -27,8 +27,8 @@ double worst_depth(const ClipReport& clip) {
   const std::optional<DofLimits>& limits = clip.judged.limits;
   const double fast = -clip.judged.speeds.least_margin_rad_s / find_check("angular_velocity").scale;
   double worst = limits ? std::max(fast, limits->worst_depth) : fast;
-  for (const std::vector<Finding>* found : {&clip.judged.clip_findings, &clip.judged.motion_findings})
-    for (const Finding& finding : *found) worst = std::max(worst, finding.depth);
+  for (const Finding& finding : clip.judged.clip_findings) worst = std::max(worst, finding.depth);
+  for (const Finding& finding : clip.judged.motion_findings) worst = std::max(worst, finding.depth);
   return worst;
 }
 
@@ -96,7 +96,7 @@ Json limit_json(const ClipReport& clip, const Finding& f) {
           {"worst_time_s", time_s(clip, f.worst_frame)}};
 }
 
-Json key_json(const Finding& f) {
+Json key_json(const KeyFinding& f) {
   return {{"check", f.check},
           {"subject", f.subject},
           {"unit", f.unit},
@@ -104,7 +104,10 @@ Json key_json(const Finding& f) {
           {"depth", f.depth},
           {"first_key", f.first_frame},
           {"worst_key", f.worst_frame},
-          {"last_key", f.last_frame}};
+          {"last_key", f.last_frame},
+          {"t0_s", f.t0_s},
+          {"t1_s", f.t1_s},
+          {"what", f.what}};
 }
 
 Json motion_json(const ClipMotion& motion, const Finding& f) {
@@ -144,7 +147,7 @@ Json findings_of_clip(const ClipReport& clip) {
   for (const ClipFinding& f : clip.judged.speeds.findings) findings.push_back(speed_json(f));
   if (clip.judged.limits)
     for (const Finding& f : clip.judged.limits->findings) findings.push_back(limit_json(clip, f));
-  for (const Finding& f : clip.judged.clip_findings) findings.push_back(key_json(f));
+  for (const KeyFinding& f : clip.judged.clip_findings) findings.push_back(key_json(f));
   if (clip.motion)
     for (const Finding& f : clip.judged.motion_findings) findings.push_back(motion_json(*clip.motion, f));
   return findings;
@@ -158,6 +161,8 @@ Json clip_json(const ClipReport& clip) {
               {"peak_t0_s", speeds.peak_t0_s},
               {"peak_t1_s", speeds.peak_t1_s},
               {"least_margin_deg_s", speeds.least_margin_rad_s * kDegPerRad},
+              {"channels", clip.judged.channels},
+              {"channel_count", clip.judged.channel_count},
               {"judged", Json::parse(judged_json(clip.judged.judged))},
               {"not_judged", Json::parse(not_judged_json(clip.judged.not_judged))},
               {"findings", findings_of_clip(clip)}};
@@ -193,18 +198,30 @@ constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: more than this
 constexpr double kPlainOffset_m = 0.01;
 constexpr std::size_t kMostLines = 5;
 
-void print_speed_findings(const ClipSpeeds& speeds) {
-  for (const ClipFinding& f : speeds.findings)
-    std::printf("  %s  %s  %s deg/s, allowed %s  at %s-%s s\n", f.finding.check.c_str(),
-                printable(f.finding.subject).c_str(), decimal(f.worst_speed_rad_s * kDegPerRad, 1).c_str(),
-                decimal((f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, 1).c_str(),
-                decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str());
+// Of a pop: ", 90.5 deg in one step".
+std::string step_text(const ClipFinding& f) {
+  if (f.finding.check != "pop" || !std::isfinite(f.worst_speed_rad_s)) return "";
+  return ", " + decimal(f.worst_speed_rad_s * (f.worst_t1_s - f.worst_t0_s) * kDegPerRad, 1) + " deg in one step";
 }
 
-void print_key_findings(const std::vector<Finding>& findings) {
-  for (const Finding& f : findings)
-    std::printf("  %s  %s  %s beyond what is allowed  keys %d-%d, worst %d\n", f.check.c_str(),
-                printable(f.subject).c_str(), excess_text(f, 3).c_str(), f.first_frame, f.last_frame, f.worst_frame);
+void print_speed_findings(const ClipSpeeds& speeds) {
+  for (const ClipFinding& f : speeds.findings)
+    std::printf("  %s  %s  %s deg/s, allowed %s  at %s-%s s%s\n", f.finding.check.c_str(),
+                printable(f.finding.subject).c_str(), decimal(f.worst_speed_rad_s * kDegPerRad, 1).c_str(),
+                decimal((f.worst_speed_rad_s + f.finding.worst_margin) * kDegPerRad, 1).c_str(),
+                decimal(f.worst_t0_s, 3).c_str(), decimal(f.worst_t1_s, 3).c_str(), step_text(f).c_str());
+}
+
+// "0.500 s", or "0.467-0.500 s" of a step.
+std::string when_text(const KeyFinding& f) {
+  return (f.t0_s < f.t1_s ? decimal(f.t0_s, 3) + "-" : "") + decimal(f.t1_s, 3) + " s";
+}
+
+void print_key_findings(const std::vector<KeyFinding>& findings) {
+  for (const KeyFinding& f : findings)
+    std::printf("  %s  %s  %s  keys %d-%d, worst %d (%s)\n", f.check.c_str(), printable(f.subject).c_str(),
+                (f.what.empty() ? excess_text(f, 3) + " beyond what is allowed" : f.what).c_str(), f.first_frame,
+                f.last_frame, f.worst_frame, when_text(f).c_str());
 }
 
 void print_motion_findings(const ClipReport& clip) {
@@ -306,7 +323,8 @@ void print_judged(const std::vector<ClipReport>& clips) {
   JudgedSummary summary;
   for (const ClipReport& clip : clips) {
     summary.add(clip.judged.judged, clip.judged.not_judged);
-    summary.channels = std::max(summary.channels, clip.judged.speeds.channels);
+    if (clip.judged.channels > summary.channels || summary.channel_count == 0)
+      summary.channels = clip.judged.channels, summary.channel_count = clip.judged.channel_count;
     if (!clip.motion) continue;
     summary.frames += clip.motion->frames;
     summary.joints = std::max(summary.joints, clip.motion->joints), summary.joint_count = clip.motion->joint_count;

@@ -16,7 +16,9 @@ std::string count_of(std::int64_t count, const std::string& one) {
 
 std::string judged_on(const JudgedSummary& summary) {
   std::string text;
-  if (summary.channels > 0) text += ", " + count_of(summary.channels, "channel");
+  if (summary.channel_count > 0)
+    text += ", " + (summary.channels < summary.channel_count ? std::to_string(summary.channels) + " of " : "") +
+            count_of(summary.channel_count, "channel");
   if (summary.joint_count > 0)
     text += ", " + std::to_string(summary.joints) + " of " + count_of(summary.joint_count, "joint");
   const auto range = summary.checks.find("joint_range");

@@ -20,7 +20,8 @@ struct JudgedTally {
 struct JudgedSummary {
   int motions = 0;          // or clips
   std::int64_t frames = 0;  // of motions of characters
-  int channels = 0;         // rotations of clips
+  int channels = 0;         // of clips, that some check judged; the most in one of them
+  int channel_count = 0;    // of that clip
   int joints = 0;           // that were moved, the most in one motion
   int joint_count = 0;      // of the character; 0 without
   std::map<std::string_view, JudgedTally> checks;

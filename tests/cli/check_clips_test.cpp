@@ -40,7 +40,10 @@ TEST_F(CheckClips, ABvhIsCheckedAndAPopIsNamedSo) {
   EXPECT_TRUE(has(ran.out, "clip take: peak 9000.0 deg/s at arm, 0.000-0.010 s")) << ran.out;
   EXPECT_TRUE(has(ran.out, "  pop  arm  9000.0 deg/s, allowed 3000.0  at 0.000-0.010 s")) << ran.out;
   EXPECT_EQ(last_line(ran.out), "RESULT findings=1 clips=1");
-  EXPECT_EQ(contort_program({"check", path, "--max-speed-deg-s", "9001"}).code, 0);
+  const Ran faster = contort_program({"check", path, "--max-speed-deg-s", "9001"});
+  EXPECT_TRUE(has(faster.out, "  pop  arm  9000.0 deg/s, allowed 2000.0  at 0.000-0.010 s, 90.0 deg in one step"))
+      << "a jump that stands alone is one at any speed limit\n" << faster.out;
+  EXPECT_EQ(contort_program({"check", file("slow.bvh", bvh_of("arm", {15, 0, 1, 2, 3, 4}))}).code, 0);
 }
 
 TEST_F(CheckClips, ABvhThatIsBrokenIsRefusedWithItsLine) {
@@ -131,13 +134,13 @@ TEST_F(CheckClips, AllClipsAreOneLineEachWorstFirst) {
   const Ran ran = contort_program({"check", folder_.path(), "--all-clips", "--allow-unreadable"});
   EXPECT_EQ(ran.code, 1) << ran.err;
   const std::vector<std::string> lines = lines_of(ran.out);
-  ASSERT_EQ(lines.size(), 11U) << ran.out;
+  ASSERT_EQ(lines.size(), 14U) << ran.out;
   EXPECT_TRUE(has(lines[0], "wild.BVH: clip wild: findings 1, pops 0, peak 5000.0 deg/s at arm, ")) << lines[0];
   EXPECT_TRUE(has(lines[1], "a.bvh: clip a: findings 0")) << lines[1];
   EXPECT_TRUE(has(lines[2], "calm.bvh: clip calm: findings 0")) << lines[2];
   EXPECT_TRUE(has(lines[3], "broken.bvh: unreadable: bvh.bad_syntax at line 1: ")) << lines[3];
-  EXPECT_EQ(lines[4], "Judged: 2 checks on 1 channel, in 3 motions");
-  EXPECT_EQ(lines[10], "RESULT findings=1 clips=3 files=4 unreadable=1");
+  EXPECT_EQ(lines[4], "Judged: 3 checks on 1 channel, in 3 motions");
+  EXPECT_EQ(lines[13], "RESULT findings=1 clips=3 files=4 unreadable=1");
   EXPECT_TRUE(has(ran.err, "clips per second")) << ran.err;
   EXPECT_FALSE(has(ran.out, "clips per second"));
 }

@@ -1,0 +1,41 @@
+// Options that touched nothing. A pattern, a rule or a rate that applies to none of the files changes no verdict, and
+// somebody believes that it does: that is an error, which names what there is.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "checks/judge_clip.h"
+#include "cli/animation.h"
+#include "cli/check_clips.h"
+#include "cli/clip_character.h"
+
+namespace contort::cli {
+
+// What the options found in all files.
+struct Touched {
+  std::vector<std::string> clips;  // labels, each once
+  bool has_take = false;           // an .amc was read
+  bool was_gap_judged = false;
+  std::set<std::string> patterns;  // of --loops that matched a clip
+  std::set<std::size_t> rules;     // of the settings that matched a subject
+  std::set<std::string> subjects;  // that rules could name
+};
+
+void note_clips(const Animation& animation, Touched& touched);
+
+// Notes a clip after it was judged.
+void note_judged(const AssetClip& clip, const Animation& animation, const ClipEvaluation& judged,
+                 const ClipCharacter& on, const ClipCheckOptions& options, const CheckSettings& settings,
+                 Touched& touched);
+
+// The error that --clip names no clip of these: with their names, and the one that was probably meant. Code
+// check.no_clip.
+Issue no_such_clip(const std::string& where, const std::string& clip, const std::vector<std::string>& clips);
+
+// Code check.no_effect, for the first option that touched nothing.
+Result<Done> check_effects(const ClipCheckOptions& options, const std::string& settings_file,
+                           const CheckSettings& settings, const Touched& touched);
+
+}  // namespace contort::cli
