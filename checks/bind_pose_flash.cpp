@@ -108,7 +108,8 @@ void judge_flash(const ClipInput& in, const ClipPoses& poses, int first, int las
                                     -margin / find_check("bind_pose_flash").scale};
   finding.t0_s = poses.times_s[static_cast<std::size_t>(first)];
   finding.t1_s = poses.times_s[static_cast<std::size_t>(last)];
-  finding.what = "is in its rest pose, between poses that are " + fixed_text(away * kDegPerRad, 1) + " deg away from it";
+  finding.what =
+      "is in its rest pose, between poses that are " + fixed_text(away * kDegPerRad, 1) + " deg away from it";
   out.push_back(std::move(finding));
 }
 

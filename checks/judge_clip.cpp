@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "checks/clip_faults.h"
+
 namespace contort {
 
 namespace {
@@ -61,7 +63,10 @@ ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const 
   out.speeds = check_clip_speeds(in.asset, in.clip, limits);
   out.channels = static_cast<int>(std::ranges::count_if(
       in.clip.channels, [](const AssetChannel& channel) { return channel.times_s.size() > 1; }));
+  out.not_read = in.clip.not_read;
   out.channel_count = static_cast<int>(in.clip.channels.size());
+  for (const auto& [kind, count] : out.not_read) out.channel_count += count;
+  for (const AssetFault* fault : faults_of(in.asset, in.clip)) out.channel_count += fault->key < 0 && fault->node >= 0;
   if (capture != nullptr) out.limits = check_dof_limits(capture->skeleton, capture->motion, in.settings);
   for (const CheckDef& check : all_checks()) {
     if (check.in_clip == nullptr) {

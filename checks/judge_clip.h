@@ -2,6 +2,7 @@
 // motion if there is one.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,6 +28,7 @@ struct ClipEvaluation {
   std::vector<Finding> motion_findings;  // of the character's motion
   int channels = 0;                      // that some check judged: those with two keys or more
   int channel_count = 0;                 // of the clip, with those that are not read
+  std::map<std::string, int> not_read;   // of these, by their kind
   std::vector<JudgedCheck> judged;       // of all of them, in the manifest's order, like the next
   std::vector<NotJudged> not_judged;
 };

@@ -17,8 +17,8 @@ const AssetNode* parent_of(const Asset& asset, const AssetNode& node) {
   return node.parent < 0 ? nullptr : &asset.nodes[static_cast<std::size_t>(node.parent)];
 }
 
-// Whether a joint has a joint above it that has one too. In a file without a skin, which says what joints are, every node
-// counts as one.
+// Whether a joint has a joint above it that has one too. In a file without a skin, which says what joints are, every
+// node counts as one.
 bool is_inner(const Asset& asset, const AssetNode& node) {
   const bool has_joints = std::ranges::any_of(asset.nodes, &AssetNode::is_joint);
   const AssetNode* parent = parent_of(asset, node);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHidden = 0.01;  // of the usual size
 constexpr double kBlipOfSize = 0.1;
-constexpr double kJumpOfSize = 0.5;
+constexpr double kJumpOfSize = 0.4;  // twice or half the size is at least half of the usual one
 
 bool is_scaled(const AssetChannel& channel) {
   return channel.path == ChannelPath::scale && channel.times_s.size() > 1;

@@ -59,7 +59,7 @@ Result<Animation> read_animation(const std::string& path, const AnimationOptions
   const std::string ending = ending_of(path);
   if (ending == ".amc") return read_take(path, options);
   if (ending == ".bvh") return with_asset(read_bvh(path));
-  if (ending == ".glb" || ending == ".gltf") return with_asset(read_gltf(path));
+  if (ending == ".glb" || ending == ".gltf") return with_asset(read_gltf_around_faults(path));
   return Issue{"check.unknown_format", "", path + " ends in none of .glb, .gltf, .bvh, .amc"};
 }
 

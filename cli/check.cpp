@@ -170,6 +170,16 @@ void add_check(CLI::App& app, Context& context) {
       ->add_flag("--allow-unreadable", options->allow_unreadable,
                  "With --all-clips or a folder: files that cannot be read are listed, and the others decide");
   command
+      ->add_option("--accept-list", options->accept_list,
+                   "Findings that are known, by file, clip, check and joint: they fail no run (docs/checks.md)")
+      ->type_name("FILE");
+  command
+      ->add_option("--write-accept-list", options->write_accept_list,
+                   "Write all findings of this run as such a list, with the reasons of --accept-list")
+      ->type_name("FILE");
+  command->add_option("--jobs", options->jobs, "Threads for many files (default: one per core)")
+      ->check(CLI::Range(1, 1024));
+  command
       ->add_option("--max-speed-deg-s", options->max_speed_deg_s,
                    "Greatest angular speed of joints without their own limit")
       ->check(CLI::Range(1e-3, 1e6))

@@ -1,16 +1,20 @@
 #include "cli/check_clips.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <set>
+#include <thread>
 
 #include "checks/judge_clip.h"
 #include "checks/waive.h"
+#include "cli/accept_list.h"
 #include "cli/clip_character.h"
 #include "cli/clip_report.h"
 #include "cli/no_effect.h"
 #include "cli/print.h"
+#include "cli/similar_names.h"
 #include "guest/finished_file.h"
 #include "model/core/files.h"
 
@@ -25,6 +29,9 @@ struct Checked {
   Touched touched;
   std::vector<WaiverUse> waivers;
   std::size_t waived = 0;
+  std::set<int> accepted_by;              // entries of the accept list that accepted a finding
+  std::size_t accepted = 0;               // findings
+  std::vector<AcceptedFinding> findings;  // all of them, for a list to be written
 };
 
 // All that does not change from file to file.
@@ -33,6 +40,7 @@ struct ClipJudging {
   ClipCharacter on;
   SpeedLimits limits;
   Judge judge;
+  AcceptList accept;
 };
 
 Result<ClipJudging> judging_of(const ClipCheckOptions& options, Context& context) {
@@ -43,7 +51,9 @@ Result<ClipJudging> judging_of(const ClipCheckOptions& options, Context& context
   CheckSettings unwaived = *settings;  // findings of all sources are waived together
   unwaived.waivers.clear();
   SpeedLimits limits{options.max_speed_deg_s * kRadPerDeg, speed_limits_of(*on), std::move(settings).value()};
-  return ClipJudging{options, std::move(on).value(), std::move(limits), Judge(unwaived)};
+  Result<AcceptList> accept = read_accept_list(options.accept_list);
+  if (!accept) return accept.issue();
+  return ClipJudging{options, std::move(on).value(), std::move(limits), Judge(unwaived), std::move(accept).value()};
 }
 
 void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
@@ -63,6 +73,33 @@ void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingO
   std::erase_if(items, [&](const Item&) { return waived.by[i++] >= 0; });
   out.waived += i - items.size();
   add_uses(waived.uses, out.waivers);
+}
+
+// Leaves those findings that the accept list does not have.
+template <class Item, class FindingOf>
+void keep_unknown(const ClipJudging& with, const ClipReport& report, std::vector<Item>& items, FindingOf finding_of,
+                  Checked& out) {
+  const std::string file = name_in_accept_list(report.file, with.options.files);
+  std::erase_if(items, [&](const Item& item) {
+    const Finding& finding = finding_of(item);
+    AcceptedFinding known{file, report.judged.speeds.clip, finding.check, finding.subject, ""};
+    const int index = index_in(with.accept, known);
+    if (index >= 0) known.reason = with.accept.accepted[static_cast<std::size_t>(index)].reason;
+    out.findings.push_back(std::move(known));
+    if (index >= 0) out.accepted_by.insert(index), ++out.accepted;
+    return index >= 0;
+  });
+}
+
+void set_accepted_apart(const ClipJudging& with, ClipReport& report, Checked& out) {
+  if (with.options.accept_list.empty() && with.options.write_accept_list.empty()) return;
+  const auto itself = [](const Finding& f) -> const Finding& { return f; };
+  keep_unknown(
+      with, report, report.judged.speeds.findings, [](const ClipFinding& f) -> const Finding& { return f.finding; },
+      out);
+  keep_unknown(with, report, report.judged.clip_findings, itself, out);
+  keep_unknown(with, report, report.judged.motion_findings, itself, out);
+  if (report.judged.limits) keep_unknown(with, report, report.judged.limits->findings, itself, out);
 }
 
 void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked& out) {
@@ -120,25 +157,79 @@ Result<ClipReport> check_clip(const std::string& file, const Animation& animatio
   return report;
 }
 
-void check_file(const std::string& file, ClipJudging& with, Checked& out) {
+// Lets the map and the limits hold for nodes that have other prefixes in this file. Their number.
+std::size_t take_similar_names(const Asset& asset, ClipJudging& with, std::set<std::string>& unmatched) {
+  const std::map<std::string, std::string> similar = similar_names(asset, with.on.map.joints);
+  for (const auto& [node, name] : similar) {
+    unmatched.erase(name);
+    with.on.map.joints[node] = with.on.map.joints[name];
+    if (const auto limit = with.limits.of_node.find(name); limit != with.limits.of_node.end())
+      with.limits.of_node[node] = limit->second;
+  }
+  return similar.size();
+}
+
+void check_file(const std::string& file, const ClipJudging& for_all, Checked& out) {
+  ClipJudging with = for_all;
   const Result<Animation> animation = read_animation(file, with.options.animation);
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
+  const std::size_t similar = take_similar_names(animation->asset, with, out.unmatched);
   note_clips(*animation, out.touched);
   for (const AssetClip& clip : animation->asset.clips) {
     if (!with.options.clip.empty() && clip.name != with.options.clip && clip.label != with.options.clip) continue;
     Result<ClipReport> checked = check_clip(file, *animation, clip, with);
     if (!checked) return out.unreadable.push_back({file, checked.issue()});
     ClipReport report = std::move(checked).value();
+    report.similar_names = similar;
     note_judged(clip, *animation, report.judged, with.on, with.options, with.limits.settings, out.touched);
     set_waived_apart(with.limits.settings, report, out);
+    set_accepted_apart(with, report, out);
     out.clips.push_back(std::move(report));
   }
 }
 
-// For the last line, where there are waivers at all.
-std::string waived_count(const CheckSettings& settings, const Checked& checked) {
-  return settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived);
+template <class T>
+void append(std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+// Adds what was found in one file to what was found in those before it.
+void add_file(Checked file, Checked& out) {
+  append(file.clips, out.clips);
+  append(file.unreadable, out.unreadable);
+  append(file.findings, out.findings);
+  std::erase_if(out.unmatched, [&](const std::string& node) { return !file.unmatched.contains(node); });
+  add_touched(file.touched, out.touched);
+  add_uses(file.waivers, out.waivers);
+  out.waived += file.waived, out.accepted += file.accepted;
+  out.accepted_by.merge(file.accepted_by);
+}
+
+// In parallel, with the same result as one after the other.
+void check_files(const std::vector<std::string>& files, const ClipJudging& with, Checked& out) {
+  std::vector<Checked> pieces(files.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      pieces[i].unmatched = out.unmatched;
+      check_file(files[i], with, pieces[i]);
+    }
+  };
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const std::size_t threads = static_cast<std::size_t>(with.options.jobs > 0 ? with.options.jobs : cores);
+  {
+    std::vector<std::jthread> helpers;
+    for (std::size_t i = 1; i < std::min(threads, files.size()); ++i) helpers.emplace_back(work);
+    work();
+  }
+  for (Checked& piece : pieces) add_file(std::move(piece), out);
+}
+
+// For the last line, where there are waivers or an accept list at all.
+std::string waived_count(const CheckSettings& settings, const ClipCheckOptions& options, const Checked& checked) {
+  return (settings.waivers.empty() ? "" : " waived=" + std::to_string(checked.waived)) +
+         (options.accept_list.empty() ? "" : " accepted=" + std::to_string(checked.accepted));
 }
 
 // Whether nothing can be said of all that was to be checked.
@@ -150,29 +241,44 @@ std::string count_unreadable(const Checked& checked, std::size_t files) {
   return std::to_string(checked.unreadable.size()) + " of " + std::to_string(files) + " files cannot be read";
 }
 
-void print_waivers(const CheckSettings& settings, const Checked& checked) {
+// Entries of the accept list that no finding matches: what they say is mended, or was never there.
+void print_waivers(const CheckSettings& settings, const AcceptList& accept, const Checked& checked) {
   for (const std::string& line : waiver_lines(settings, checked.waivers)) std::printf("%s\n", line.c_str());
+  for (std::size_t i = 0; i < accept.accepted.size(); ++i)
+    if (!checked.accepted_by.contains(static_cast<int>(i)))
+      std::printf("accepted, and not found: %s\n", printable(accepted_text(accept.accepted[i])).c_str());
 }
 
-void print_one(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked) {
+Result<Done> write_accepted(const ClipCheckOptions& options, const Checked& checked) {
+  if (options.write_accept_list.empty()) return Done{};
+  AcceptList list;
+  for (const AcceptedFinding& finding : checked.findings)
+    if (index_in(list, finding) < 0) list.accepted.push_back(finding);
+  return write_file(options.write_accept_list, print_accept_list(list));
+}
+
+void print_one(const ClipJudging& with, const Checked& checked) {
+  const ClipCheckOptions& options = with.options;
+  const CheckSettings& settings = with.limits.settings;
   if (options.json) return print_json(options.files.front(), checked.clips, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip(clip);
-  print_waivers(settings, checked);
+  print_waivers(settings, with.accept, checked);
   print_judged(checked.clips);
-  print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, checked));
+  print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, options, checked));
 }
 
-void print_all(const ClipCheckOptions& options, const CheckSettings& settings, const Checked& checked,
-               std::size_t files) {
+void print_all(const ClipJudging& with, const Checked& checked, std::size_t files) {
+  const ClipCheckOptions& options = with.options;
+  const CheckSettings& settings = with.limits.settings;
   if (options.json) return print_json(checked.clips, checked.unreadable, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip_line(clip);
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
-  print_waivers(settings, checked);
+  print_waivers(settings, with.accept, checked);
   print_judged(checked.clips);
   const std::string missing = is_incomplete(options, checked) ? count_unreadable(checked, files) : "";
   print_result(count_findings(checked.clips), checked.clips.size(), missing,
-               waived_count(settings, checked) + " files=" + std::to_string(files) +
+               waived_count(settings, options, checked) + " files=" + std::to_string(files) +
                    " unreadable=" + std::to_string(checked.unreadable.size()));
 }
 
@@ -197,7 +303,9 @@ Result<Done> judge_effects(const ClipCheckOptions& options, const std::string& s
   if (checked.clips.empty()) return Done{};
   if (const Result<Done> effects = check_effects(options, settings_file, settings, checked.touched); !effects)
     return effects;
-  const auto is_judged = [](const ClipReport& clip) { return clip.judged.channels > 0; };
+  const auto is_judged = [](const ClipReport& clip) {
+    return clip.judged.channels > 0 || !clip.judged.clip_findings.empty();
+  };
   if (std::ranges::any_of(checked.clips, is_judged)) return Done{};
   return Issue{"check.nothing_judged", "",
                options.files.front() + ": nothing could be judged: no joint that is read has two keys or more"};
@@ -215,23 +323,24 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   const auto start = std::chrono::steady_clock::now();
   Result<ClipJudging> judging = judging_of(options, context);
   if (!judging) return context.fail(judging.issue());
-  ClipJudging with = std::move(judging).value();
+  const ClipJudging with = std::move(judging).value();
   Checked checked;
   const std::vector<std::string> files =
       options.all_clips ? expand_animations(options.files, checked.unreadable) : options.files;
   const std::size_t count = files.size() + checked.unreadable.size();
   if (!options.map.empty())  // an own map may say more than the file has
     for (const auto& entry : with.on.map.joints) checked.unmatched.insert(entry.first);
-  for (const std::string& file : files) check_file(file, with, checked);
+  check_files(files, with, checked);
   if (const Result<Done> fit = judge_input(options, checked); !fit)
     return context.fail(in_map(with.on.map_file, fit.issue()));
   if (const Result<Done> effects = judge_effects(options, context.settings_file, with.limits.settings, checked);
       !effects)
     return context.fail(effects.issue());
+  if (const Result<Done> written = write_accepted(options, checked); !written) return context.fail(written.issue());
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
-  if (!options.all_clips) return print_one(options, with.limits.settings, checked);
+  if (!options.all_clips) return print_one(with, checked);
   std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
-  print_all(options, with.limits.settings, checked, count);
+  print_all(with, checked, count);
   if (is_incomplete(options, checked))
     context.fail({"check.unreadable", "",
                   count_unreadable(checked, count) + ": the list says why; --allow-unreadable lets the others decide"});

@@ -20,6 +20,9 @@ struct ClipCheckOptions {
   AnimationOptions animation;
   std::optional<double> rate_hz;  // of motions of the character; each clip's own without
   double max_speed_deg_s = 3000.0;
+  std::string accept_list;        // a file with findings that fail no run, "" for none
+  std::string write_accept_list;  // to which file all findings are written as such a list, "" for none
+  int jobs = 0;                   // threads; 0: one for each core
   bool all_clips = false;
   bool allow_unreadable = false;  // with all_clips: files that cannot be read do not fail the check
   bool json = false;

@@ -163,6 +163,7 @@ Json clip_json(const ClipReport& clip) {
               {"least_margin_deg_s", speeds.least_margin_rad_s * kDegPerRad},
               {"channels", clip.judged.channels},
               {"channel_count", clip.judged.channel_count},
+              {"not_read", clip.judged.not_read},
               {"judged", Json::parse(judged_json(clip.judged.judged))},
               {"not_judged", Json::parse(not_judged_json(clip.judged.not_judged))},
               {"findings", findings_of_clip(clip)}};
@@ -171,6 +172,7 @@ Json clip_json(const ClipReport& clip) {
     out["samples_out_of_range"] = clip.judged.limits->out_of_range;
   }
   if (clip.motion) out["conversion"] = conversion_json(*clip.motion);
+  if (clip.similar_names > 0) out["similar_names"] = clip.similar_names;
   return out;
 }
 
@@ -218,10 +220,13 @@ std::string when_text(const KeyFinding& f) {
 }
 
 void print_key_findings(const std::vector<KeyFinding>& findings) {
-  for (const KeyFinding& f : findings)
-    std::printf("  %s  %s  %s  keys %d-%d, worst %d (%s)\n", f.check.c_str(), printable(f.subject).c_str(),
-                (f.what.empty() ? excess_text(f, 3) + " beyond what is allowed" : f.what).c_str(), f.first_frame,
-                f.last_frame, f.worst_frame, when_text(f).c_str());
+  for (const KeyFinding& f : findings) {
+    const std::string keys = "  keys " + std::to_string(f.first_frame) + "-" + std::to_string(f.last_frame) +
+                             ", worst " + std::to_string(f.worst_frame) + " (" + when_text(f) + ")";
+    std::printf("  %s  %s  %s%s\n", f.check.c_str(), printable(f.subject).c_str(),
+                (f.what.empty() ? excess_text(f, 3) + " beyond what is allowed" : printable(f.what)).c_str(),
+                f.first_frame < 0 ? "" : keys.c_str());
+  }
 }
 
 void print_motion_findings(const ClipReport& clip) {
@@ -304,6 +309,8 @@ void print_clip(const ClipReport& clip) {
     std::printf("  declared limits: %s\n", limits_text(*clip.judged.limits).c_str());
     print_limit_findings(clip);
   }
+  if (clip.similar_names > 0)
+    std::printf("  %zu nodes are those of the map with another prefix\n", clip.similar_names);
   if (clip.motion) print_conversion(*clip.motion);
 }
 
@@ -325,6 +332,7 @@ void print_judged(const std::vector<ClipReport>& clips) {
     summary.add(clip.judged.judged, clip.judged.not_judged);
     if (clip.judged.channels > summary.channels || summary.channel_count == 0)
       summary.channels = clip.judged.channels, summary.channel_count = clip.judged.channel_count;
+    for (const auto& [kind, count] : clip.judged.not_read) summary.not_read[kind] += count;
     if (!clip.motion) continue;
     summary.frames += clip.motion->frames;
     summary.joints = std::max(summary.joints, clip.motion->joints), summary.joint_count = clip.motion->joint_count;

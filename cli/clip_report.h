@@ -41,6 +41,7 @@ struct ClipReport {
   std::optional<ClipMotion> motion;  // on a character
   double rate_hz = 0.0;              // of an .amc, with the number of its first frame
   int first_frame = 0;
+  std::size_t similar_names = 0;     // nodes that have other prefixes than the map says
 };
 
 ClipMotion motion_of_clip(const Asset& asset, const AssetClip& clip, const Conversion& made);

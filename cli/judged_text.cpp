@@ -77,6 +77,8 @@ std::vector<std::string> judged_lines(const JudgedSummary& summary) {
   const auto count = std::ranges::count_if(summary.checks, [](const auto& entry) { return entry.second.motions > 0; });
   std::vector<std::string> lines = {"Judged: " + count_of(count, "check") + judged_on(summary)};
   if (count > 0) lines.push_back("  " + subjects_text(summary));
+  for (const auto& [kind, channels] : summary.not_read)
+    lines.push_back("  not read: " + count_of(channels, "channel") + " (" + kind + ")");
   for (const CheckDef& check : all_checks())
     if (summary.checks.contains(check.name)) add_reasons(summary, check.name, lines);
   add_without_character(summary, lines);

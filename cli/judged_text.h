@@ -24,6 +24,7 @@ struct JudgedSummary {
   int channel_count = 0;    // of that clip
   int joints = 0;           // that were moved, the most in one motion
   int joint_count = 0;      // of the character; 0 without
+  std::map<std::string, int> not_read;  // channels of all clips that no check can judge, by their kind
   std::map<std::string_view, JudgedTally> checks;
 
   void add(const std::vector<JudgedCheck>& judged, const std::vector<NotJudged>& not_judged);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "checks/joint_map.h"
+#include "cli/accept_list.h"
 #include "cli/catalogue_fields.h"
 #include "cli/commands.h"
 #include "guest/manifest.h"
@@ -95,6 +96,7 @@ const std::map<std::string, std::function<std::string()>>& schemas() {
                                                                           {"action", action_schema},
                                                                           {"map", joint_map_schema},
                                                                           {"settings", settings_schema},
+                                                                          {"accept", accept_list_schema},
                                                                           {"bucket", bucket_schema},
                                                                           {"profile", profile_schema},
                                                                           {"skin", skin_schema},

@@ -67,6 +67,16 @@ Result<Done> check_rules(const std::string& file, const CheckSettings& settings,
 
 }  // namespace
 
+void add_touched(const Touched& file, Touched& out) {
+  for (const std::string& clip : file.clips)
+    if (std::ranges::find(out.clips, clip) == out.clips.end()) out.clips.push_back(clip);
+  out.has_take |= file.has_take;
+  out.was_gap_judged |= file.was_gap_judged;
+  out.patterns.insert(file.patterns.begin(), file.patterns.end());
+  out.rules.insert(file.rules.begin(), file.rules.end());
+  out.subjects.insert(file.subjects.begin(), file.subjects.end());
+}
+
 void note_clips(const Animation& animation, Touched& touched) {
   touched.has_take |= animation.take.has_value();
   for (const AssetClip& clip : animation.asset.clips)

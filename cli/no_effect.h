@@ -23,6 +23,9 @@ struct Touched {
   std::set<std::string> subjects;  // that rules could name
 };
 
+// Adds what was touched in one file to what was touched in those before it.
+void add_touched(const Touched& file, Touched& out);
+
 void note_clips(const Animation& animation, Touched& touched);
 
 // Notes a clip after it was judged.

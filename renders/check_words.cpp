@@ -38,6 +38,10 @@ std::string check_title(std::string_view check) {
       {"mirror_error", "Sides differ"},
       {"loop_seam", "Loop does not close"},
       {"part_gap", "Joint out of its place"},
+      {"unreadable_channel", "Channel that cannot be read"},
+      {"translation_pop", "Sudden change of place"},
+      {"scale_pop", "Sudden change of size"},
+      {"jitter", "Shaking joint"},
       {"crash", "Generator crashed"},
       {"timeout", "Generator did not end"},
       {"memory", "Generator took too much memory"}};

@@ -1,6 +1,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -29,15 +30,17 @@ Result<std::vector<Mat4>> read_bind_matrices(const tinygltf::Skin& skin, Accesso
   return out;
 }
 
-Result<AssetSkin> read_skin(const tinygltf::Skin& skin, AccessorReader& accessors, const std::string& pointer) {
+Result<AssetSkin> read_joints(const tinygltf::Skin& skin, const std::string& pointer) {
   std::set<int> seen;
   for (std::size_t i = 0; i < skin.joints.size(); ++i)
     if (!seen.insert(skin.joints[i]).second)
       return Issue{"gltf.bad_skin", pointer + "/joints/" + std::to_string(i),
                    "node " + std::to_string(skin.joints[i]) + " stands in the list twice"};
-  Result<std::vector<Mat4>> matrices = read_bind_matrices(skin, accessors, pointer);
-  if (!matrices) return matrices.issue();
-  return AssetSkin{skin.name, skin.skeleton, skin.joints, std::move(matrices).value()};
+  return AssetSkin{skin.name, skin.skeleton, skin.joints, std::vector<Mat4>(skin.joints.size(), Mat4(1.0))};
+}
+
+AssetFault fault_of(const Issue& issue, const std::string& clip, int node) {
+  return {clip, node, issue.code, issue.pointer, issue.text, -1, 1.0};
 }
 
 // ---- clips
@@ -66,38 +69,61 @@ Result<Done> check_times(const std::vector<double>& times, const std::string& po
   return Done{};
 }
 
-// Makes the rotations exactly unit; tangents stay. False, with the key's number, where one is no rotation at all.
-bool normalize_rotations(AssetChannel& channel, std::size_t& bad_key) {
+// The rotation that is farthest from unit length.
+struct WorstLength {
+  std::size_t key = 0;
+  double length = 1.0;
+
+  bool is_unit() const { return std::fabs(length - 1.0) <= kUnitTolerance; }
+};
+
+constexpr double kNoLength = 1e-6;  // a rotation that short has no direction
+
+// Makes the rotations exactly unit; tangents stay. One without a direction becomes the key before it.
+WorstLength normalize_rotations(AssetChannel& channel) {
   const bool is_spline = channel.interpolation == Interpolation::cubic_spline;
+  WorstLength worst;
+  std::array<double, 4> before = {0.0, 0.0, 0.0, 1.0};
   for (std::size_t key = 0; key < channel.times_s.size(); ++key) {
     double* q = channel.values.data() + 4 * (is_spline ? 3 * key + 1 : key);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    bad_key = key;
-    if (!(std::fabs(length - 1.0) <= kUnitTolerance)) return false;
-    for (int i = 0; i < 4; ++i) q[i] /= length;
+    if (std::fabs(length - 1.0) > std::fabs(worst.length - 1.0)) worst = {key, length};
+    for (std::size_t i = 0; i < 4; ++i) q[i] = length > kNoLength ? q[i] / length : before[i];
+    std::copy_n(q, 4, before.begin());
   }
-  return true;
+  return worst;
 }
 
 class ClipReader {
  public:
-  ClipReader(const tinygltf::Animation& animation, AccessorReader& accessors, std::string pointer)
-      : animation_(animation), accessors_(accessors), pointer_(std::move(pointer)) {}
+  ClipReader(const tinygltf::Animation& animation, AccessorReader& accessors, std::string pointer, Faults faults,
+             Asset& asset)
+      : animation_(animation), accessors_(accessors), pointer_(std::move(pointer)), faults_(faults), asset_(asset) {}
 
-  Result<std::vector<AssetChannel>> read() {
-    std::vector<AssetChannel> out;
+  Result<Done> read(AssetClip& out) {
     for (std::size_t i = 0; i < animation_.channels.size(); ++i) {
       const tinygltf::AnimationChannel& channel = animation_.channels[i];
-      // No node: for extensions. Morph weights move no joint.
-      if (channel.target_node < 0 || channel.target_path == "weights") continue;
+      if (const std::string other = moves_no_joint(channel); !other.empty()) {
+        ++out.not_read[other];
+        continue;
+      }
+      const std::size_t known = asset_.faults.size();
       Result<AssetChannel> read = read_channel(channel, pointer_ + "/channels/" + std::to_string(i));
-      if (!read) return read.issue();
-      if (!read->times_s.empty()) out.push_back(std::move(read).value());  // else nothing is said about the node
+      if (!read && faults_ == Faults::refuse) return read.issue();
+      if (!read) asset_.faults.push_back(fault_of(read.issue(), out.label, channel.target_node));
+      for (std::size_t f = known; f < asset_.faults.size(); ++f) asset_.faults[f].clip = out.label;
+      if (read && !read->times_s.empty()) out.channels.push_back(std::move(read).value());  // else nothing is said
     }
-    return out;
+    return Done{};
   }
 
  private:
+  static std::string moves_no_joint(const tinygltf::AnimationChannel& channel) {
+    if (channel.target_path == "weights") return "morph weights";
+    if (channel.target_node >= 0) return "";
+    return channel.target_path == "pointer" ? "animation pointers" : "channels without a node";
+  }
+
   Result<AssetChannel> read_channel(const tinygltf::AnimationChannel& channel, const std::string& pointer) {
     AssetChannel out;
     out.node = channel.target_node;
@@ -144,18 +170,24 @@ class ClipReader {
         accessors_.read(accessor, is_rotation ? ElementKind::vec4 : ElementKind::vec3, count, is_rotation);
     if (!values) return values.issue();
     out.values = std::move(values).value();
-    std::size_t bad_key = 0;
-    if (is_rotation && !normalize_rotations(out, bad_key))
-      return Issue{"gltf.not_unit", accessor_pointer(accessor),
-                   "the rotation at key " + std::to_string(bad_key) +
-                       " is a quaternion of another length than 1, "
-                       "give or take 1 %"};
+    if (!is_rotation) return Done{};
+    const WorstLength worst = normalize_rotations(out);
+    if (worst.is_unit()) return Done{};
+    const Issue issue = {"gltf.not_unit", accessor_pointer(accessor),
+                         "the rotation at key " + std::to_string(worst.key) +
+                             " is a quaternion of another length than 1, "
+                             "give or take 1 %"};
+    if (faults_ == Faults::refuse) return issue;
+    asset_.faults.push_back(fault_of(issue, "", out.node));
+    asset_.faults.back().key = static_cast<int>(worst.key), asset_.faults.back().length = worst.length;
     return Done{};
   }
 
   const tinygltf::Animation& animation_;
   AccessorReader& accessors_;
   std::string pointer_;
+  Faults faults_;
+  Asset& asset_;  // whose faults are listed
   std::set<std::pair<int, ChannelPath>> targets_;
 };
 
@@ -169,25 +201,33 @@ void find_range(AssetClip& clip) {
 
 }  // namespace
 
-Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset) {
+Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Faults faults, Asset& asset) {
   for (const tinygltf::Skin& skin : model.skins) {
-    Result<AssetSkin> read = read_skin(skin, accessors, "/skins/" + std::to_string(asset.skins.size()));
-    if (!read) return read.issue();
+    const std::string pointer = "/skins/" + std::to_string(asset.skins.size());
+    Result<AssetSkin> joints = read_joints(skin, pointer);
+    if (!joints) return joints.issue();
+    AssetSkin read = std::move(joints).value();
+    Result<std::vector<Mat4>> matrices = read_bind_matrices(skin, accessors, pointer);
+    const bool has_clip = !model.animations.empty();  // that could tell of it
+    if (!matrices && (faults == Faults::refuse || !has_clip)) return matrices.issue();
+    if (!matrices) asset.faults.push_back(fault_of(matrices.issue(), "", -1));
+    if (matrices) read.joint_from_mesh = std::move(matrices).value();
     for (const int joint : skin.joints) asset.nodes[static_cast<std::size_t>(joint)].is_joint = true;
-    asset.skins.push_back(std::move(read).value());
+    asset.skins.push_back(std::move(read));
   }
   return Done{};
 }
 
-Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset) {
+Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Faults faults, Asset& asset) {
   std::vector<std::string> names;
   for (const tinygltf::Animation& animation : model.animations) names.push_back(animation.name);
   std::vector<std::string> labels = unique_labels(names);
   for (std::size_t i = 0; i < model.animations.size(); ++i) {
-    auto channels = ClipReader(model.animations[i], accessors, "/animations/" + std::to_string(i)).read();
-    if (!channels) return channels.issue();
-    asset.clips.push_back({std::move(names[i]), std::move(labels[i]), std::move(channels).value(), 0.0, 0.0});
-    find_range(asset.clips.back());
+    AssetClip clip{std::move(names[i]), std::move(labels[i]), {}, 0.0, 0.0};
+    ClipReader reader(model.animations[i], accessors, "/animations/" + std::to_string(i), faults, asset);
+    if (const Result<Done> read = reader.read(clip); !read) return read.issue();
+    find_range(clip);
+    asset.clips.push_back(std::move(clip));
   }
   return Done{};
 }

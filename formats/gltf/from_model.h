@@ -2,6 +2,7 @@
 // its indices are valid unless stated otherwise.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,12 +20,17 @@ bool decompose(std::span<const double> matrix, Trs& out);
 // Fills nodes and order. Codes gltf.bad_node, .not_unit, .two_parents, .cycle.
 Result<Done> read_nodes(const tinygltf::Model& model, Asset& asset);
 
+enum class Faults : std::uint8_t {
+  refuse,     // the first one ends the reading
+  go_around,  // those of clips and bind matrices are listed in Asset::faults, and the rest is read
+};
+
 // Fills skins and AssetNode::is_joint. Codes gltf.bad_skin and those of AccessorReader.
-Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset);
+Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Faults faults, Asset& asset);
 
 // Fills clips. Codes gltf.bad_index, .unsupported, .duplicate_channel, .bad_times, .bad_accessor, .not_unit and those
 // of AccessorReader.
-Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Asset& asset);
+Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors, Faults faults, Asset& asset);
 
 // Fills meshes: of every node with a mesh and a skin. Primitives of points and lines, and those without joints, are
 // left out. Codes gltf.bad_mesh, .bad_index, .unsupported and those of AccessorReader.

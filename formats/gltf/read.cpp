@@ -46,18 +46,19 @@ Result<tinygltf::Model> to_model(const GltfDocument& document) {
   return Issue{"gltf.unreadable", "", "tinygltf: " + error};
 }
 
-Result<SkinnedAsset> to_asset(const tinygltf::Model& model, Meshes meshes) {
+Result<SkinnedAsset> to_asset(const tinygltf::Model& model, Meshes meshes, Faults faults) {
   SkinnedAsset out;
   AccessorReader accessors(model);
   if (const auto read = read_nodes(model, out.asset); !read) return read.issue();
-  if (const auto read = read_skins(model, accessors, out.asset); !read) return read.issue();
-  if (const auto read = read_clips(model, accessors, out.asset); !read) return read.issue();
+  if (const auto read = read_skins(model, accessors, faults, out.asset); !read) return read.issue();
+  if (const auto read = read_clips(model, accessors, faults, out.asset); !read) return read.issue();
   if (meshes == Meshes::leave_out) return out;
   if (const auto read = read_meshes(model, accessors, out); !read) return read.issue();
   return out;
 }
 
-Result<SkinnedAsset> read_container(const GltfContainer& container, const std::string& folder, Meshes meshes) {
+Result<SkinnedAsset> read_container(const GltfContainer& container, const std::string& folder, Meshes meshes,
+                                    Faults faults = Faults::refuse) {
   if (const auto scanned = scan_json(container.json); !scanned) return scanned.issue();
   const Result<GltfDocument> document = check_document(container.json, meshes);
   if (!document) return document.issue();
@@ -68,7 +69,7 @@ Result<SkinnedAsset> read_container(const GltfContainer& container, const std::s
   tinygltf::Model model = std::move(parsed).value();
   for (std::vector<unsigned char>& bytes : std::move(buffers).value())
     model.buffers.emplace_back().data = std::move(bytes);
-  Result<SkinnedAsset> asset = to_asset(model, meshes);
+  Result<SkinnedAsset> asset = to_asset(model, meshes, faults);
   if (!asset || meshes == Meshes::leave_out) return asset;
   SkinnedAsset out = std::move(asset).value();
   Result<std::map<std::string, int>> humanoid = read_humanoid(container.json, out.asset.nodes.size());
@@ -87,7 +88,7 @@ Result<std::string> read_bytes(const std::string& path) {
   return Issue{bytes.issue().code == "file.too_large" ? "gltf.too_large" : "gltf.unreadable", "", bytes.issue().text};
 }
 
-Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes) {
+Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes, Faults faults = Faults::refuse) {
   const Result<std::string> text = read_bytes(path);
   if (!text) return text.issue();
   const auto bytes = std::as_bytes(std::span(*text));
@@ -98,7 +99,7 @@ Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes) {
     container = *split;
   }
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  return read_container(container, folder.empty() ? "." : folder, meshes);
+  return read_container(container, folder.empty() ? "." : folder, meshes, faults);
 }
 
 Result<SkinnedAsset> parse_any(std::span<const std::byte> bytes, Meshes meshes) {
@@ -115,6 +116,10 @@ Result<Asset> without_meshes(Result<SkinnedAsset> read) {
 }  // namespace
 
 Result<Asset> read_gltf(const std::string& path) { return without_meshes(read_any(path, Meshes::leave_out)); }
+
+Result<Asset> read_gltf_around_faults(const std::string& path) {
+  return without_meshes(read_any(path, Meshes::leave_out, Faults::go_around));
+}
 
 Result<Asset> parse_glb(std::span<const std::byte> bytes) {
   return without_meshes(parse_any(bytes, Meshes::leave_out));

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,21 @@ struct AssetClip {
   std::vector<AssetChannel> channels;  // At most one for each (node, path). Morph weights are left out.
   double first_s = 0.0;                // The first and last key of all channels; both 0 without channels.
   double last_s = 0.0;
+  std::map<std::string, int> not_read{};  // channels that move no joint, by their kind: "morph weights"
   bool operator==(const AssetClip&) const = default;
+};
+
+// Something in a file that is wrong and that the reader went around, as it was told to (formats/gltf/read.h).
+struct AssetFault {
+  std::string clip;   // its label; "" if the fault concerns all clips
+  int node = -1;      // whose channel it is, or -1
+  std::string code;   // as of an Issue: "gltf.bad_times"
+  std::string where;  // a JSON pointer into the file
+  std::string text;
+  // Of a rotation that is no unit quaternion, with the number of its key: the channel was read all the same.
+  int key = -1;
+  double length = 1.0;
+  bool operator==(const AssetFault&) const = default;
 };
 
 struct Asset {
@@ -71,6 +86,7 @@ struct Asset {
   std::vector<int> order;  // Every node once, parents before children; roots by index, children as the file lists them.
   std::vector<AssetSkin> skins;
   std::vector<AssetClip> clips;
+  std::vector<AssetFault> faults{};  // only of readers that go around faults
   bool operator==(const Asset&) const = default;
 };
 

@@ -107,6 +107,7 @@ TEST(ScalePop, FindsMirrorsZeroesAndGiants) {
     EXPECT_EQ(found[0].first_frame, 4);
   }
   EXPECT_EQ(scaled({1, 1, 1, 1, -1, -1, -1, -1, -1}).size(), 1U) << "mirrored from one key on";
+  EXPECT_EQ(scaled({1, 1, 1, 1, 2, 2, 2, 2, 2}).size(), 1U) << "twice the size";
 }
 
 TEST(ScalePop, SquashesAndPartsThatAreHiddenAreQuiet) {

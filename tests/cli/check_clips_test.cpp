@@ -139,7 +139,7 @@ TEST_F(CheckClips, AllClipsAreOneLineEachWorstFirst) {
   EXPECT_TRUE(has(lines[1], "a.bvh: clip a: findings 0")) << lines[1];
   EXPECT_TRUE(has(lines[2], "calm.bvh: clip calm: findings 0")) << lines[2];
   EXPECT_TRUE(has(lines[3], "broken.bvh: unreadable: bvh.bad_syntax at line 1: ")) << lines[3];
-  EXPECT_EQ(lines[4], "Judged: 3 checks on 1 channel, in 3 motions");
+  EXPECT_EQ(lines[4], "Judged: 5 checks on 1 channel, in 3 motions");
   EXPECT_EQ(lines[13], "RESULT findings=1 clips=3 files=4 unreadable=1");
   EXPECT_TRUE(has(ran.err, "clips per second")) << ran.err;
   EXPECT_FALSE(has(ran.out, "clips per second"));

@@ -1,0 +1,16 @@
+// Files name the same joint with other prefixes: mixamorig:Hips, mixamorig1:Hips, mixamorigHips,
+// Armature|mixamorig:Hips, Hips. A map that says one of them means the others.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "model/asset/asset.h"
+
+namespace contort::cli {
+
+// Maps the nodes of the file that have the names of a map (node -> joint) but for a prefix to these names. Empty if the
+// file has one of the names as it is, or if fewer than half of them, or fewer than two, are found with the same prefix.
+std::map<std::string, std::string> similar_names(const Asset& asset, const std::map<std::string, std::string>& joints);
+
+}  // namespace contort::cli
