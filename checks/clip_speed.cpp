@@ -21,11 +21,8 @@ double limit_of(const AssetNode& node, const SpeedLimits& limits) {
 // Speed of each key interval: that between its keys, or, for a spline, the greatest inside where that is more.
 std::vector<SpeedInterval> worst_of_each(const ChannelSpeeds& speeds) {
   std::vector<SpeedInterval> worst = speeds.between_keys;
-  std::size_t key = 0;
-  for (const SpeedInterval& part : speeds.within_keys) {  // in rising time; keys at one time have no parts
-    while (key + 1 < worst.size() && part.t0_s >= speeds.between_keys[key].t1_s) ++key;
-    if (part.speed_rad_s > worst[key].speed_rad_s) worst[key] = part;
-  }
+  for (std::size_t key = 0; key < speeds.within_keys.size(); ++key)
+    if (speeds.within_keys[key].speed_rad_s > worst[key].speed_rad_s) worst[key] = speeds.within_keys[key];
   return worst;
 }
 
@@ -34,10 +31,12 @@ struct ChannelFolds {
   MarginFold fast;
   MarginFold pops;
   double stricter_rad_s = 0.0;  // by which a rule makes pops of steps below the limit, <= 0
-  ChannelFolds(const CheckSettings& settings, const std::string& node)
-      : fast(1, settings.merge_gap_frames),
-        pops(1, settings.merge_gap_frames),
-        stricter_rad_s(std::min(0.0, tolerance_of(settings, "pop", node))) {
+  int apart;                    // from one interval to the next: each jump of a STEP is a finding of its own
+  ChannelFolds(const CheckSettings& settings, const std::string& node, bool jumps)
+      : fast(1, jumps ? 0 : settings.merge_gap_frames),
+        pops(1, jumps ? 0 : settings.merge_gap_frames),
+        stricter_rad_s(std::min(0.0, tolerance_of(settings, "pop", node))),
+        apart(jumps ? 2 : 1) {
     if (settings.limits.empty()) return;
     fast.tolerate({tolerance_of(settings, "angular_velocity", node)}, {}, 1);
     pops.tolerate({tolerance_of(settings, "pop", node)}, {}, 1);
@@ -54,12 +53,13 @@ std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpee
       lone_limits(channel.interpolation, {kBlip_rad, kJump_rad}));
 }
 
-// The greatest speed of interval i that is no pop: what the motion around it explains, above the limit; and below the
+// The greatest speed of interval i that is no pop: what the motion around it explains, above the limit, where no motion
+// explains the jump of a STEP; and below the
 // limit a leap, and what a step may turn that does not stand alone.
 double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<double>& allowed_rad, std::size_t i,
                             double limit, bool may_leap) {
   const SpeedInterval& step = speeds.between_keys[i];
-  const double duration_s = step.t1_s - step.t0_s, explained = explained_rad_s(speeds.between_keys, i);
+  const double duration_s = step.t1_s - step.t0_s, explained = speeds.jumps ? 0.0 : explained_rad_s(speeds.between_keys, i);
   const double general = std::max(limit, explained);
   if (step.speed_rad_s > general || !(duration_s > 0.0)) return general;
   const double leap = may_leap ? std::max(kLeap_rad / duration_s, explained) : general;
@@ -76,15 +76,17 @@ void judge(const AssetChannel& channel, const ChannelSpeeds& speeds, const std::
     const double most = greatest_without_pop(speeds, allowed, i, limit + folds.stricter_rad_s, may_leap);
     const bool is_pop = speeds.between_keys[i].speed_rad_s > most;
     MarginFold& fold = is_pop ? folds.pops : folds.fast;
-    fold.report(0, static_cast<int>(i), (is_pop ? most - folds.stricter_rad_s : limit) - worst[i].speed_rad_s);
+    fold.report(0, folds.apart * static_cast<int>(i), (is_pop ? most - folds.stricter_rad_s : limit) - worst[i].speed_rad_s);
   }
 }
 
-void add_findings(const MarginFold& fold, const char* check, double scale, const AssetNode& node,
+void add_findings(const MarginFold& fold, int apart, const char* check, const AssetNode& node,
                   const std::vector<SpeedInterval>& intervals, std::vector<ClipFinding>& out) {
+  const double scale = find_check(check).scale;
   for (const MarginFold::Episode& e : fold.episodes()) {
-    const SpeedInterval& worst = intervals[static_cast<std::size_t>(e.worst)];
-    out.push_back({{check, node.label, "rad/s", e.first, e.worst, e.last, e.worst_margin, -e.worst_margin / scale},
+    const SpeedInterval& worst = intervals[static_cast<std::size_t>(e.worst / apart)];
+    out.push_back({{check, node.label, "rad/s", e.first / apart, e.worst / apart, e.last / apart, e.worst_margin,
+                    -e.worst_margin / scale},
                    worst.t0_s,
                    worst.t1_s,
                    worst.speed_rad_s});
@@ -93,7 +95,9 @@ void add_findings(const MarginFold& fold, const char* check, double scale, const
 
 void add_channel(const AssetNode& node, const AssetChannel& channel, const ChannelSpeeds& speeds,
                  const SpeedLimits& limits, ClipSpeeds& out) {
-  const std::vector<SpeedInterval> intervals = worst_of_each(speeds);
+  const bool is_spline = !speeds.within_keys.empty();
+  const std::vector<SpeedInterval> worst = is_spline ? worst_of_each(speeds) : std::vector<SpeedInterval>();
+  const std::vector<SpeedInterval>& intervals = is_spline ? worst : speeds.between_keys;  // no copy of long takes
   const double limit = limit_of(node, limits);
   for (const SpeedInterval& interval : intervals) {
     out.least_margin_rad_s = std::min(out.least_margin_rad_s, limit - interval.speed_rad_s);
@@ -103,11 +107,11 @@ void add_channel(const AssetNode& node, const AssetChannel& channel, const Chann
     out.peak_t0_s = interval.t0_s;
     out.peak_t1_s = interval.t1_s;
   }
-  ChannelFolds folds(limits.settings, node.label);
+  ChannelFolds folds(limits.settings, node.label, speeds.jumps);
   judge(channel, speeds, intervals, limit, folds);
   const auto first = static_cast<std::ptrdiff_t>(out.findings.size());
-  add_findings(folds.fast, "angular_velocity", find_check("angular_velocity").scale, node, intervals, out.findings);
-  add_findings(folds.pops, "pop", find_check("pop").scale, node, intervals, out.findings);
+  add_findings(folds.fast, folds.apart, "angular_velocity", node, intervals, out.findings);
+  add_findings(folds.pops, folds.apart, "pop", node, intervals, out.findings);
   std::stable_sort(out.findings.begin() + first, out.findings.end(), [](const ClipFinding& l, const ClipFinding& r) {
     return l.finding.first_frame < r.finding.first_frame;
   });
@@ -118,10 +122,13 @@ void add_channel(const AssetNode& node, const AssetChannel& channel, const Chann
 ClipSpeeds check_clip_speeds(const Asset& asset, const AssetClip& clip, const SpeedLimits& limits) {
   ClipSpeeds out;
   out.clip = clip.label;
-  for (const ChannelSpeeds& speeds : joint_speeds(clip)) {
+  for (std::size_t i = 0; i < clip.channels.size(); ++i) {
+    const AssetChannel& channel = clip.channels[i];
+    if (channel.path != ChannelPath::rotation) continue;
+    const ChannelSpeeds speeds = channel_speeds(clip, static_cast<int>(i));
     if (!speeds.between_keys.empty()) ++out.channels;
-    const AssetChannel& channel = clip.channels[static_cast<std::size_t>(speeds.channel)];
-    add_channel(asset.nodes[static_cast<std::size_t>(speeds.node)], channel, speeds, limits, out);
+    const AssetNode& node = asset.nodes[static_cast<std::size_t>(channel.node)];
+    add_channel(node, channel, speeds, limits, out);
   }
   return out;
 }

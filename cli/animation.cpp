@@ -1,13 +1,16 @@
 #include "cli/animation.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 
+#include "formats/detect/file_format.h"
 #include "formats/gltf/read.h"
 #include "formats/mocap/asf.h"
 #include "formats/mocap/bvh.h"
+#include "formats/mocap/frame.h"
+#include "model/core/file_kind.h"
+#include "model/core/files.h"
 #include "model/core/inside_folder.h"
 
 namespace contort::cli {
@@ -28,6 +31,9 @@ std::size_t common_prefix(const std::string& a, const std::string& b) {
 }
 
 Result<Animation> read_take(const std::string& path, const AnimationOptions& options) {
+  if (const auto other = other_kind(path, beginning_of(path, kKindBytes), kAnimationFiles);
+      other && format_of_bytes(beginning_of(path, kKindBytes)) == FileFormat::none)  // before its skeleton is looked for
+    return Issue{"amc.wrong_kind", "", other->text};
   const Result<std::string> asf =
       options.skeleton.empty() ? find_skeleton(path) : Result<std::string>(options.skeleton);
   if (!asf) return asf.issue();
@@ -43,6 +49,15 @@ Result<Animation> read_take(const std::string& path, const AnimationOptions& opt
   return out;
 }
 
+Result<Asset> read_bvh_as_said(const std::string& path, const AnimationOptions& options) {
+  Result<Asset> read = read_bvh(path, options.bvh_rate_hz);
+  if (!read) return read;
+  Asset asset = std::move(read).value();
+  if (options.bvh_unit_m > 0.0) scale_lengths(options.bvh_unit_m, asset);
+  if (options.bvh_z_up) turn_z_up(asset);
+  return asset;
+}
+
 Result<Animation> with_asset(Result<Asset> asset) {
   if (!asset) return asset.issue();
   return Animation{std::move(asset).value(), {}};
@@ -51,16 +66,27 @@ Result<Animation> with_asset(Result<Asset> asset) {
 }  // namespace
 
 bool is_animation(const std::string& path) {
-  constexpr std::array<std::string_view, 4> kEndings = {".glb", ".gltf", ".bvh", ".amc"};
-  return std::find(kEndings.begin(), kEndings.end(), ending_of(path)) != kEndings.end();
+  const FileFormat format = format_of_file(path);
+  return format != FileFormat::none && format != FileFormat::asf;
+}
+
+std::optional<Issue> other_than_animation(const std::string& path, const std::string& expected) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  if (format_of_file(path) == FileFormat::asf)
+    return Issue{"file.wrong_kind", "", path + " is a skeleton (ASF), expected " + expected + "; name its .amc"};
+  return unknown_kind(path, beginning_of(path, kKindBytes), expected);
 }
 
 Result<Animation> read_animation(const std::string& path, const AnimationOptions& options) {
-  const std::string ending = ending_of(path);
-  if (ending == ".amc") return read_take(path, options);
-  if (ending == ".bvh") return with_asset(read_bvh(path));
-  if (ending == ".glb" || ending == ".gltf") return with_asset(read_gltf_around_faults(path));
-  return Issue{"check.unknown_format", "", path + " ends in none of .glb, .gltf, .bvh, .amc"};
+  switch (format_of_file(path)) {
+    case FileFormat::amc: return read_take(path, options);
+    case FileFormat::bvh: return with_asset(read_bvh_as_said(path, options));
+    case FileFormat::gltf: return with_asset(read_gltf_around_faults(path));
+    default: break;
+  }
+  const std::optional<Issue> other = other_than_animation(path, kAnimationFiles);
+  return other ? *other : Issue{"file.unreadable", "", path + " is no file that can be read"};
 }
 
 Result<std::string> find_skeleton(const std::string& amc_path) {
@@ -86,8 +112,14 @@ Result<std::string> find_skeleton(const std::string& amc_path) {
 
 namespace {
 
+// Whether people look for motion in a file of this kind, so that leaving it out without a word would mislead them.
+bool may_be_taken_for_motion(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  return ending != ".html" && ending != ".htm" && has_advice(beginning_of(path.string(), kKindBytes));
+}
+
 // Lists the files in a folder and in those below it. Links to folders are not followed, as they may lead in a circle.
-void look_into(const std::string& folder, std::vector<std::string>& files, std::vector<Unreadable>& unreadable) {
+void look_into(const std::string& folder, Expanded& out) {
   std::error_code error;
   std::vector<std::string> folders;
   fs::directory_iterator entry(folder, error);
@@ -95,27 +127,32 @@ void look_into(const std::string& folder, std::vector<std::string>& files, std::
     std::error_code ignored;
     const bool is_folder = entry->is_directory(ignored);
     if (is_folder && !entry->is_symlink(ignored)) folders.push_back(entry->path().string());
-    if (!is_folder && is_animation(entry->path().string())) files.push_back(entry->path().string());
+    if (is_folder) continue;
+    const std::string path = entry->path().string();
+    if (is_animation(path))
+      out.files.push_back(path);
+    else if (may_be_taken_for_motion(path))
+      out.skipped.push_back({path, *other_than_animation(path, kAnimationFiles)});
   }
-  if (error) unreadable.push_back({folder, {"file.unreadable", "", folder + ": " + error.message()}});
-  for (const std::string& below : folders) look_into(below, files, unreadable);
+  if (error) out.unreadable.push_back({folder, {"file.unreadable", "", folder + ": " + error.message()}});
+  for (const std::string& below : folders) look_into(below, out);
 }
 
 }  // namespace
 
-std::vector<std::string> expand_animations(const std::vector<std::string>& paths, std::vector<Unreadable>& unreadable) {
-  std::vector<std::string> files;
+Expanded expand_animations(const std::vector<std::string>& paths) {
+  Expanded out;
   for (const std::string& path : paths) {
     std::error_code error;
-    std::vector<std::string> inside;
+    const auto first = static_cast<std::ptrdiff_t>(out.files.size());
     if (fs::is_directory(path, error))
-      look_into(path, inside, unreadable);
+      look_into(path, out);
     else
-      inside.push_back(path);
-    std::sort(inside.begin(), inside.end());
-    files.insert(files.end(), inside.begin(), inside.end());
+      out.files.push_back(path);
+    std::sort(out.files.begin() + first, out.files.end());
   }
-  return files;
+  std::ranges::sort(out.skipped, {}, &Unreadable::file);
+  return out;
 }
 
 }  // namespace contort::cli

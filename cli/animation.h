@@ -1,4 +1,5 @@
-// Animations made elsewhere that a user names on the command line: .glb, .gltf, .bvh, and .amc with its .asf.
+// Animations made elsewhere that a user names on the command line: glTF (.glb, .gltf, .vrm, .vrma), BVH, and AMC with
+// its ASF. What a file holds tells its format, whatever its name.
 #pragma once
 
 #include <optional>
@@ -25,9 +26,17 @@ struct Animation {
 struct AnimationOptions {
   std::string skeleton;    // The .asf of an .amc; "": find_skeleton.
   double rate_hz = 120.0;  // The frame rate of an .amc, which does not say it.
+  double bvh_rate_hz = 0.0;  // The frame rate of a .bvh, instead of its own; 0: its own.
+  double bvh_unit_m = 0.0;   // The unit of a .bvh in metres; 0: nobody says it, and lengths stay in that unit.
+  bool bvh_z_up = false;     // Else +Y is up in a .bvh.
 };
 
-bool is_animation(const std::string& path);  // by its ending
+inline constexpr char kAnimationFiles[] = "an animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc)";
+
+bool is_animation(const std::string& path);  // by what it holds, else by its ending
+
+// Says what a plain file is that is no animation; nothing for what is no plain file.
+std::optional<Issue> other_than_animation(const std::string& path, const std::string& expected);
 
 Result<Animation> read_animation(const std::string& path, const AnimationOptions& options);
 
@@ -40,8 +49,14 @@ struct Unreadable {
   Issue issue;
 };
 
+struct Expanded {
+  std::vector<std::string> files;
+  std::vector<Unreadable> unreadable;  // folders that cannot be looked into
+  std::vector<Unreadable> skipped;     // files in folders that are no animation, but of a kind that people take for one
+};
+
 // Files as they are named, and folders as all animations in them and below, sorted by path, whatever kind of file these
-// are. Folders that cannot be looked into are added to `unreadable`.
-std::vector<std::string> expand_animations(const std::vector<std::string>& paths, std::vector<Unreadable>& unreadable);
+// are.
+Expanded expand_animations(const std::vector<std::string>& paths);
 
 }  // namespace contort::cli

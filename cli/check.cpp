@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
+#include "cli/animation.h"
 #include "cli/check_clips.h"
 #include "cli/commands.h"
 #include "cli/input.h"
@@ -12,6 +14,8 @@
 #include "cli/print.h"
 #include "cli/unmet_text.h"
 #include "corpus/evaluator.h"
+#include "formats/detect/file_format.h"
+#include "model/core/file_kind.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
@@ -21,6 +25,9 @@ namespace contort::cli {
 namespace {
 
 using json_fields::Json;
+
+const std::map<std::string, double> kUnits_m = {
+    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
 
 struct SpecOptions {
   std::string level;
@@ -96,6 +103,25 @@ bool is_a_folder(const std::string& path) {
   return std::filesystem::is_directory(path, error);
 }
 
+// Says what a plain file is that is neither a spec nor an animation. A .json is for the reader of specs in any case.
+std::optional<Issue> neither(const std::string& file) {
+  const std::string beginning = beginning_of(file, kKindBytes);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (file.ends_with(".json") || first == beginning.npos || beginning[first] == '{') return std::nullopt;
+  return other_than_animation(file, "a spec or a case (JSON), or " + std::string(kAnimationFiles));
+}
+
+// Nobody should believe that an option had an effect that it had not.
+Result<Done> options_fit(const ClipCheckOptions& options, const CLI::App& command) {
+  if (options.all_clips) return Done{};
+  const std::string& file = options.files.front();
+  const bool is_bvh = format_of_file(file) == FileFormat::bvh;
+  for (const char* option : {"--unit", "--up"})
+    if (command.count(option) > 0 && !is_bvh)
+      return Issue{"usage.for_bvh", "", std::string(option) + " is for .bvh files, and " + file + " is none"};
+  return Done{};
+}
+
 // --known CORPUS: asks the rules of the corpus instead of making the motion.
 void ask_rules(const std::string& file, const std::string& level, const std::string& corpus, bool as_json,
                Context& context) {
@@ -108,18 +134,18 @@ void run(const ClipCheckOptions& options, const SpecOptions& of_spec, const CLI:
   const auto& [level, known] = of_spec;
   if (options.allow_unreadable && !options.all_clips)
     return context.fail({"usage.for_folders", "", "--allow-unreadable is for folders and --all-clips"});
-  if (!known.empty() && (options.all_clips || is_animation(options.files.front())))
-    return context.fail({"usage.for_specs", "", "--known is for specs and cases"});
-  if (!level.empty() && (options.all_clips || is_animation(options.files.front())))
-    return context.fail({"usage.for_specs", "", "--level is for specs and cases"});
-  if (options.all_clips) return check_clips(options, context);
-  if (options.files.size() > 1)
+  const bool of_clips = options.all_clips || is_animation(options.files.front());
+  if (!known.empty() && of_clips) return context.fail({"usage.for_specs", "", "--known is for specs and cases"});
+  if (!level.empty() && of_clips) return context.fail({"usage.for_specs", "", "--level is for specs and cases"});
+  if (!options.all_clips && options.files.size() > 1)
     return context.fail({"usage.too_many_files", "", "found several files; --all-clips checks more than one"});
-  if (is_animation(options.files.front())) return check_clips(options, context);
+  if (const Result<Done> fit = options_fit(options, command); !fit) return context.fail(fit.issue());
+  if (of_clips) return check_clips(options, context);
+  if (const std::optional<Issue> other = neither(options.files.front())) return context.fail(*other);
   if (const std::string option = option_for_animations(command); !option.empty())
     return context.fail(
         {"usage.for_animations", "",
-         option + " is for animations, and " + options.files.front() + " is none: .glb, .gltf, .bvh and .amc are"});
+         option + " is for animations, and " + options.files.front() + " is none: expected " + kAnimationFiles});
   known.empty() ? check_spec(options.files.front(), level, options.json, context)
                 : ask_rules(options.files.front(), level, known, options.json, context);
 }
@@ -130,11 +156,11 @@ void add_check(CLI::App& app, Context& context) {
   auto options = std::make_shared<ClipCheckOptions>();
   auto of_spec = std::make_shared<SpecOptions>();
   CLI::App* command =
-      app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .gltf, .bvh, .amc)");
+      app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .vrm, .vrma, .bvh, .amc)");
   command
       ->add_option("FILE", options->files,
-                   "Spec or case (.json), or animation (.glb, .gltf, .bvh, .amc), or a folder of them; with --all-clips, "
-                   "any number of animations and folders")
+                   "Spec or case (.json), or animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc), by what the file holds, or "
+                   "a folder of them; with --all-clips, any number of animations and folders")
       ->required();
   CLI::Option* character = command->add_option(
       "--character", options->character, "Judge the clips as motions of this character, by every check that applies");
@@ -145,10 +171,20 @@ void add_check(CLI::App& app, Context& context) {
                       "Skeleton (.asf) of an .amc; else the only one in its folder, or the one named most alike");
   CLI::Option* rate = command->add_option(
       "--rate-hz", options->animation.rate_hz,
-      "Frames per second of an .amc, which does not say it; of motions of a character, instead of the clip's own");
+      "Frames per second of an .amc, which does not say it, and of a .bvh, instead of its own; with --character, those "
+      "of the character's motion");
   rate->check(CLI::Range(1.0, 1e5))
       ->check(refuse_nan)
       ->capture_default_str();
+  command
+      ->add_option("--unit", options->animation.bvh_unit_m,
+                   "Unit of length of a .bvh, whose lengths are then judged in metres")
+      ->transform(CLI::CheckedTransformer(kUnits_m))
+      ->type_name("m|cm|mm|in|ft");
+  command
+      ->add_option("--up", options->animation.bvh_z_up, "Axis that points up in a .bvh; y if nobody says it")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"y", false}, {"z", true}}))
+      ->type_name("y|z");
   CLI::Option* clip = command->add_option("--clip", options->clip, "Only this clip of the file");
   command
       ->add_option("--loops", options->loops,
@@ -201,6 +237,7 @@ void add_check(CLI::App& app, Context& context) {
   command->callback([options, of_spec, command, rate, &context] {
     if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
     options->all_clips |= std::ranges::any_of(options->files, is_a_folder);
+    if (rate->count() > 0 && options->character.empty()) options->animation.bvh_rate_hz = options->animation.rate_hz;
     run(*options, *of_spec, *command, context);
   });
 }

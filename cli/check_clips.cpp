@@ -25,6 +25,8 @@ namespace {
 struct Checked {
   std::vector<ClipReport> clips;
   std::vector<Unreadable> unreadable;
+  std::vector<Unreadable> skipped;  // files of folders that only look like animations
+  std::vector<FileRemark> remarks;
   std::set<std::string> unmatched;  // nodes of the map that were in no file
   Touched touched;
   std::vector<WaiverUse> waivers;
@@ -176,6 +178,7 @@ void check_file(const std::string& file, const ClipJudging& for_all, Checked& ou
   forget_matched(animation->asset, out.unmatched);
   const std::size_t similar = take_similar_names(animation->asset, with, out.unmatched);
   note_clips(*animation, out.touched);
+  for (const Remark& remark : animation->asset.remarks) out.remarks.push_back({file, remark});
   for (const AssetClip& clip : animation->asset.clips) {
     if (!with.options.clip.empty() && clip.name != with.options.clip && clip.label != with.options.clip) continue;
     Result<ClipReport> checked = check_clip(file, *animation, clip, with);
@@ -199,6 +202,7 @@ void add_file(Checked file, Checked& out) {
   append(file.clips, out.clips);
   append(file.unreadable, out.unreadable);
   append(file.findings, out.findings);
+  append(file.remarks, out.remarks);
   std::erase_if(out.unmatched, [&](const std::string& node) { return !file.unmatched.contains(node); });
   add_touched(file.touched, out.touched);
   add_uses(file.waivers, out.waivers);
@@ -260,26 +264,43 @@ Result<Done> write_accepted(const ClipCheckOptions& options, const Checked& chec
 void print_one(const ClipJudging& with, const Checked& checked) {
   const ClipCheckOptions& options = with.options;
   const CheckSettings& settings = with.limits.settings;
-  if (options.json) return print_json(options.files.front(), checked.clips, waivers_json(settings, checked.waivers));
+  if (options.json)
+    return print_json(options.files.front(), checked.clips, checked.remarks, waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip(clip);
+  for (const FileRemark& about : checked.remarks) std::printf("remark: %s\n", printable(about.remark.text).c_str());
   print_waivers(settings, with.accept, checked);
   print_judged(checked.clips);
   print_result(count_findings(checked.clips), checked.clips.size(), "", waived_count(settings, options, checked));
 }
 
+// Folders may hold thousands of files that are no animations.
+void print_skipped(const std::vector<Unreadable>& skipped) {
+  constexpr std::size_t kMostLines = 20;
+  for (std::size_t i = 0; i < std::min(skipped.size(), kMostLines); ++i)
+    std::printf("skipped: %s\n", printable(skipped[i].issue.text).c_str());
+  if (skipped.size() > kMostLines)
+    std::printf("skipped: %zu more files (--json lists them)\n", skipped.size() - kMostLines);
+}
+
 void print_all(const ClipJudging& with, const Checked& checked, std::size_t files) {
   const ClipCheckOptions& options = with.options;
   const CheckSettings& settings = with.limits.settings;
-  if (options.json) return print_json(checked.clips, checked.unreadable, waivers_json(settings, checked.waivers));
+  if (options.json)
+    return print_json({checked.clips, checked.unreadable, checked.skipped, checked.remarks},
+                      waivers_json(settings, checked.waivers));
   for (const ClipReport& clip : checked.clips) print_clip_line(clip);
   for (const auto& [file, issue] : checked.unreadable)
     std::printf("%s: unreadable: %s\n", printable(file).c_str(), printable(to_line(issue)).c_str());
+  print_skipped(checked.skipped);
+  for (const FileRemark& about : checked.remarks)
+    std::printf("%s: remark: %s\n", printable(about.file).c_str(), printable(about.remark.text).c_str());
   print_waivers(settings, with.accept, checked);
   print_judged(checked.clips);
   const std::string missing = is_incomplete(options, checked) ? count_unreadable(checked, files) : "";
   print_result(count_findings(checked.clips), checked.clips.size(), missing,
                waived_count(settings, options, checked) + " files=" + std::to_string(files) +
-                   " unreadable=" + std::to_string(checked.unreadable.size()));
+                   " unreadable=" + std::to_string(checked.unreadable.size()) +
+                   (checked.skipped.empty() ? "" : " skipped=" + std::to_string(checked.skipped.size())));
 }
 
 // Mistakes that stop the command before anything is printed: nothing to judge, or a map that does not fit.
@@ -294,7 +315,10 @@ Result<Done> judge_input(const ClipCheckOptions& options, const Checked& checked
   const std::string where = options.files.size() == 1 ? options.files.front() : "none of the files";
   if (!options.clip.empty() && !checked.touched.clips.empty())
     return no_such_clip(where, options.clip, checked.touched.clips);
-  return Issue{"check.no_clip", "", where + " holds no animation"};
+  const std::string skipped =
+      checked.skipped.empty() ? "" : "; skipped were " + std::to_string(checked.skipped.size()) + " other files, as " +
+                                         checked.skipped.front().issue.text;
+  return Issue{"check.no_clip", "", where + " holds no animation" + skipped};
 }
 
 // The same for options and rules that touched nothing, and for clips of which nothing was judged.
@@ -325,8 +349,12 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   if (!judging) return context.fail(judging.issue());
   const ClipJudging with = std::move(judging).value();
   Checked checked;
-  const std::vector<std::string> files =
-      options.all_clips ? expand_animations(options.files, checked.unreadable) : options.files;
+  std::vector<std::string> files = options.files;
+  if (options.all_clips) {
+    Expanded expanded = expand_animations(options.files);
+    files = std::move(expanded.files);
+    checked.unreadable = std::move(expanded.unreadable), checked.skipped = std::move(expanded.skipped);
+  }
   const std::size_t count = files.size() + checked.unreadable.size();
   if (!options.map.empty())  // an own map may say more than the file has
     for (const auto& entry : with.on.map.joints) checked.unmatched.insert(entry.first);

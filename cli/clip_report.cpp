@@ -347,24 +347,43 @@ void print_result(std::size_t findings, std::size_t clips, const std::string& mi
   std::printf("RESULT findings=%zu clips=%zu%s\n", findings, clips, more.c_str());
 }
 
-void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::string& waivers) {
-  Json list = Json::array();
-  for (const ClipReport& clip : clips) list.push_back(clip_json(clip));
-  print_tree({{"file", file}, {"clips", list}, {"waivers", Json::parse(waivers)}});
+namespace {
+
+Json unreadable_json(const std::vector<Unreadable>& files) {
+  Json out = Json::array();
+  for (const auto& [file, issue] : files)
+    out.push_back({{"file", file}, {"code", issue.code}, {"pointer", issue.pointer}, {"text", issue.text}});
+  return out;
 }
 
-void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable,
+Json remarks_json(const std::vector<FileRemark>& remarks) {
+  Json out = Json::array();
+  for (const auto& [file, remark] : remarks)
+    out.push_back({{"file", file}, {"code", remark.code}, {"text", remark.text}});
+  return out;
+}
+
+}  // namespace
+
+void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::vector<FileRemark>& remarks,
                 const std::string& waivers) {
   Json list = Json::array();
-  for (const ClipReport& clip : clips) {
+  for (const ClipReport& clip : clips) list.push_back(clip_json(clip));
+  print_tree({{"file", file}, {"clips", list}, {"remarks", remarks_json(remarks)}, {"waivers", Json::parse(waivers)}});
+}
+
+void print_json(const ManyFiles& files, const std::string& waivers) {
+  Json list = Json::array();
+  for (const ClipReport& clip : files.clips) {
     Json one = clip_json(clip);
     one["file"] = clip.file;
     list.push_back(std::move(one));
   }
-  Json refused = Json::array();
-  for (const auto& [file, issue] : unreadable)
-    refused.push_back({{"file", file}, {"code", issue.code}, {"pointer", issue.pointer}, {"text", issue.text}});
-  print_tree({{"clips", list}, {"unreadable", refused}, {"waivers", Json::parse(waivers)}});
+  print_tree({{"clips", list},
+              {"unreadable", unreadable_json(files.unreadable)},
+              {"skipped", unreadable_json(files.skipped)},
+              {"remarks", remarks_json(files.remarks)},
+              {"waivers", Json::parse(waivers)}});
 }
 
 }  // namespace contort::cli

@@ -62,8 +62,18 @@ void print_judged(const std::vector<ClipReport>& clips);
 void print_result(std::size_t findings, std::size_t clips, const std::string& missing, const std::string& more);
 
 // `waivers` is JSON (print.h). A file and its clips; or clips of many files, and the files that could not be read.
-void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::string& waivers);
-void print_json(const std::vector<ClipReport>& clips, const std::vector<Unreadable>& unreadable,
+struct FileRemark {
+  std::string file;
+  Remark remark;
+};
+struct ManyFiles {
+  const std::vector<ClipReport>& clips;
+  const std::vector<Unreadable>& unreadable;
+  const std::vector<Unreadable>& skipped;
+  const std::vector<FileRemark>& remarks;
+};
+void print_json(const std::string& file, const std::vector<ClipReport>& clips, const std::vector<FileRemark>& remarks,
                 const std::string& waivers);
+void print_json(const ManyFiles& files, const std::string& waivers);
 
 }  // namespace contort::cli

@@ -67,7 +67,7 @@ class Examination {
  private:
   void fault(const std::string& text) { add({true, text}); }
   void note(const std::string& text) { add({false, text}); }
-  void add(const Remark& remark) {
+  void add(const ProtocolRemark& remark) {
     if (std::ranges::find(out_.remarks, remark) == out_.remarks.end()) out_.remarks.push_back(remark);
   }
 
@@ -331,7 +331,7 @@ class Examination {
 }  // namespace
 
 bool Conformance::has_fault() const {
-  return std::ranges::any_of(remarks, [](const Remark& remark) { return remark.is_fault; });
+  return std::ranges::any_of(remarks, [](const ProtocolRemark& remark) { return remark.is_fault; });
 }
 
 Conformance check_conformance(GuestGenerator& generator) { return Examination(generator).run(); }

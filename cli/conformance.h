@@ -8,14 +8,14 @@
 
 namespace contort::cli {
 
-struct Remark {
+struct ProtocolRemark {
   bool is_fault = false;  // else a note that a person should read
   std::string text;       // one sentence that says what to change
-  bool operator==(const Remark&) const = default;
+  bool operator==(const ProtocolRemark&) const = default;
 };
 
 struct Conformance {
-  std::vector<Remark> remarks;
+  std::vector<ProtocolRemark> remarks;
   std::string determinism;  // one sentence
   std::vector<std::string> judged;                             // names of checks
   std::vector<std::pair<std::string, std::string>> not_judged;  // with the reasons

@@ -44,14 +44,24 @@ std::uint32_t little_endian(const unsigned char* bytes, std::size_t size) {
 }
 
 // Integers map to [0, 1] or [-1, 1] by the standard's formula (section 3.6.2.2).
-double component_value(const unsigned char* bytes, int type) {
-  const std::uint32_t bits = little_endian(bytes, component_bytes(type));
+double fraction_value(std::uint32_t bits, int type) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(static_cast<std::int8_t>(bits) / 127.0, -1.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return bits / 255.0;
     case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(static_cast<std::int16_t>(bits) / 32767.0, -1.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return bits / 65535.0;
     default: return static_cast<double>(std::bit_cast<float>(bits));
+  }
+}
+
+double component_value(const unsigned char* bytes, int type, bool normalized) {
+  const std::uint32_t bits = little_endian(bytes, component_bytes(type));
+  if (normalized) return fraction_value(bits, type);
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return static_cast<std::int8_t>(bits);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return static_cast<std::int16_t>(bits);
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return static_cast<double>(std::bit_cast<float>(bits));
+    default: return bits;
   }
 }
 
@@ -109,10 +119,12 @@ Result<Elements> place_elements(const tinygltf::Model& model, const Layout& layo
   return Elements{first + layout.offset, stride};
 }
 
-void decode(const Elements& elements, std::size_t count, std::size_t components, int type, std::vector<double>& out) {
-  const std::size_t size = component_bytes(type);
+void decode(const Elements& elements, std::size_t count, std::size_t components, const tinygltf::Accessor& as,
+            std::vector<double>& out) {
+  const std::size_t size = component_bytes(as.componentType);
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < components; ++c) out.push_back(component_value(elements.at(i) + c * size, type));
+    for (std::size_t c = 0; c < components; ++c)
+      out.push_back(component_value(elements.at(i) + c * size, as.componentType, as.normalized));
 }
 
 Result<Done> check_finite(const std::vector<double>& values, std::size_t components, const std::string& pointer) {
@@ -158,16 +170,17 @@ bool AccessorReader::has_data(int accessor) const {
   return a.bufferView >= 0 || a.sparse.isSparse;
 }
 
-Result<Done> AccessorReader::check_format(int index, ElementKind kind, bool normalized_integers) const {
+Result<Done> AccessorReader::check_format(int index, ElementKind kind, Integers integers) const {
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   if (accessor.type != row(kind).type)
     return bad_accessor(accessor_pointer(index) + "/type", std::string("allowed here is ") + row(kind).name);
   const bool is_float = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-  const bool is_fraction = normalized_integers && accessor.normalized && component_bytes(accessor.componentType) > 0 &&
-                           component_bytes(accessor.componentType) < 4;
-  if (is_float || is_fraction) return Done{};
-  const char* allowed = normalized_integers ? "allowed here is 5126, or 5120 to 5123 with \"normalized\""
-                                            : "allowed here is 5126, 32-bit floats";
+  const bool is_short = component_bytes(accessor.componentType) > 0 && component_bytes(accessor.componentType) < 4;
+  const bool is_allowed = integers == Integers::any || (integers == Integers::normalized && accessor.normalized);
+  if (is_float || (is_short && is_allowed)) return Done{};
+  const char* allowed = integers == Integers::none         ? "allowed here is 5126, 32-bit floats"
+                        : integers == Integers::normalized ? "allowed here is 5126, or 5120 to 5123 with \"normalized\""
+                                                           : "allowed here is 5126, or 5120 to 5123";
   return bad_accessor(accessor_pointer(index) + "/componentType",
                       "found " + std::to_string(accessor.componentType) + "; " + allowed);
 }
@@ -186,7 +199,7 @@ Result<Done> AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, co
       pointer + "/values");
   if (!elements) return elements.issue();
   std::vector<double> replacing;
-  decode(*elements, targets->size(), components, accessor.componentType, replacing);
+  decode(*elements, targets->size(), components, accessor, replacing);
   for (std::size_t i = 0; i < replacing.size(); ++i) {
     const std::size_t target = (*targets)[i / components] * components + i % components;
     if (target < values.size()) values[target] = replacing[i];  // `values` may be the first few elements only
@@ -203,7 +216,7 @@ Result<std::vector<double>> AccessorReader::read_dense(const tinygltf::Accessor&
   if (!elements) return elements.issue();
   std::vector<double> out;
   out.reserve(count * components);
-  decode(*elements, count, components, accessor.componentType, out);
+  decode(*elements, count, components, accessor, out);
   return out;
 }
 
@@ -240,11 +253,10 @@ Result<std::vector<int>> AccessorReader::read_indices(int index, ElementKind kin
   return out;
 }
 
-Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, std::size_t count,
-                                                 bool normalized_integers) {
+Result<std::vector<double>> AccessorReader::read(int index, ElementKind kind, std::size_t count, Integers integers) {
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   const std::string pointer = accessor_pointer(index);
-  if (const auto format = check_format(index, kind, normalized_integers); !format) return format.issue();
+  if (const auto format = check_format(index, kind, integers); !format) return format.issue();
   const std::size_t components = row(kind).components;
   count = std::min(count, accessor.count);
   if (count > kMaxGltfNumbers) return take_numbers(count, pointer).issue();

@@ -17,6 +17,10 @@ namespace contort {
 
 enum class ElementKind : std::uint8_t { scalar, vec3, vec4, mat4 };
 
+// Integers that may stand for numbers beside 32-bit floats: none, fractions of [-1, 1], or any of up to 16 bits, as
+// positions by KHR_mesh_quantization.
+enum class Integers : std::uint8_t { none, normalized, any };
+
 // The JSON pointer of an accessor in the file, for messages.
 inline std::string accessor_pointer(int accessor) { return "/accessors/" + std::to_string(accessor); }
 
@@ -29,10 +33,11 @@ class AccessorReader {
   std::size_t count(int accessor) const;
   bool has_data(int accessor) const;
 
-  // Reads the first `count` elements (at most all), component by component, all finite: 32-bit floats and, with
-  // `normalized_integers`, also integers that stand for [-1, 1]. Codes gltf.bad_accessor, .bad_index, .truncated,
+  // Reads the first `count` elements (at most all), component by component, all finite: 32-bit floats and
+  // the integers that are allowed. Codes gltf.bad_accessor, .bad_index, .truncated,
   // .not_finite, .too_large (see kMaxGltfNumbers).
-  Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count, bool normalized_integers = false);
+  Result<std::vector<double>> read(int accessor, ElementKind kind, std::size_t count,
+                                   Integers integers = Integers::none);
 
   // Reads all elements as unsigned integers: indices of vertices, numbers of joints. Codes as above, and
   // gltf.unsupported for sparse accessors.
@@ -40,7 +45,7 @@ class AccessorReader {
 
  private:
   Result<Done> take_numbers(std::size_t count, const std::string& pointer);
-  Result<Done> check_format(int accessor, ElementKind kind, bool normalized_integers) const;
+  Result<Done> check_format(int accessor, ElementKind kind, Integers integers) const;
   Result<std::vector<double>> read_dense(const tinygltf::Accessor& accessor, const std::string& pointer,
                                          std::size_t components, std::size_t count) const;
   Result<Done> apply_sparse(const tinygltf::Accessor& accessor, const std::string& pointer,

@@ -7,6 +7,7 @@
 
 #include "formats/gltf/from_model.h"
 #include "model/asset/labels.h"
+#include "model/core/number_text.h"
 
 namespace contort {
 
@@ -61,11 +62,9 @@ bool read_interpolation(const std::string& text, Interpolation& out) {
 
 Result<Done> check_times(const std::vector<double>& times, const std::string& pointer) {
   for (std::size_t i = 0; i < times.size(); ++i)
-    if (times[i] < 0.0 || (i > 0 && times[i] <= times[i - 1]))
+    if (i > 0 && times[i] < times[i - 1])
       return Issue{"gltf.bad_times", pointer,
-                   "key " + std::to_string(i) +
-                       " is before 0 s, or not later than the key "
-                       "before it; allowed are ascending times"};
+                   "key " + std::to_string(i) + " is before the key before it; allowed are ascending times"};
   return Done{};
 }
 
@@ -167,7 +166,8 @@ class ClipReader {
   Result<Done> read_values(int accessor, std::size_t count, AssetChannel& out) {
     const bool is_rotation = out.path == ChannelPath::rotation;
     Result<std::vector<double>> values =
-        accessors_.read(accessor, is_rotation ? ElementKind::vec4 : ElementKind::vec3, count, is_rotation);
+        accessors_.read(accessor, is_rotation ? ElementKind::vec4 : ElementKind::vec3, count,
+                        is_rotation ? Integers::normalized : Integers::none);
     if (!values) return values.issue();
     out.values = std::move(values).value();
     if (!is_rotation) return Done{};
@@ -199,6 +199,17 @@ void find_range(AssetClip& clip) {
   }
 }
 
+// What the standard forbids of times, and we read.
+void remark_times(const AssetClip& clip, std::vector<Remark>& remarks) {
+  const auto has_twins = [](const AssetChannel& c) { return std::ranges::adjacent_find(c.times_s) != c.times_s.end(); };
+  if (clip.first_s < 0.0)
+    remarks.push_back({"gltf.negative_times", "clip " + clip.label + " has keys before 0 s, from " +
+                                                  number_text(clip.first_s) + " s on; they are judged, too"});
+  if (const auto channels = std::ranges::count_if(clip.channels, has_twins); channels > 0)
+    remarks.push_back({"gltf.equal_times", "clip " + clip.label + " has keys at equal times in " +
+                                               std::to_string(channels) + " channels; they are read as jumps"});
+}
+
 }  // namespace
 
 Result<Done> read_skins(const tinygltf::Model& model, AccessorReader& accessors, Faults faults, Asset& asset) {
@@ -227,6 +238,7 @@ Result<Done> read_clips(const tinygltf::Model& model, AccessorReader& accessors,
     ClipReader reader(model.animations[i], accessors, "/animations/" + std::to_string(i), faults, asset);
     if (const Result<Done> read = reader.read(clip); !read) return read.issue();
     find_range(clip);
+    remark_times(clip, asset.remarks);
     asset.clips.push_back(std::move(clip));
   }
   return Done{};

@@ -33,10 +33,9 @@ Result<Done> check_header(std::span<const std::byte> bytes) {
     return Issue{"gltf.unsupported", "", "GLB version " + std::to_string(version) + "; allowed is 2"};
   const std::size_t length = u32_at(bytes, 8);
   if (length > bytes.size()) return truncated("the GLB, by its header,", length, bytes.size());
-  if (length < bytes.size())
-    return Issue{
-        "gltf.bad_header", "",
-        "the GLB header says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size())};
+  if (length < kHeaderBytes)
+    return Issue{"gltf.bad_header", "",
+                 "the GLB header says " + std::to_string(length) + " bytes, fewer than the header itself has"};
   return Done{};
 }
 
@@ -108,6 +107,9 @@ bool is_glb(std::span<const std::byte> bytes) { return bytes.size() >= 4 && u32_
 Result<GltfContainer> split_glb(std::span<const std::byte> bytes) {
   if (const auto header = check_header(bytes); !header) return header.issue();
   GltfContainer out;
+  const std::size_t length = u32_at(bytes, 8);
+  out.bytes_after = bytes.size() - length;
+  bytes = bytes.first(length);
   int index = 0;
   for (std::size_t offset = kHeaderBytes; offset < bytes.size() || index == 0; ++index) {
     const Result<Chunk> chunk = chunk_at(bytes, offset, index);

@@ -13,6 +13,7 @@ struct GltfContainer {
   std::string_view json;
   std::span<const std::byte> bin;  // The GLB's binary chunk.
   bool has_bin = false;
+  std::size_t bytes_after = 0;  // behind the end that the GLB's header tells; nobody reads them
 };
 
 bool is_glb(std::span<const std::byte> bytes);

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "formats/gltf/extension_fields.h"
 #include "formats/gltf/limits.h"
 #include "model/core/json_fields.h"
 
@@ -287,22 +288,11 @@ Result<Done> check_version(const Json& asset) {
   return Done{};
 }
 
-// Extensions that change how a thing looks, or how a mesh is stored: nothing that we read. All others are refused where
-// the file requires them, above all EXT_meshopt_compression, which may pack animations too.
-bool concerns_looks_only(std::string_view extension) {
-  constexpr std::string_view kNames[] = {
-      "KHR_texture_transform", "KHR_texture_basisu",         "EXT_texture_webp",
-      "EXT_texture_avif",      "KHR_lights_punctual",        "EXT_lights_image_based",
-      "KHR_mesh_quantization", "KHR_draco_mesh_compression", "KHR_xmp_json_ld"};
-  return extension.starts_with("KHR_materials_") ||
-         std::find(std::begin(kNames), std::end(kNames), extension) != std::end(kNames);
-}
-
 Result<Done> check_extensions(const Json& root) {
   const auto required = root.find("extensionsRequired");
   if (required == root.end()) return Done{};
   for (std::size_t i = 0; i < required->size(); ++i)
-    if (const Json& name = (*required)[i]; !concerns_looks_only(name.get_ref<const std::string&>()))
+    if (const Json& name = (*required)[i]; !is_known_extension(name.get_ref<const std::string&>()))
       return Issue{"gltf.unsupported", "/extensionsRequired/" + std::to_string(i),
                    "the file cannot be read without the extension " + shown(name) + ", which is not supported"};
   return Done{};
@@ -358,6 +348,8 @@ Result<GltfDocument> check_document(std::string_view text, Meshes meshes) {
   Result<Json> parsed = parse(text);
   if (!parsed) return parsed.issue();
   Json root = std::move(parsed).value();
+  Result<GltfExtensions> extensions = take_extensions(root, meshes == Meshes::read);
+  if (!extensions) return extensions.issue();
   const Place top;
   const std::span<const Field> known(kRoot, std::size(kRoot) - (meshes == Meshes::read ? 0 : 1));
   if (const auto checked = Checker(root).check_object(root, known, top); !checked) return checked.issue();
@@ -365,6 +357,7 @@ Result<GltfDocument> check_document(std::string_view text, Meshes meshes) {
        {check_version(root["asset"]), check_extensions(root), check_nodes(root), check_strides(root)})
     if (!checked) return checked.issue();
   GltfDocument out;
+  out.extensions = std::move(extensions).value();
   out.buffers = take_buffers(root);
   mark_channels_without_node(root);
   out.json = root.dump();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/gltf/extensions.h"
 #include "model/core/result.h"
 
 namespace contort {
@@ -22,11 +23,12 @@ struct GltfDocument {
   // that no parser meets a hostile one. No buffers either; those are in `buffers`.
   std::string json;
   std::vector<BufferRef> buffers;
+  GltfExtensions extensions;
 };
 
 enum class Meshes : std::uint8_t { leave_out, read };
 
-// Codes gltf.bad_json, .wrong_type, .missing, .out_of_range, .bad_index, .too_large, .unsupported.
+// Codes gltf.bad_json, .wrong_type, .missing, .out_of_range, .bad_index, .too_large, .unsupported, .bad_pointer.
 Result<GltfDocument> check_document(std::string_view json, Meshes meshes = Meshes::leave_out);
 
 }  // namespace contort

@@ -21,7 +21,7 @@ class PrimitiveReader {
     if (!accessors_.has_data(positions))
       return Issue{"gltf.unsupported", pointer_,
                    "the positions have no data of their own: compressed meshes are not read"};
-    const auto places = accessors_.read(positions, ElementKind::vec3, accessors_.count(positions), true);
+    const auto places = accessors_.read(positions, ElementKind::vec3, accessors_.count(positions), Integers::any);
     if (!places) return places.issue();
     std::vector<SkinnedVertex> vertices(places->size() / 3);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -53,7 +53,7 @@ class PrimitiveReader {
                          std::to_string(vertices.size()) + " positions"};
     const auto numbers = accessors_.read_indices(joints, ElementKind::vec4);
     if (!numbers) return numbers.issue();
-    const auto shares = accessors_.read(weights, ElementKind::vec4, vertices.size(), true);
+    const auto shares = accessors_.read(weights, ElementKind::vec4, vertices.size(), Integers::normalized);
     if (!shares) return shares.issue();
     for (std::size_t i = 0; i < 4 * vertices.size(); ++i) {
       const double weight = std::max((*shares)[i], 0.0);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "formats/gltf/buffers.h"
+#include "formats/gltf/compression.h"
 #include "formats/gltf/container.h"
 #include "formats/gltf/document.h"
 #include "formats/gltf/from_model.h"
@@ -69,9 +70,19 @@ Result<SkinnedAsset> read_container(const GltfContainer& container, const std::s
   tinygltf::Model model = std::move(parsed).value();
   for (std::vector<unsigned char>& bytes : std::move(buffers).value())
     model.buffers.emplace_back().data = std::move(bytes);
+  const GltfExtensions& packed = document->extensions;
+  if (const auto filled = fill_views(packed.views, model); !filled) return filled.issue();
+  if (const auto filled = fill_primitives(packed.primitives, model); !filled) return filled.issue();
   Result<SkinnedAsset> asset = to_asset(model, meshes, faults);
-  if (!asset || meshes == Meshes::leave_out) return asset;
+  if (!asset) return asset;
   SkinnedAsset out = std::move(asset).value();
+  if (packed.pointers_not_read > 0)
+    out.asset.remarks.push_back({"gltf.pointers", std::to_string(packed.pointers_not_read) +
+                                                      " channels move other things than nodes; they are not read"});
+  if (container.bytes_after > 0)
+    out.asset.remarks.push_back({"gltf.bytes_after", std::to_string(container.bytes_after) +
+                                                         " bytes follow the end of the GLB; they are not read"});
+  if (meshes == Meshes::leave_out) return out;
   Result<std::map<std::string, int>> humanoid = read_humanoid(container.json, out.asset.nodes.size());
   if (!humanoid) return humanoid.issue();
   out.humanoid = std::move(humanoid).value();
@@ -82,7 +93,11 @@ Result<std::string> read_bytes(const std::string& path) {
   const Result<std::string> bytes = read_file(path, kMaxGltfBytes);
   if (bytes && is_glb(std::as_bytes(std::span(*bytes)))) return bytes;
   if (bytes) {
-    const std::optional<Issue> other = other_kind(path, *bytes, "a glTF model (.glb, .gltf)");
+    constexpr char kExpected[] = "a glTF model (.glb, .gltf, .vrm, .vrma)";
+    std::optional<Issue> other = other_kind(path, *bytes, kExpected);
+    const bool may_be_gltf = bytes->find_first_not_of(" \t\r\n") == bytes->find('{');
+    const bool is_named_so = path.ends_with(".glb") || path.ends_with(".gltf");
+    if (!other && !may_be_gltf && !is_named_so) other = unknown_kind(path, *bytes, kExpected);
     return other ? Issue{"gltf.wrong_kind", "", other->text} : bytes;
   }
   return Issue{bytes.issue().code == "file.too_large" ? "gltf.too_large" : "gltf.unreadable", "", bytes.issue().text};
@@ -92,8 +107,9 @@ Result<SkinnedAsset> read_any(const std::string& path, Meshes meshes, Faults fau
   const Result<std::string> text = read_bytes(path);
   if (!text) return text.issue();
   const auto bytes = std::as_bytes(std::span(*text));
-  GltfContainer container{*text, {}, false};
-  if (is_glb(bytes) || path.ends_with(".glb")) {  // the name matters for the message only
+  GltfContainer container{*text, {}, false, 0};
+  const bool is_text = text->find_first_not_of(" \t\r\n") == text->find('{') && text->find('{') != text->npos;
+  if (is_glb(bytes) || (path.ends_with(".glb") && !is_text)) {  // the name matters for the message only
     const Result<GltfContainer> split = split_glb(bytes);
     if (!split) return split.issue();
     container = *split;

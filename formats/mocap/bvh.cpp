@@ -1,11 +1,13 @@
 #include "formats/mocap/bvh.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <numeric>
 #include <set>
 #include <span>
 
+#include "formats/mocap/bvh_positions.h"
 #include "formats/mocap/limits.h"
 #include "formats/mocap/words.h"
 #include "model/asset/labels.h"
@@ -14,6 +16,8 @@
 namespace contort {
 
 namespace {
+
+using Remarks = std::vector<Remark>;
 
 constexpr MocapSyntax kBvhSyntax{.area = "bvh", .alone = "{}", .blank = ""};
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
@@ -49,6 +53,7 @@ void open_node(MocapWords& words, std::string name, bool is_end_site, std::vecto
   AssetNode node;
   node.name = std::move(name);
   node.parent = open.empty() ? -1 : open.back().node;
+  node.is_joint = !is_end_site;
   open.push_back({static_cast<int>(out.nodes.size()), is_end_site, false, false});
   out.nodes.push_back(std::move(node));
 }
@@ -119,8 +124,7 @@ struct NodeTargets {
   int translation = -1;
 };
 
-std::vector<NodeTargets> make_channels(const Hierarchy& hierarchy, const std::vector<double>& times_s,
-                                       AssetClip& clip) {
+std::vector<NodeTargets> make_channels(const Hierarchy& hierarchy, std::size_t frames, AssetClip& clip) {
   std::vector<NodeTargets> targets(hierarchy.nodes.size());
   for (const BvhChannel& channel : hierarchy.channels) {
     NodeTargets& node = targets[static_cast<std::size_t>(channel.node)];
@@ -128,13 +132,14 @@ std::vector<NodeTargets> make_channels(const Hierarchy& hierarchy, const std::ve
     if (target >= 0) continue;
     target = static_cast<int>(clip.channels.size());
     const ChannelPath path = channel.is_rotation ? ChannelPath::rotation : ChannelPath::translation;
-    clip.channels.push_back({channel.node, path, Interpolation::linear, times_s, {}});
-    clip.channels.back().values.reserve(times_s.size() * row_size(path));
+    clip.channels.push_back({channel.node, path, Interpolation::linear, {}, {}});
+    clip.channels.back().values.reserve(frames * row_size(path));
   }
   return targets;
 }
 
-// One key for every target of a node, from its numbers in a frame.
+// One key for every target of a node, from its numbers in a frame. Positions are kept as the file has them; OFFSET
+// stands in for the axes without a channel.
 void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const BvhChannel> channels,
               std::span<const double> numbers, AssetClip& clip) {
   constexpr std::array<Vec3, 3> kAxes = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
@@ -144,7 +149,7 @@ void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const
     if (channels[i].is_rotation)
       q = q * axis_angle(kAxes[static_cast<std::size_t>(channels[i].axis)], numbers[i] * kRadPerDeg);
     else
-      p[channels[i].axis] += numbers[i];
+      p[channels[i].axis] = numbers[i];
   }
   q = glm::normalize(q);
   const auto append = [&clip](int target, std::initializer_list<double> row) {
@@ -156,36 +161,21 @@ void add_keys(const AssetNode& node, const NodeTargets& targets, std::span<const
   append(targets.translation, {p.x, p.y, p.z});
 }
 
-// Checks the line's length on the way: a number too few would shift all that follow.
-void read_frame(MocapWords& words, const std::vector<BvhChannel>& channels, std::vector<double>& numbers) {
-  if (!words.has_more()) words.fail("too_few_values", "the text ends before the last frame");
-  for (std::size_t i = 0; i < channels.size() && words.ok(); ++i) {
-    if (i > 0 && words.line_ends())
-      return words.fail("too_few_values", "found " + std::to_string(i) + " numbers, this skeleton has " +
-                                              std::to_string(channels.size()) + " channels");
-    numbers[i] = words.number(channels[i].is_rotation ? kMaxMocapAngle_deg : kMaxMocapLength);
+// Reads a line's numbers and returns how many it has. Only the last line of a text may have too few: anywhere else
+// they would shift all that follow.
+std::size_t read_frame(MocapWords& words, const std::vector<BvhChannel>& channels, std::vector<double>& numbers) {
+  std::size_t count = 0;
+  for (; count < channels.size() && words.ok() && (count == 0 || !words.line_ends()); ++count) {
+    if (count + 1 < channels.size() && words.breaks_off()) return words.next(), count;  // perhaps within a number
+    numbers[count] = words.number(channels[count].is_rotation ? kMaxMocapAngle_deg : kMaxMocapLength);
   }
-  if (words.ok() && !words.line_ends())
+  if (words.ok() && count == channels.size() && !words.line_ends())
     words.fail("too_many_values",
                "found more numbers than the " + std::to_string(channels.size()) + " channels of this skeleton");
-}
-
-void read_frames(MocapWords& words, const Hierarchy& hierarchy, int frames, double frame_time_s, AssetClip& clip) {
-  std::vector<double> times_s;
-  for (int frame = 0; frame < frames; ++frame) times_s.push_back(frame * frame_time_s);
-  const std::vector<NodeTargets> targets = make_channels(hierarchy, times_s, clip);
-  if (!clip.channels.empty()) clip.last_s = times_s.back();
-  const std::vector<BvhChannel>& channels = hierarchy.channels;
-  std::vector<double> numbers(channels.size());
-  for (int frame = 0; frame < frames && words.ok(); ++frame) {
-    read_frame(words, channels, numbers);
-    for (std::size_t first = 0, end = 0; first < channels.size() && words.ok(); first = end) {
-      while (end < channels.size() && channels[end].node == channels[first].node) ++end;
-      const auto node = static_cast<std::size_t>(channels[first].node);
-      add_keys(hierarchy.nodes[node], targets[node], std::span(channels).subspan(first, end - first),
-               std::span(numbers).subspan(first, end - first), clip);
-    }
-  }
+  if (words.ok() && count < channels.size() && words.has_more())
+    words.fail("too_few_values", "found " + std::to_string(count) + " numbers, this skeleton has " +
+                                     std::to_string(channels.size()) + " channels");
+  return count;
 }
 
 // Rotations and translations that have channels.
@@ -195,52 +185,126 @@ std::int64_t count_targets(const Hierarchy& hierarchy) {
   return static_cast<std::int64_t>(targets.size());
 }
 
-// The number of frames, or a fault where the text cannot hold them: two bytes for each number at least. So no memory is
-// taken for what a file only claims.
+// As many frames as the limits of numbers and of keys allow.
+std::int64_t most_frames(const Hierarchy& hierarchy) {
+  if (hierarchy.channels.empty()) return 0;
+  return std::min(kMaxMocapNumbers / static_cast<std::int64_t>(hierarchy.channels.size()),
+                  kMaxMocapKeys / count_targets(hierarchy));
+}
+
+void fail_if_above(std::int64_t most, std::int64_t frames, MocapWords& words) {
+  if (frames > most)
+    words.fail("too_large", "found " + std::to_string(frames) + " frames or more, allowed are " + std::to_string(most) +
+                                " with the channels of this skeleton");
+}
+
+// Reads the lines that there are, and returns how many frames they make.
+int read_frames(MocapWords& words, const Hierarchy& hierarchy, int said, AssetClip& clip, Remarks& remarks) {
+  const std::size_t lines = std::min(static_cast<std::size_t>(said), words.lines_left());  // no memory for mere claims
+  const std::vector<NodeTargets> targets = make_channels(hierarchy, lines, clip);
+  const std::vector<BvhChannel>& channels = hierarchy.channels;
+  std::vector<double> numbers(channels.size());
+  const std::int64_t most = most_frames(hierarchy);
+  int frames = 0;
+  for (; words.has_more(); ++frames) {
+    fail_if_above(most, frames + 1, words);
+    const std::size_t count = read_frame(words, channels, numbers);
+    if (words.ok() && count < channels.size()) {
+      remarks.push_back({"bvh.cut_frame", "the last line has " + std::to_string(count) + " of " +
+                                              std::to_string(channels.size()) + " numbers; it is left out"});
+      break;
+    }
+    for (std::size_t first = 0, end = 0; first < channels.size() && words.ok(); first = end) {
+      while (end < channels.size() && channels[end].node == channels[first].node) ++end;
+      const auto node = static_cast<std::size_t>(channels[first].node);
+      add_keys(hierarchy.nodes[node], targets[node], std::span(channels).subspan(first, end - first),
+               std::span(numbers).subspan(first, end - first), clip);
+    }
+  }
+  return frames;
+}
+
+// What "Frames:" says; a fault where that is more than is allowed.
 int read_frame_count(MocapWords& words, const Hierarchy& hierarchy) {
-  words.expect("Frames:");
+  words.expect_label("Frames:");
   const int frames = words.count("frames", kMaxMocapNumbers);
-  const std::size_t channels = hierarchy.channels.size();
-  const std::int64_t numbers = static_cast<std::int64_t>(frames) * static_cast<std::int64_t>(channels);
-  if (numbers > kMaxMocapNumbers || (channels == 0 && frames > 0))
-    words.fail("too_large", "found " + std::to_string(frames) + " frames of " + std::to_string(channels) +
-                                " channels, allowed are 1 channel or more and " + std::to_string(kMaxMocapNumbers) +
-                                " numbers in all");
-  else if (frames * count_targets(hierarchy) > kMaxMocapKeys)
-    words.fail("too_large", "found more than the allowed " + std::to_string(kMaxMocapKeys) + " keys");
-  else if (numbers > static_cast<std::int64_t>(words.bytes_left() / 2 + 1))
-    words.fail("too_few_values", "the text is too short for " + std::to_string(frames) + " frames");
+  fail_if_above(most_frames(hierarchy), frames, words);
   return words.ok() ? frames : 0;
 }
 
-AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const std::string& name) {
+// Seconds for a frame: as the file says, unless somebody else says it.
+double read_frame_time(MocapWords& words, double rate_hz, Remarks& remarks) {
+  constexpr double kShort_s = 0.001, kLong_s = 0.2;  // no camera or suit is faster than 1000 Hz or slower than 5
+  words.expect("Frame");
+  words.expect_label("Time:");
+  if (rate_hz > 0.0) {
+    remarks.push_back({"bvh.frame_time", "Frame Time: says " + quoted_word(words.next()) + "; the frames are read at " +
+                                             number_text(rate_hz) + " per second instead"});
+    return 1.0 / rate_hz;
+  }
+  const double time_s = words.number(3600.0);
+  if (!words.ok()) return 0.0;
+  const std::string said = "Frame Time: says " + number_text(time_s) + " s";
+  if (!(time_s >= 1e-9))
+    words.fail("bad_frame_time", "found " + number_text(time_s) + " s, allowed is more than 0; --rate-hz says it");
+  else if (time_s > kLong_s || time_s < kShort_s)
+    remarks.push_back({"bvh.frame_time", said + ", which is " + number_text(1.0 / time_s) +
+                                             " frames per second; if that is wrong, --rate-hz says what is right"});
+  return time_s;
+}
+
+void time_frames(int frames, double frame_time_s, AssetClip& clip) {
+  std::vector<double> times_s(static_cast<std::size_t>(frames));
+  for (int frame = 0; frame < frames; ++frame) times_s[static_cast<std::size_t>(frame)] = frame * frame_time_s;
+  if (clip.channels.empty()) return;
+  clip.last_s = times_s.back();
+  for (AssetChannel& channel : clip.channels) channel.times_s = times_s;
+}
+
+// Said from outside of the text.
+struct BvhContext {
+  const std::string& clip_name;
+  double rate_hz;
+};
+
+AssetClip read_motion(MocapWords& words, const Hierarchy& hierarchy, const BvhContext& context, Remarks& remarks) {
+  const std::string& name = context.clip_name;
   AssetClip clip{name, name.empty() ? "#0" : name, {}, 0.0, 0.0};
   words.expect("MOTION");
-  const int frames = read_frame_count(words, hierarchy);
-  words.expect("Frame");
-  words.expect("Time:");
-  const double frame_time_s = words.number(3600.0);
-  if (words.ok() && !(frame_time_s >= 1e-9))
-    words.fail("bad_frame_time", "found " + number_text(frame_time_s) + " s, allowed is more than 0");
-  if (words.ok() && frames > 0) read_frames(words, hierarchy, frames, frame_time_s, clip);
-  if (words.has_more()) {
-    words.next();
-    words.fail("too_many_values", "found more text after the last frame");
-  }
+  const int said = read_frame_count(words, hierarchy);
+  const double frame_time_s = read_frame_time(words, context.rate_hz, remarks);
+  if (!words.ok() || (said == 0 && !words.has_more())) return clip;
+  const int frames = read_frames(words, hierarchy, said, clip, remarks);
+  if (frames == 0) words.fail("too_few_values", "the text ends before the first frame");
+  if (!words.ok()) return clip;
+  if (frames != said)
+    remarks.push_back({"bvh.frame_count", "Frames: says " + std::to_string(said) + ", and the file has " +
+                                              std::to_string(frames) + " lines of numbers; all of them are read"});
+  time_frames(frames, frame_time_s, clip);
   return clip;
+}
+
+// The axes along which the channels of each node move it.
+std::vector<PositionAxes> has_axis(const Hierarchy& hierarchy) {
+  std::vector<PositionAxes> axes(hierarchy.nodes.size());
+  for (const BvhChannel& channel : hierarchy.channels)
+    if (!channel.is_rotation)
+      axes[static_cast<std::size_t>(channel.node)][static_cast<std::size_t>(channel.axis)] = true;
+  return axes;
 }
 
 }  // namespace
 
-Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name) {
+Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name, double rate_hz) {
   if (text.size() > kMaxMocapBytes)
     return Issue{"bvh.too_large", "",
                  "the text has more than the allowed " + std::to_string(kMaxMocapBytes) + " bytes"};
   MocapWords words(kBvhSyntax, text);
   Hierarchy hierarchy = read_hierarchy(words);
-  AssetClip clip = read_motion(words, hierarchy, clip_name);
-  if (!words.ok()) return words.issue();
   Asset asset;
+  AssetClip clip = read_motion(words, hierarchy, {clip_name, rate_hz}, asset.remarks);
+  if (!words.ok()) return words.issue();
+  place_joints(hierarchy.nodes, has_axis(hierarchy), clip, asset.remarks);
   std::vector<std::string> names;
   for (const AssetNode& node : hierarchy.nodes) names.push_back(node.name);
   const std::vector<std::string> labels = unique_labels(names);
@@ -252,10 +316,10 @@ Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name) {
   return asset;
 }
 
-Result<Asset> read_bvh(const std::string& path) {
+Result<Asset> read_bvh(const std::string& path, double rate_hz) {
   const Result<std::string> text = read_mocap_text(path, "bvh");
   if (!text) return text.issue();
-  return parse_bvh(*text, std::filesystem::path(path).stem().string());
+  return parse_bvh(*text, std::filesystem::path(path).stem().string(), rate_hz);
 }
 
 }  // namespace contort

@@ -6,9 +6,10 @@
 //   translations, in the file's unit of length; at rest nothing is turned.
 // * A rotation is the product of the joint's rotation channels as they are listed: Zrotation Xrotation Yrotation is
 //   Rz * Rx * Ry. Each joint has its own order, and positions may stand before, after or between.
-// * A translation is the offset plus the position channels.
+// * Positions replace the offset or are added to it, whichever the file means (bvh_positions.h).
 // * Each frame is one line with one number per channel. Key i is at i times the frame time, between keys it is linear.
-// * Several roots are one asset. "Frames: 0" is a skeleton without a clip.
+// * The lines that there are count, not "Frames:", and a last line that breaks off is left out; a remark says so.
+// * Several roots are one asset. "Frames: 0" without lines is a skeleton without a clip.
 #pragma once
 
 #include <string>
@@ -20,8 +21,9 @@
 namespace contort {
 
 // The clip is named like the file, without its folder and ending. Codes "bvh.*"; the pointer is a line: "line 12".
-Result<Asset> read_bvh(const std::string& path);
+// A rate above 0 is that of the frames, whatever "Frame Time:" says.
+Result<Asset> read_bvh(const std::string& path, double rate_hz = 0.0);
 
-Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name);
+Result<Asset> parse_bvh(std::string_view text, const std::string& clip_name, double rate_hz = 0.0);
 
 }  // namespace contort

@@ -1,5 +1,6 @@
 #include "formats/mocap/words.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -87,6 +88,10 @@ void MocapWords::skip_line() {
   while (at_ < text_.size() && !is_line_end(text_[at_])) ++at_;
 }
 
+std::size_t MocapWords::lines_left() const {
+  return static_cast<std::size_t>(std::ranges::count_if(text_.substr(at_), is_line_end)) + 1;
+}
+
 double MocapWords::number(double magnitude) {
   std::string_view word = next();
   if (!ok()) return 0.0;
@@ -129,6 +134,13 @@ void MocapWords::expect(std::string_view word) {
     fail(found.empty() ? "truncated" : "bad_syntax",
          found.empty() ? "the text ends before " + quoted_word(word)
                        : "found " + quoted_word(found) + ", expected " + quoted_word(word));
+}
+
+void MocapWords::expect_label(std::string_view label) {
+  const std::string_view word = peek();
+  if (!is_same_word(word.substr(0, label.size()), label)) return expect(label);
+  at_ += label.size();
+  word_line_ = line_;
 }
 
 void MocapWords::fail(std::string_view code, std::string text) {

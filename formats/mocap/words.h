@@ -35,14 +35,19 @@ class MocapWords {
   int count(std::string_view what, std::int64_t high);  // In [0, high].
   Vec3 vector(double magnitude);
   void expect(std::string_view word);  // Upper or lower case.
+  void expect_label(std::string_view label);  // The same; a value may follow without a blank: "Frames:20".
 
   bool ok() const { return issue_.code.empty(); }
   void fail(std::string_view code, std::string text);  // At the line of the last word that was taken.
   const Issue& issue() const { return issue_; }
 
+  // Returns true if the text ends with the next word, without the end of a line.
+  bool breaks_off() { return at_ + peek().size() == text_.size(); }
+
   // Returns true if there was no fault and the next word is not the end of the text; for loops.
   bool has_more() { return !peek().empty(); }
   std::size_t bytes_left() const { return text_.size() - at_; }
+  std::size_t lines_left() const;  // At most so many more lines.
 
  private:
   bool is_blank(char c) const;

@@ -28,7 +28,7 @@ struct AssetNode {
   std::string label;  // Never empty, never twice: the name, or "<name>#<index>" where that is empty or not unique.
   int parent = -1;    // -1 for a root. Not always smaller than the own index, see Asset::order.
   Trs rest;
-  bool is_joint = false;  // Some skin lists it.
+  bool is_joint = false;  // Some skin lists it, or it is a joint of a BVH.
   bool operator==(const AssetNode&) const = default;
 };
 
@@ -48,7 +48,7 @@ struct AssetChannel {
   int node = 0;
   ChannelPath path = ChannelPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times_s;  // At least one, >= 0, ascending.
+  std::vector<double> times_s;  // At least one, ascending; two keys may have one time. Keys may lie before 0.
   // Per key: x y z, or for rotations x y z w (the file's order). Cubic splines have three such rows per key:
   // in-tangent, value, out-tangent. Rotation values are unit; tangents are as in the file, in units per second.
   std::vector<double> values;
@@ -81,12 +81,20 @@ struct AssetFault {
   bool operator==(const AssetFault&) const = default;
 };
 
+// Something that a person should know about how a file was read. It is no fault that stops the reader.
+struct Remark {
+  std::string code;  // As of an Issue: "bvh.frame_count".
+  std::string text;  // One line.
+  bool operator==(const Remark&) const = default;
+};
+
 struct Asset {
   std::vector<AssetNode> nodes;  // In the file's order.
   std::vector<int> order;  // Every node once, parents before children; roots by index, children as the file lists them.
   std::vector<AssetSkin> skins;
   std::vector<AssetClip> clips;
   std::vector<AssetFault> faults{};  // only of readers that go around faults
+  std::vector<Remark> remarks;
   bool operator==(const Asset&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/asset/spline_peak.h"
 #include "model/core/assert.h"
 
 namespace contort {
@@ -13,9 +14,9 @@ namespace {
 
 using Row = std::array<double, 4>;  // The last one is unused in vectors.
 
-constexpr int kSplineParts = 8;
-// Turns smaller than this are the rounding of 32-bit quaternions (about 3e-7 rad), not motion.
-constexpr double kSameRotation_rad = 1e-6;
+constexpr double kLongestFrame_s = 1.0 / 60.0;    // that a display shows
+constexpr double kShortestFrame_s = 1.0 / 240.0;  // that a person sees
+constexpr double kNearlyAll = 0.9;                // of a frame: times of keys are rounded, up to a millisecond
 
 // The keys around a time.
 struct KeySpan {
@@ -77,38 +78,54 @@ bool holds_left_key(const AssetChannel& channel, const KeySpan& span) {
 
 // From a to b, the short way. conj(a) * b has the angle whatever the signs of a and b are.
 SpeedInterval interval(double t0_s, double t1_s, const Quat& a, const Quat& b) {
-  const double angle = rotation_angle(glm::conjugate(a) * b);
-  const double duration = t1_s - t0_s;
-  if (duration > 0.0) return {t0_s, t1_s, angle / duration};
-  return {t0_s, t1_s, angle > kSameRotation_rad ? std::numeric_limits<double>::infinity() : 0.0};
+  return {t0_s, t1_s, rotation_angle(glm::conjugate(a) * b) / (t1_s - t0_s)};
 }
 
-void add_spline_parts(const AssetChannel& channel, std::size_t key, std::vector<SpeedInterval>& out) {
-  const double t0 = channel.times_s[key];
-  const double duration = channel.times_s[key + 1] - t0;
-  if (!(duration > 0.0)) return;
-  Quat before = to_rotation(row_at(channel, key, key_value));
-  double before_s = t0;
-  for (int part = 1; part <= kSplineParts; ++part) {
-    const double fraction = static_cast<double>(part) / kSplineParts;
-    const Quat left = to_rotation(row_at(channel, key, key_value));
-    const Quat here = unit_or_key(spline(channel, {key, key + 1, duration, fraction}), left);
-    const double here_s = t0 + duration * fraction;
-    out.push_back(interval(before_s, here_s, before, here));
-    before = here;
-    before_s = here_s;
-  }
+Quat key_rotation(const AssetChannel& channel, std::size_t key) {
+  return to_rotation(row_at(channel, key, key_value));
 }
 
-ChannelSpeeds channel_speeds(const AssetChannel& channel, int index) {
-  ChannelSpeeds out{index, channel.node, {}, {}};
-  for (std::size_t key = 0; key + 1 < channel.times_s.size(); ++key) {
-    out.between_keys.push_back(interval(channel.times_s[key], channel.times_s[key + 1],
-                                        to_rotation(row_at(channel, key, key_value)),
-                                        to_rotation(row_at(channel, key + 1, key_value))));
-    if (channel.interpolation == Interpolation::cubic_spline) add_spline_parts(channel, key, out.within_keys);
-  }
+// A display's frame, or the mean distance of the keys where that is shorter.
+double shown_frame_s(const std::vector<double>& times_s) {
+  const double steps = static_cast<double>(std::max<std::size_t>(times_s.size(), 2) - 1);
+  return std::clamp((times_s.back() - times_s.front()) / steps, kShortestFrame_s, kLongestFrame_s);
+}
+
+// The jump of a STEP at the end of an interval, by the frame that shows it.
+SpeedInterval shown_jump(const AssetChannel& channel, std::size_t key, double frame_s) {
+  const double t1 = channel.times_s[key + 1];
+  return interval(t1 - frame_s, t1, sample_rotation(channel, t1 - kNearlyAll * frame_s),
+                  key_rotation(channel, key + 1));
+}
+
+// An interval that is shorter than a frame, by the faster of the frames that begin and end with it.
+SpeedInterval shown_interval(const AssetChannel& channel, std::size_t key, double frame_s) {
+  const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
+  const SpeedInterval from =
+      interval(t0, t0 + frame_s, key_rotation(channel, key), sample_rotation(channel, t0 + frame_s));
+  const SpeedInterval upto =
+      interval(t1 - frame_s, t1, sample_rotation(channel, t1 - frame_s), key_rotation(channel, key + 1));
+  return from.speed_rad_s > upto.speed_rad_s ? from : upto;
+}
+
+// From Hermite's form to Bezier's.
+BezierTurn bezier_of(const AssetChannel& channel, std::size_t key) {
+  const double third_s = (channel.times_s[key + 1] - channel.times_s[key]) / 3.0;
+  const Row v0 = row_at(channel, key, key_value), b0 = row_at(channel, key, out_tangent);
+  const Row v1 = row_at(channel, key + 1, key_value), a1 = row_at(channel, key + 1, in_tangent);
+  BezierTurn out{v0, v0, v1, v1};
+  for (std::size_t i = 0; i < 4; ++i) out[1][i] += third_s * b0[i], out[2][i] -= third_s * a1[i];
   return out;
+}
+
+// The fastest moment of a spline, with the frame around it. No frame shows more than half a turn.
+SpeedInterval peak_of_spline(const AssetChannel& channel, std::size_t key, double frame_s) {
+  const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
+  const double most_rad_s = kPi / frame_s;
+  const SplinePeak peak = fastest_turn(bezier_of(channel, key), most_rad_s * (t1 - t0));
+  const double at_s = t0 + peak.fraction * (t1 - t0);
+  return {std::max(t0, at_s - 0.5 * frame_s), std::min(t1, at_s + 0.5 * frame_s),
+          std::min(peak.turn_rad / (t1 - t0), most_rad_s)};
 }
 
 }  // namespace
@@ -146,11 +163,29 @@ std::vector<Trs> pose(const Asset& asset, const AssetClip& clip, double t_s) {
   return out;
 }
 
+ChannelSpeeds channel_speeds(const AssetClip& clip, int index) {
+  const AssetChannel& channel = clip.channels[static_cast<std::size_t>(index)];
+  CONTORT_ASSERT(channel.path == ChannelPath::rotation && !channel.times_s.empty());
+  const double frame_s = shown_frame_s(channel.times_s);
+  ChannelSpeeds out{index, channel.node, channel.interpolation == Interpolation::step, {}, {}};
+  for (std::size_t key = 0; key + 1 < channel.times_s.size(); ++key) {
+    const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
+    const bool is_shown_whole = t1 - t0 > kNearlyAll * frame_s;
+    const SpeedInterval between =
+        out.jumps ? shown_jump(channel, key, frame_s)
+        : is_shown_whole ? interval(t0, t1, key_rotation(channel, key), key_rotation(channel, key + 1))
+                         : shown_interval(channel, key, frame_s);
+    out.between_keys.push_back(between);
+    if (channel.interpolation == Interpolation::cubic_spline)
+      out.within_keys.push_back(is_shown_whole ? peak_of_spline(channel, key, frame_s) : between);
+  }
+  return out;
+}
+
 std::vector<ChannelSpeeds> joint_speeds(const AssetClip& clip) {
   std::vector<ChannelSpeeds> out;
   for (std::size_t i = 0; i < clip.channels.size(); ++i)
-    if (clip.channels[i].path == ChannelPath::rotation)
-      out.push_back(channel_speeds(clip.channels[i], static_cast<int>(i)));
+    if (clip.channels[i].path == ChannelPath::rotation) out.push_back(channel_speeds(clip, static_cast<int>(i)));
   return out;
 }
 

@@ -19,21 +19,27 @@ std::vector<Trs> pose(const Asset& asset, const AssetClip& clip, double t_s);
 struct SpeedInterval {
   double t0_s = 0.0;
   double t1_s = 0.0;
-  double speed_rad_s = 0.0;  // Angle, the short way, over time. Infinite for a turn in no time.
+  double speed_rad_s = 0.0;  // Angle, the short way, over time.
   bool operator==(const SpeedInterval&) const = default;
 };
 
+// Speeds are those that a display shows, which are finite. It shows a frame for 1/60 s; for less, down to 1/240 s,
+// where the keys of a channel are closer on average.
 struct ChannelSpeeds {
   int channel = 0;  // Index into the clip.
   int node = 0;
-  // The speeds between each pair of neighbouring keys. For STEP channels, which jump, this is the speed of a joint
-  // that would use all the time between the keys.
+  bool jumps = false;  // STEP: the pose is held between the jumps, and no motion leads to them.
+  // An entry for each pair of neighbouring keys: the speed between them, or that of a frame with both where keys are
+  // closer than a frame. STEP channels hold the first key; the entry is the jump to the second, in the frame before it.
   std::vector<SpeedInterval> between_keys;
-  // The speeds in eight parts of each interval, because splines may turn faster inside than between the keys. Empty
-  // for other interpolations.
+  // The true peaks of splines, which may turn faster inside than between the keys: an entry for each of between_keys,
+  // at most 1 % too slow, with the frame around the peak. Empty for other interpolations.
   std::vector<SpeedInterval> within_keys;
   bool operator==(const ChannelSpeeds&) const = default;
 };
+
+// The channel must be a rotation.
+ChannelSpeeds channel_speeds(const AssetClip& clip, int channel);
 
 // Returns one entry for each rotation channel, in the clip's order.
 std::vector<ChannelSpeeds> joint_speeds(const AssetClip& clip);

@@ -55,15 +55,25 @@ ClipSpeeds speeds(const AssetChannel& channel, double limit_rad_s = kHigh) {
   return check_clip_speeds(asset, {limit_rad_s, {}}).at(0);
 }
 
-TEST(ClipSpeed, LinearAndStepTakeTheAngleBetweenNeighbouringKeys) {
-  for (const Interpolation how : {Interpolation::linear, Interpolation::step}) {
-    const ClipSpeeds s = speeds(turning({0, 0.5, 0.75, 2.0}, {0, 0.2, 0.5, 0.4}, how));
-    EXPECT_NEAR(s.peak_rad_s, 0.3 / 0.25, 1e-12);
-    EXPECT_EQ(s.peak_node, "elbow");
-    EXPECT_EQ(s.peak_t0_s, 0.5);
-    EXPECT_EQ(s.peak_t1_s, 0.75);
-    EXPECT_EQ(s.channels, 1);
-  }
+TEST(ClipSpeed, LinearTakesTheAngleBetweenNeighbouringKeys) {
+  const ClipSpeeds s = speeds(turning({0, 0.5, 0.75, 2.0}, {0, 0.2, 0.5, 0.4}));
+  EXPECT_NEAR(s.peak_rad_s, 0.3 / 0.25, 1e-12);
+  EXPECT_EQ(s.peak_node, "elbow");
+  EXPECT_EQ(s.peak_t0_s, 0.5);
+  EXPECT_EQ(s.peak_t1_s, 0.75);
+  EXPECT_EQ(s.channels, 1);
+}
+
+TEST(ClipSpeed, EachJumpOfAStepIsAPopOfItsOwn) {
+  const ClipSpeeds s = speeds(turning({0, 0.5, 0.75, 2.0, 3.0}, {0, 1.2, 1.2, 0.1, 1.3}, Interpolation::step), 50.0);
+  EXPECT_NEAR(s.peak_rad_s, 1.2 * 60.0, 1e-9);
+  ASSERT_EQ(s.findings.size(), 3U);
+  for (const ClipFinding& f : s.findings) EXPECT_EQ(f.finding.check, "pop");
+  EXPECT_EQ(s.findings[0].worst_t1_s, 0.5);
+  EXPECT_EQ(s.findings[1].worst_t1_s, 2.0);
+  EXPECT_EQ(s.findings[2].worst_t1_s, 3.0);
+  EXPECT_EQ(s.findings[1].finding.first_frame, 2);
+  EXPECT_EQ(s.findings[1].finding.last_frame, 2);
 }
 
 TEST(ClipSpeed, TheSignOfAQuaternionIsNoMotion) {
@@ -120,8 +130,8 @@ TEST(ClipSpeed, ALimitIsForItsNodeByLabelOrName) {
   EXPECT_EQ(findings({kHigh, {{"knee", 9.0}, {"knee#0", 0.5}}}), 1U) << "the label says more than the name";
 }
 
-TEST(ClipSpeed, ATurnInNoTimeIsInfinitelyFastAndStandingStillIsNot) {
-  EXPECT_TRUE(std::isinf(speeds(turning({0, 1, 1, 2}, {0, 0, 1, 1})).peak_rad_s));
+TEST(ClipSpeed, ATurnInNoTimeIsAsFastAsAFrameShowsItAndStandingStillIsNot) {
+  EXPECT_NEAR(speeds(turning({0, 1, 1, 2}, {0, 0, 1, 1})).peak_rad_s, 60.0, 1e-9);
   EXPECT_NEAR(speeds(turning({0, 1, 1, 2}, {0, 0.5, 0.5, 1})).peak_rad_s, 0.5, 1e-12);
 }
 

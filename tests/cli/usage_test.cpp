@@ -130,8 +130,15 @@ TEST_F(Usage, AFileOfAnotherKindIsCalledThat) {
   expect_refused({"check", zip}, 2, "gltf.wrong_kind: " + zip + " is a ZIP archive");
   expect_refused({"import", zip, "-o", folder_ / "figures"}, 2, zip + " is a ZIP archive");
   expect_refused({"check", file("a.bvh", "Kaydara FBX Binary")}, 2, "a.bvh is an FBX model");
-  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "b.json is a BVH animation");
-  expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json is a glTF model");
+  expect_refused({"replay", file("b.json", "HIERARCHY\nROOT a")}, 2, "b.json is a BVH animation");
+  expect_refused({"check", file("b.json", "HIERARCHY\nROOT a")}, 2, "bvh.truncated");  // what it holds counts
+  expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json holds no animation");
+  expect_refused({"check", file("d.urdf", "<robot name=\"a\"/>")}, 2, "d.urdf is a robot in URDF");
+  expect_refused({"check", file("e.npz", "import numpy")}, 2, "e.npz is named like NumPy arrays (NPZ)");
+  expect_refused({"check", file("f.csv", "t,x\n0,1\n")}, 2, "f.csv is a table of numbers (CSV)");
+  const std::string lfs = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+  for (const char* name : {"g.bvh", "g.glb", "g.vrm", "g.amc", "g.fbx"})
+    expect_refused({"check", file(name, lfs)}, 2, "run git lfs pull");
   expect_refused({"check", file("d.json", R"({"format": "contort.bucket/1"})")}, 2, "found \"contort.bucket/1\"");
   const std::string library = folder_ / "library";
   std::filesystem::create_directories(library);

@@ -112,9 +112,11 @@ TEST_F(GltfFiles, OnlyRegularFilesAreOpened) {
   EXPECT_EQ(read_gltf("/dev/zero").issue().code, "gltf.unreadable");
 }
 
-TEST_F(GltfFiles, AFileNamedGlbMustBeOne) {
-  write("asset/arm.glb", "{}");
+TEST_F(GltfFiles, AFileNamedGlbIsOneOrAModelAsText) {
+  write("asset/arm.glb", "glT");
   EXPECT_EQ(read_gltf((folder_ / "asset" / "arm.glb").string()).issue().code, "gltf.truncated");
+  write("asset/arm.glb", "{}");
+  EXPECT_EQ(read_gltf((folder_ / "asset" / "arm.glb").string()).issue().code, "gltf.missing");
 }
 
 }  // namespace

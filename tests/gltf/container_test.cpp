@@ -80,8 +80,23 @@ TEST(GlbContainer, RefusesOtherMagicVersionAndLength) {
   set_u32(bad, 8, static_cast<std::uint32_t>(good.size() + 4));
   EXPECT_EQ(code_of(bad), "gltf.truncated");
   bad = good;
-  bad.resize(good.size() + 4);
+  set_u32(bad, 8, 8);
   EXPECT_EQ(code_of(bad), "gltf.bad_header");
+}
+
+// Archives and web servers pad files.
+TEST(GlbContainer, BytesAfterTheEndAreRemarkedAndNotRead) {
+  const ByteList good = small_arm().glb();
+  for (const std::size_t more : {std::size_t{1}, std::size_t{4}, std::size_t{100}}) {
+    ByteList longer = good;
+    longer.resize(good.size() + more, std::byte{'x'});
+    const Result<Asset> asset = parse_glb(longer);
+    ASSERT_TRUE(asset.ok()) << to_line(asset.issue());
+    ASSERT_EQ(asset->remarks.size(), 1U);
+    EXPECT_EQ(asset->remarks[0].code, "gltf.bytes_after");
+    EXPECT_EQ(asset->remarks[0].text, std::to_string(more) + " bytes follow the end of the GLB; they are not read");
+    EXPECT_EQ(asset->nodes, parse_glb(good)->nodes);
+  }
 }
 
 TEST(GlbContainer, RefusesChunkLengthsThatOverflow) {

@@ -8,6 +8,7 @@
 
 #include "formats/gltf/from_model.h"
 #include "model/asset/labels.h"
+#include "tests/corpus/temp_folder.h"
 #include "tests/gltf/glb_builder.h"
 #include "tests/stage_evaluator.h"
 
@@ -121,6 +122,32 @@ TEST(ReadGltf, KeepsMatricesOfScaleZeroFinite) {
     EXPECT_DOUBLE_EQ(glm::length(rest.rotation), 1.0) << matrix;
     EXPECT_EQ(rest.scale.x, 0.0) << matrix;
   }
+}
+
+// ---- names
+
+TEST(ReadGltf, AModelAsTextIsReadUnderAnyName) {
+  const TempFolder folder;
+  spill(folder / "a.glb", "\n {\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"name\": \"arm\"}]}");
+  const Result<Asset> asset = read_gltf(folder / "a.glb");
+  ASSERT_TRUE(asset.ok()) << to_line(asset.issue());
+  EXPECT_EQ(asset->nodes.size(), 1U);
+}
+
+// ---- times
+
+// Blender writes keys from before frame 0, and 32-bit floats make close times equal.
+TEST(ReadGltf, ReadsKeysBeforeTimeZeroAndAtEqualTimes) {
+  GlbBuilder b = small_arm();
+  const std::size_t at = b.root["bufferViews"][1]["byteOffset"];
+  const float early[] = {-0.5F, -0.5F};
+  std::memcpy(b.bin.data() + at, early, sizeof early);
+  const Asset asset = read(b);
+  EXPECT_EQ(asset.clips[0].first_s, -0.5);
+  EXPECT_EQ(asset.clips[0].channels[0].times_s[1], -0.5);
+  ASSERT_EQ(asset.remarks.size(), 2U);
+  EXPECT_EQ(asset.remarks[0].code, "gltf.negative_times");
+  EXPECT_EQ(asset.remarks[1].code, "gltf.equal_times");
 }
 
 // ---- skins

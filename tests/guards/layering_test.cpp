@@ -27,6 +27,7 @@ const std::vector<Layer> kLayers = {
     {"formats/gltf", {"model/*"}},
     {"formats/mocap", {"model/core", "model/asset"}},
     {"formats/robot", {"model/*"}},
+    {"formats/detect", {"model/core", "model/asset", "formats/gltf", "formats/mocap"}},
     {"generator/motion", {"model/*"}},
     {"generator/actions", {"model/*", "generator/motion"}},
     {"generator/timeline", {"model/*", "generator/motion", "generator/actions"}},
@@ -59,6 +60,8 @@ struct Door {
 const std::vector<Door> kDoors = {
     {"nlohmann/", "model/core/json_value_fields.h"},
     {"tiny_gltf.h", "formats/gltf/*.cpp"},
+    {"draco/", "formats/gltf/draco.cpp"},
+    {"meshoptimizer.h", "formats/gltf/meshopt.cpp"},
     {"rapidcheck", "fuzz/draw*.cpp"},
     {"GL/", "renders/raster/*.cpp"},
     {"EGL/", "renders/raster/egl_backend.cpp"},

@@ -21,6 +21,7 @@ fixtures::ByteList around_gltf(std::string_view json) {
 bool try_gltf(std::string_view bytes) {
   const bool is_text = !bytes.empty() && bytes.front() != 'g';
   const fixtures::ByteList glb = is_text ? around_gltf(bytes) : fixtures::to_bytes(bytes);
+  if (const Result<SkinnedAsset> skinned = parse_skinned_glb(glb); !skinned) require_clean(skinned.issue());
   const Result<Asset> asset = parse_glb(glb);
   if (!asset) return require_clean(asset.issue()), false;
   look_at(*asset);

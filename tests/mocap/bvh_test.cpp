@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <clocale>
 
+#include "formats/mocap/frame.h"
 #include "model/asset/sample.h"
 #include "tests/corpus/temp_folder.h"
 #include "tests/mocap/bvh_text.h"
@@ -74,6 +76,127 @@ TEST(Bvh, PositionsAreAddedToTheOffset) {
   EXPECT_EQ(pose(asset, asset.clips[0], 0.0)[0].translation, Vec3(11, 110, 28));
   EXPECT_EQ(pose(asset, asset.clips[0], 0.25)[0].translation, Vec3(0.9, 90.5, 1));
   EXPECT_EQ(pose(asset, asset.clips[0], 0.25)[1].translation, Vec3(0.0));
+}
+
+// ---- positions on any joint
+
+// A root and two bones whose rest is 98 high and 27 and 25 long, with the given offsets and one line for each frame.
+std::string six_channels(const std::string& root, const std::string& bone, const std::vector<std::string>& frames) {
+  const std::string channels = "\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n";
+  std::string text = "HIERARCHY\nROOT hips\n{\nOFFSET " + root + channels + "JOINT arm\n{\nOFFSET " + bone + channels +
+                     "JOINT hand\n{\nOFFSET " + bone + channels + "}\n}\n}\nMOTION\nFrames: " +
+                     std::to_string(frames.size()) + "\nFrame Time: 0.02\n";
+  for (const std::string& frame : frames) text += frame + "\n";
+  return text;
+}
+
+Vec3 place(const Asset& asset, std::size_t node, int frame) {
+  return pose(asset, asset.clips[0], frame * 0.02)[node].translation;
+}
+
+bool has_remark(const Asset& asset, const std::string& code, const std::string& part) {
+  return std::ranges::any_of(asset.remarks, [&](const Remark& remark) {
+    return remark.code == code && remark.text.find(part) != std::string::npos;
+  });
+}
+
+TEST(Bvh, PositionsNearTheOffsetsReplaceThem) {
+  const Asset asset = parsed(six_channels(
+      "0 98 0", "27 0 0",
+      {"0 98 0 0 0 0 27 0 0 0 0 0 27 0 0 0 0 0", "5 10 300 0 0 0 27 0 0 0 0 9 39 0 0 0 0 0"}));
+  EXPECT_EQ(place(asset, 0, 0), Vec3(0, 98, 0));
+  EXPECT_EQ(place(asset, 0, 1), Vec3(5, 10, 300)) << "the root goes with the joints below it";
+  EXPECT_EQ(place(asset, 1, 0), Vec3(27, 0, 0));
+  EXPECT_EQ(place(asset, 2, 1), Vec3(39, 0, 0));
+  EXPECT_TRUE(has_remark(asset, "bvh.positions", "3 joints replace OFFSET"));
+  EXPECT_TRUE(asset.nodes[2].is_joint) << "gaps between joints can be judged";
+}
+
+TEST(Bvh, PositionsNearZeroAreAdded) {
+  const Asset asset = parsed(six_channels(
+      "0 98 0", "27 0 0", {"1 2 3 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0", "1 2 300 0 0 0 0.5 0 0 0 0 9 12 0 0 0 0 0"}));
+  EXPECT_EQ(place(asset, 0, 1), Vec3(1, 100, 300));
+  EXPECT_EQ(place(asset, 1, 1), Vec3(27.5, 0, 0));
+  EXPECT_EQ(place(asset, 2, 1), Vec3(39, 0, 0));
+  EXPECT_TRUE(has_remark(asset, "bvh.positions", "3 joints are added to OFFSET"));
+}
+
+// LAFAN1: the first frame is the OFFSET, and the root travels far. Others: the height tells.
+TEST(Bvh, ARootAloneIsToldByItsFirstFrameOrItsHeight) {
+  const auto with_root = [](const std::string& frames) {
+    const std::string hips = "ROOT hips\n{\nOFFSET 134 91 22\nCHANNELS 3 Xposition Yposition Zposition\n}\n";
+    return parsed("HIERARCHY\n" + hips + "MOTION\nFrames: 2\nFrame Time: 0.02\n" + frames);
+  };
+  EXPECT_EQ(place(with_root("134 91 22\n-300 85 -90\n"), 0, 1), Vec3(-300, 85, -90));
+  EXPECT_EQ(place(with_root("20 89 2\n-300 85 -90\n"), 0, 1), Vec3(-300, 85, -90));
+  EXPECT_EQ(place(with_root("0 0 0\n-300 -5 -90\n"), 0, 1), Vec3(-166, 86, -68));
+}
+
+TEST(Bvh, BonesWithoutOffsetsRestAtTheFirstFrame) {
+  const Asset asset = parsed(six_channels(
+      "0 0 0", "0 0 0", {"0 98 0 0 0 0 27 0 0 0 0 0 25 0 0 0 0 0", "0 98 9 0 0 0 27 0 0 0 0 0 37 0 0 0 0 0"}));
+  EXPECT_EQ(asset.nodes[0].rest.translation, Vec3(0.0));
+  EXPECT_EQ(asset.nodes[1].rest.translation, Vec3(27, 0, 0));
+  EXPECT_EQ(place(asset, 2, 1), Vec3(37, 0, 0));
+  EXPECT_TRUE(has_remark(asset, "bvh.no_offsets", "first frame"));
+}
+
+TEST(Bvh, AxesWithoutAChannelStayAtTheOffset) {
+  const std::string text = "HIERARCHY\nROOT hips\n{\nOFFSET 5 91 7\nCHANNELS 1 Yposition\n}\nMOTION\nFrames: 2\n";
+  EXPECT_EQ(place(parsed(text + "Frame Time: 0.02\n90\n92\n"), 0, 1), Vec3(5, 92, 7));
+  EXPECT_EQ(place(parsed(text + "Frame Time: 0.02\n0\n2\n"), 0, 1), Vec3(5, 93, 7));
+}
+
+// ---- what exporters get wrong
+
+TEST(Bvh, TheLinesCountAndNotWhatTheFileSaysOfThem) {
+  const Asset plain = parsed(small_bvh());
+  for (const std::string said : {"1", "3", "0", "900000"}) {
+    const Asset asset = parsed(replaced(small_bvh(), "Frames: 2", "Frames: " + said));
+    EXPECT_EQ(asset.clips, plain.clips) << said;
+    EXPECT_TRUE(has_remark(asset, "bvh.frame_count", "Frames: says " + said + ", and the file has 2 lines")) << said;
+  }
+  EXPECT_FALSE(has_remark(plain, "bvh.frame_count", ""));
+}
+
+TEST(Bvh, ALastLineThatBreaksOffIsLeftOut) {
+  const Asset asset = parsed(replaced(small_bvh(), "90 90 0\n", "90\n"));
+  EXPECT_EQ(asset.clips[0].channels[0].times_s.size(), 1U);
+  EXPECT_TRUE(has_remark(asset, "bvh.cut_frame", "7 of 9 numbers"));
+}
+
+TEST(Bvh, FrameTimesThatNoCameraHasAreRemarked) {
+  EXPECT_TRUE(has_remark(parsed(replaced(small_bvh(), "0.25", "33.3")), "bvh.frame_time", "--rate-hz"));
+  EXPECT_TRUE(has_remark(parsed(replaced(small_bvh(), "0.25", "0.00001")), "bvh.frame_time", "--rate-hz"));
+  EXPECT_FALSE(has_remark(parsed(replaced(small_bvh(), "0.25", "0.0333333")), "bvh.frame_time", ""));
+}
+
+TEST(Bvh, ARateFromOutsideCountsInsteadOfTheFrameTime) {
+  for (const std::string time : {"0", "nan", "33.3"}) {
+    const Result<Asset> asset = parse_bvh(replaced(small_bvh(), "0.25", time), "", 50.0);
+    ASSERT_TRUE(asset.ok()) << time;
+    EXPECT_EQ(asset->clips[0].last_s, 0.02) << time;
+    EXPECT_TRUE(has_remark(*asset, "bvh.frame_time", "at 50 per second")) << time;
+  }
+}
+
+TEST(Bvh, ValuesMayFollowTheirLabelsWithoutABlank) {
+  const std::string text = replaced(replaced(small_bvh(), "Frames: 2", "Frames:2"), "Time: 0.25", "Time:0.25");
+  EXPECT_EQ(parsed(text), parsed(small_bvh()));
+}
+
+TEST(Bvh, UnitsAndAxesFromOutsideGoToAllLengthsAndRoots) {
+  Asset asset = parsed(replaced(small_bvh(), "0.25", "0.02"));
+  const Asset plain = asset;
+  scale_lengths(0.01, asset);
+  turn_z_up(asset);
+  const Vec3 before = place(plain, 0, 0), after = place(asset, 0, 0);
+  EXPECT_LT(glm::length(after - 0.01 * Vec3(before.x, before.z, -before.y)), 1e-12);
+  EXPECT_LT(glm::length(asset.nodes[0].rest.translation - Vec3(0.01, -0.02, -0.9)), 1e-12);
+  EXPECT_EQ(asset.nodes[2].rest.translation, Vec3(0, 0.125, 0)) << "joints below a root turn with it";
+  const Quat turn = axis_angle(kAxes[0], -0.5 * kPi);
+  EXPECT_LT(apart_rad(asset.nodes[0].rest.rotation, turn), 1e-12);
+  EXPECT_LT(apart_rad(pose(asset, asset.clips[0], 0.0)[0].rotation, turn * axis_angle(kAxes[2], kPi / 2)), 1e-12);
 }
 
 TEST(Bvh, HowLinesEndDoesNotMatter) {

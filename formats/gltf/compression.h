@@ -1,0 +1,26 @@
+// Fills in what extensions have compressed: views by EXT_meshopt_compression, meshes by KHR_draco_mesh_compression.
+// What they hold becomes new buffers of the model, so that accessors read it like all other data, with the same checks.
+#pragma once
+
+#include <span>
+
+#include "formats/gltf/extensions.h"
+#include "model/core/result.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace contort {
+
+inline Issue bad_compression(const std::string& pointer, const std::string& text) {
+  return {"gltf.bad_compression", pointer, text};
+}
+
+// Codes gltf.bad_index, .truncated, .too_large, and .bad_compression for what the decoder refuses or what does not fit.
+Result<Done> fill_views(std::span<const CompressedView> views, tinygltf::Model& model);
+
+// The same; for the primitives of meshes that hang on a skin. Their indices go back to their places.
+Result<Done> fill_primitives(std::span<const DracoPrimitive> primitives, tinygltf::Model& model);
+
+}  // namespace contort

@@ -1,0 +1,14 @@
+// Takes the extensions of extensions.h out of a glTF document.
+#pragma once
+
+#include "formats/gltf/extensions.h"
+#include "model/core/json_fields.h"
+#include "model/core/result.h"
+
+namespace contort {
+
+// Takes them out of the root of a document. Pointers to the translation, rotation, scale and weights of nodes become
+// plain targets, and the indices of Draco's primitives are removed. Codes gltf.wrong_type, .missing, .bad_pointer.
+Result<GltfExtensions> take_extensions(json_fields::Json& root, bool with_meshes);
+
+}  // namespace contort

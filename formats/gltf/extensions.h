@@ -1,0 +1,42 @@
+// Extensions that say where numbers are: compressed views and meshes, and channels that name their target by a pointer.
+// They are taken out of the document before anything else reads it, so that other code knows plain glTF alone.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace contort {
+
+// A buffer view that EXT_meshopt_compression fills.
+struct CompressedView {
+  std::size_t view = 0;
+  std::uint64_t buffer = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::uint64_t stride = 0;
+  std::uint64_t count = 0;
+  std::string mode;
+  std::string filter;
+};
+
+// A primitive whose attributes and triangles KHR_draco_mesh_compression fills.
+struct DracoPrimitive {
+  std::size_t mesh = 0;
+  std::size_t primitive = 0;
+  std::uint64_t view = 0;
+  std::int64_t indices = -1;                        // the accessor; -1 where there is none
+  std::map<std::string, std::uint64_t> attributes;  // numbers of Draco's attributes
+};
+
+struct GltfExtensions {
+  std::vector<CompressedView> views;
+  std::vector<DracoPrimitive> primitives;
+  int pointers_not_read = 0;  // channels of KHR_animation_pointer that move no node
+};
+
+// Whether a file that requires this extension can be read without it, or is read with it.
+bool is_known_extension(const std::string& name);
+
+}  // namespace contort
