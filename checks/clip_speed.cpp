@@ -50,7 +50,7 @@ std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpee
   return allowed_lone_steps(
       speeds.between_keys,
       [&](std::size_t a, std::size_t b) { return rotation_angle(glm::conjugate(keys[a]) * keys[b]); },
-      lone_limits(channel.interpolation, {kBlip_rad, kJump_rad}));
+      lone_limits(speeds.jumps ? Interpolation::step : Interpolation::linear, {kBlip_rad, kJump_rad}));
 }
 
 // The greatest speed of interval i that is no pop: what the motion around it explains, above the limit, where no motion
@@ -59,7 +59,8 @@ std::vector<double> allowed_turns(const AssetChannel& channel, const ChannelSpee
 double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<double>& allowed_rad, std::size_t i,
                             double limit, bool may_leap) {
   const SpeedInterval& step = speeds.between_keys[i];
-  const double duration_s = step.t1_s - step.t0_s, explained = speeds.jumps ? 0.0 : explained_rad_s(speeds.between_keys, i);
+  const double duration_s = step.t1_s - step.t0_s;
+  const double explained = speeds.jumps ? 0.0 : explained_rad_s(speeds.between_keys, i);
   const double general = std::max(limit, explained);
   if (step.speed_rad_s > general || !(duration_s > 0.0)) return general;
   const double leap = may_leap ? std::max(kLeap_rad / duration_s, explained) : general;
@@ -71,12 +72,13 @@ double greatest_without_pop(const ChannelSpeeds& speeds, const std::vector<doubl
 void judge(const AssetChannel& channel, const ChannelSpeeds& speeds, const std::vector<SpeedInterval>& worst,
            double limit, ChannelFolds& folds) {
   const std::vector<double> allowed = allowed_turns(channel, speeds);
-  const bool may_leap = channel.interpolation != Interpolation::step;
+  const bool may_leap = !speeds.jumps;
   for (std::size_t i = 0; i < worst.size(); ++i) {
     const double most = greatest_without_pop(speeds, allowed, i, limit + folds.stricter_rad_s, may_leap);
     const bool is_pop = speeds.between_keys[i].speed_rad_s > most;
     MarginFold& fold = is_pop ? folds.pops : folds.fast;
-    fold.report(0, folds.apart * static_cast<int>(i), (is_pop ? most - folds.stricter_rad_s : limit) - worst[i].speed_rad_s);
+    const double limit_of_fold = is_pop ? most - folds.stricter_rad_s : limit;
+    fold.report(0, folds.apart * static_cast<int>(i), limit_of_fold - worst[i].speed_rad_s);
   }
 }
 

@@ -16,6 +16,7 @@ using Row = std::array<double, 4>;  // The last one is unused in vectors.
 
 constexpr double kLongestFrame_s = 1.0 / 60.0;    // that a display shows
 constexpr double kShortestFrame_s = 1.0 / 240.0;  // that a person sees
+constexpr double kSparsest_s = 1.0 / 11.9;        // between keys of a sampled motion: films are drawn at 12 a second
 constexpr double kNearlyAll = 0.9;                // of a frame: times of keys are rounded, up to a millisecond
 
 // The keys around a time.
@@ -85,10 +86,19 @@ Quat key_rotation(const AssetChannel& channel, std::size_t key) {
   return to_rotation(row_at(channel, key, key_value));
 }
 
+double mean_distance_s(const std::vector<double>& times_s) {
+  const double steps = static_cast<double>(std::max<std::size_t>(times_s.size(), 2) - 1);
+  return (times_s.back() - times_s.front()) / steps;
+}
+
 // A display's frame, or the mean distance of the keys where that is shorter.
 double shown_frame_s(const std::vector<double>& times_s) {
-  const double steps = static_cast<double>(std::max<std::size_t>(times_s.size(), 2) - 1);
-  return std::clamp((times_s.back() - times_s.front()) / steps, kShortestFrame_s, kLongestFrame_s);
+  return std::clamp(mean_distance_s(times_s), kShortestFrame_s, kLongestFrame_s);
+}
+
+// A motion that was sampled and written as STEP does not jump: its keys are its frames.
+bool jumps_between_keys(const AssetChannel& channel) {
+  return channel.interpolation == Interpolation::step && mean_distance_s(channel.times_s) > kSparsest_s;
 }
 
 // The jump of a STEP at the end of an interval, by the frame that shows it.
@@ -167,7 +177,7 @@ ChannelSpeeds channel_speeds(const AssetClip& clip, int index) {
   const AssetChannel& channel = clip.channels[static_cast<std::size_t>(index)];
   CONTORT_ASSERT(channel.path == ChannelPath::rotation && !channel.times_s.empty());
   const double frame_s = shown_frame_s(channel.times_s);
-  ChannelSpeeds out{index, channel.node, channel.interpolation == Interpolation::step, {}, {}};
+  ChannelSpeeds out{index, channel.node, jumps_between_keys(channel), {}, {}};
   for (std::size_t key = 0; key + 1 < channel.times_s.size(); ++key) {
     const double t0 = channel.times_s[key], t1 = channel.times_s[key + 1];
     const bool is_shown_whole = t1 - t0 > kNearlyAll * frame_s;

@@ -24,11 +24,12 @@ struct SpeedInterval {
 };
 
 // Speeds are those that a display shows, which are finite. It shows a frame for 1/60 s; for less, down to 1/240 s,
-// where the keys of a channel are closer on average.
+// where the keys of a channel are closer on average. A STEP channel of 12 keys a second or more is a sampled motion, whose
+// keys are its frames.
 struct ChannelSpeeds {
   int channel = 0;  // Index into the clip.
   int node = 0;
-  bool jumps = false;  // STEP: the pose is held between the jumps, and no motion leads to them.
+  bool jumps = false;  // STEP, of no sampled motion: the pose is held between the jumps, and no motion leads to them.
   // An entry for each pair of neighbouring keys: the speed between them, or that of a frame with both where keys are
   // closer than a frame. STEP channels hold the first key; the entry is the jump to the second, in the frame before it.
   std::vector<SpeedInterval> between_keys;

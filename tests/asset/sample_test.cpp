@@ -156,6 +156,17 @@ TEST(JointSpeeds, AStepHoldsAndJumpsInAFrame) {
   EXPECT_EQ(speeds.between_keys[1].speed_rad_s, 0.0);
 }
 
+// Written as STEP at 30 Hz, a motion is as fast as it is with straight ways between the keys.
+TEST(JointSpeeds, OfAMotionThatWasSampledAndWrittenAsStepAreThoseOfItsRate) {
+  for (const auto interpolation : {Interpolation::step, Interpolation::linear}) {
+    AssetClip clip;
+    clip.channels = {turns({0.0, 0.1, 0.2, 0.3}, interpolation)};
+    for (double& t : clip.channels[0].times_s) t /= 30.0;
+    for (const SpeedInterval& step : joint_speeds(clip)[0].between_keys)
+      EXPECT_NEAR(step.speed_rad_s, 0.1 * 30.0, 1e-9);
+  }
+}
+
 TEST(JointSpeeds, OfASplineAreTakenInsideOfTheKeysToo) {
   AssetClip clip;
   clip.channels = {turns({0.0, 1.0}, Interpolation::cubic_spline)};
