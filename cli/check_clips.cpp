@@ -15,6 +15,7 @@
 #include "cli/no_effect.h"
 #include "cli/print.h"
 #include "cli/similar_names.h"
+#include "formats/detect/file_format.h"
 #include "guest/finished_file.h"
 #include "model/core/files.h"
 
@@ -178,6 +179,7 @@ void check_file(const std::string& file, const ClipJudging& for_all, Checked& ou
   forget_matched(animation->asset, out.unmatched);
   const std::size_t similar = take_similar_names(animation->asset, with, out.unmatched);
   note_clips(*animation, out.touched);
+  out.touched.has_bvh |= format_of_file(file) == FileFormat::bvh;
   for (const Remark& remark : animation->asset.remarks) out.remarks.push_back({file, remark});
   for (const AssetClip& clip : animation->asset.clips) {
     if (!with.options.clip.empty() && clip.name != with.options.clip && clip.label != with.options.clip) continue;

@@ -70,7 +70,7 @@ Result<Done> check_rules(const std::string& file, const CheckSettings& settings,
 void add_touched(const Touched& file, Touched& out) {
   for (const std::string& clip : file.clips)
     if (std::ranges::find(out.clips, clip) == out.clips.end()) out.clips.push_back(clip);
-  out.has_take |= file.has_take;
+  out.has_take |= file.has_take, out.has_bvh |= file.has_bvh;
   out.was_gap_judged |= file.was_gap_judged;
   out.patterns.insert(file.patterns.begin(), file.patterns.end());
   out.rules.insert(file.rules.begin(), file.rules.end());
@@ -112,9 +112,9 @@ Result<Done> check_effects(const ClipCheckOptions& options, const std::string& s
                        there_are(pattern, touched.clips));
   if (!options.animation.skeleton.empty() && !touched.has_take)
     return no_effect("--skeleton is for an .amc, and none was checked");
-  if (options.rate_hz && options.character.empty() && !touched.has_take)
+  if (options.rate_hz && options.character.empty() && !touched.has_take && !touched.has_bvh)
     return no_effect(
-        "--rate-hz sets the rate of an .amc, and of motions of a --character; there is neither, and other files say "
+        "--rate-hz sets the rate of an .amc or .bvh, and of motions of a --character; there is none, and other files say "
         "their own times");
   if (options.max_gap_m && !touched.was_gap_judged)
     return no_effect("--max-gap-m found no joint to judge: no joint hangs below a root's own");

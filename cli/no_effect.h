@@ -17,6 +17,7 @@ namespace contort::cli {
 struct Touched {
   std::vector<std::string> clips;  // labels, each once
   bool has_take = false;           // an .amc was read
+  bool has_bvh = false;            // a .bvh was read
   bool was_gap_judged = false;
   std::set<std::string> patterns;  // of --loops that matched a clip
   std::set<std::size_t> rules;     // of the settings that matched a subject
