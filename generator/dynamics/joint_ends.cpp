@@ -11,7 +11,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kBeyond_rad = 1e-8;  // the clamp leaves a ball 1e-9 inside
+constexpr double kEndStep_rad = 1e-5;  // for differences
+constexpr int kEndPasses = 3;       // over both ends, where a ball comes to them at once
 
 // Calls visit(joint, link) for joints that no foot holds.
 template <class Visit>
@@ -43,27 +44,57 @@ bool is_far_inside(const Joint& ball, const Quat& q) {
   return least > 0.0 && kPi * length(sine) < least;
 }
 
-// Turns no farther along `out` than there is room, and not farther out where there is none.
-void stop_ball(const Joint& ball, const double* coords, double tick_s, Vec3& rate) {
-  const std::optional<BallEnd> end = ball_end(ball, coords, tick_s * rate);
-  if (!end) return;
-  const double most = std::max(end->room_rad, 0.0) / tick_s;
-  rate += std::min(0.0, most - glm::dot(rate, end->out)) * end->out;
+// The size of the swing as a share of its ellipse.
+double swing_share(const Joint& ball, const double* coords) {
+  const SwingTwist at = swing_twist_of(ball, coords);
+  const double a = at.a_rad / ball.swing_a_rad, b = at.b_rad / ball.swing_b_rad;
+  return std::sqrt(a * a + b * b);
+}
+
+// The twist from the middle of its range, as a share of half of it.
+double twist_share(const Joint& ball, const double* coords) {
+  const double middle = 0.5 * (ball.low + ball.high), half = 0.5 * (ball.high - ball.low);
+  return half > 0.0 ? std::fabs(wrap_angle(swing_twist_of(ball, coords).twist_rad - middle)) / half : 0.0;
+}
+
+// The end at which a share is 1, by the share's differences for turns about the three axes.
+void add_end(const Joint& ball, const double* coords, double (*share)(const Joint&, const double*), BallEnds& out) {
+  const double now = share(ball, coords);
+  Vec3 slope(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 step(0.0);
+    step[axis] = kEndStep_rad;
+    const Quat q = turned(coords, step);
+    const double then[4] = {q.w, q.x, q.y, q.z};
+    slope[axis] = (share(ball, then) - now) / kEndStep_rad;
+  }
+  const double steepness = length(slope);
+  if (steepness > 0.0) out.ends[at(out.count++)] = {slope / steepness, (1.0 - now) / steepness};
+}
+
+bool has_twist_ends(const Joint& ball) { return ball.high - ball.low < 2.0 * kPi; }
+
+// A turn that goes along an end, or as far as it, but no farther. A ball that is outside does not go farther out.
+Vec3 stopped(const BallEnds& ends, const Vec3& turn_rad, bool comes_back) {
+  Vec3 turn = turn_rad;
+  for (int pass = 0; pass < kEndPasses; ++pass)
+    for (const BallEnd& end : ends.all()) {
+      const double most = comes_back ? end.room_rad : std::max(end.room_rad, 0.0);
+      turn += std::min(0.0, most - glm::dot(turn, end.out)) * end.out;
+    }
+  return turn;
 }
 
 }  // namespace
 
-std::optional<BallEnd> ball_end(const Joint& ball, const double* coords, const Vec3& turn_rad) {
-  const Quat then = turned(coords, turn_rad);
-  if (is_far_inside(ball, then)) return std::nullopt;
-  double inside[4] = {then.w, then.x, then.y, then.z};
-  clamp_to_range(ball, inside);
-  const Quat nearest = quat_at(inside);
-  const Vec3 beyond = to_rotation_vector(glm::conjugate(nearest) * then);
-  const double beyond_rad = length(beyond);
-  if (!(beyond_rad > kBeyond_rad)) return std::nullopt;
-  const Vec3 out = beyond / beyond_rad;
-  return BallEnd{out, glm::dot(out, turn_rad) - beyond_rad};
+BallEnds ball_ends(const Joint& ball, const double* coords, const Vec3& turn_rad) {
+  BallEnds out;
+  const Quat q = turned(coords, turn_rad);
+  const double then[4] = {q.w, q.x, q.y, q.z};
+  if (is_far_inside(ball, q) || (swing_share(ball, then) < 1.0 && twist_share(ball, then) < 1.0)) return out;
+  add_end(ball, coords, swing_share, out);
+  if (has_twist_ends(ball)) add_end(ball, coords, twist_share, out);
+  return out;
 }
 
 void slow_at_ends(const Character& character, const Multibody& body, std::span<const char> held,
@@ -72,11 +103,10 @@ void slow_at_ends(const Character& character, const Multibody& body, std::span<c
   const double per_distance = 2.0 / (ahead_s * ahead_s);
   for_free(character, body, held, [&](const Joint& joint, const Link& link) {
     if (link.kind == JointKind::ball) {
-      const Vec3 rate = three_of(state.velocity, link.dof), asked = three_of(acceleration, link.dof);
-      const Vec3 turn = ahead_s * rate + asked / per_distance;
-      if (const std::optional<BallEnd> end = ball_end(joint, &state.coords[at(link.coord)], turn); end)
-        set_three(acceleration, link.dof,
-                  asked + per_distance * (end->room_rad - glm::dot(turn, end->out)) * end->out);
+      const Vec3 rate = three_of(state.velocity, link.dof), asked_now = three_of(acceleration, link.dof);
+      const Vec3 turn = ahead_s * rate + asked_now / per_distance;
+      if (const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn); ends.count > 0)
+        set_three(acceleration, link.dof, asked_now + per_distance * (stopped(ends, turn, true) - turn));
       return;
     }
     double& asked = acceleration[at(link.dof)];
@@ -90,9 +120,9 @@ void stop_at_ends(const Character& character, const Multibody& body, std::span<c
                   FigureState& state) {
   for_free(character, body, held, [&](const Joint& joint, const Link& link) {
     if (link.kind == JointKind::ball) {
-      Vec3 turning = three_of(state.velocity, link.dof);
-      stop_ball(joint, &state.coords[at(link.coord)], tick_s, turning);
-      set_three(state.velocity, link.dof, turning);
+      const Vec3 turn = tick_s * three_of(state.velocity, link.dof);
+      if (const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn); ends.count > 0)
+        set_three(state.velocity, link.dof, stopped(ends, turn, false) / tick_s);
       return;
     }
     double& rate = state.velocity[at(link.dof)];

@@ -3,7 +3,7 @@
 // nearly straight would throw the hips. A ball ends where its swing leaves its ellipse or its twist its range.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <span>
 
 #include "generator/dynamics/tracker.h"
@@ -18,12 +18,19 @@ void slow_at_ends(const Character& character, const Multibody& body, std::span<c
 void stop_at_ends(const Character& character, const Multibody& body, std::span<const char> held, double tick_s,
                   FigureState& state);
 
-// The end that a ball comes to if it turns by `turn_rad` (a rotation vector along the axes of the moved body): turns
-// along `out` may be `room_rad` at most, which is negative for a ball that is outside. Nothing if the turn stays inside.
+// An end of a ball's range, for small turns (rotation vectors along the axes of the moved body): along `out` a turn may
+// be `room_rad` at most, which is negative for a ball that is outside.
 struct BallEnd {
   Vec3 out{0.0};  // unit
   double room_rad = 0.0;
 };
-std::optional<BallEnd> ball_end(const Joint& ball, const double* coords, const Vec3& turn_rad);
+
+// The ends of swing and twist. Empty if a turn by `turn_rad` stays inside of both.
+struct BallEnds {
+  std::array<BallEnd, 2> ends{};
+  int count = 0;
+  std::span<const BallEnd> all() const { return std::span(ends).first(static_cast<std::size_t>(count)); }
+};
+BallEnds ball_ends(const Joint& ball, const double* coords, const Vec3& turn_rad);
 
 }  // namespace contort

@@ -87,15 +87,15 @@ void LooseMotion::add_stops(const Character& character, const EquationOfMotion& 
   }
 }
 
-// A ball that could come to its end: turning on a little farther than it would, it would be outside.
+// A ball that would be outside if it turned on a little farther than it does in this tick.
 void LooseMotion::add_ball_stop(const Joint& joint, const Link& link, const FigureState& state) {
   const double* rates = &state.velocity[at(link.dof)];
   const Vec3 rate(rates[0], rates[1], rates[2]);
   const double speed = length(rate);
   if (speed == 0.0) return;
   const Vec3 turn = (tick_s_ + kNearEnd / speed) * rate;
-  if (const std::optional<BallEnd> end = ball_end(joint, &state.coords[at(link.coord)], turn); end)
-    contacts_.add_ball_stop(link.dof, -end->out, -std::max(end->room_rad, 0.0) / tick_s_);
+  for (const BallEnd& end : ball_ends(joint, &state.coords[at(link.coord)], turn).all())
+    contacts_.add_ball_stop(link.dof, -end.out, -std::max(end.room_rad, 0.0) / tick_s_);
 }
 
 Footing LooseMotion::footing(const Quat& root, const Quat& wanted_root) {
