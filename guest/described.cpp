@@ -33,6 +33,7 @@ GuestJoint described_joint(const Character& character, std::size_t j) {
   const Rigid& place = j == 0 ? character.rest_root() : joint.parent_from_joint;
   out.position = place.p_m, out.rotation = numbers_of(place.q);
   if (j == 0) return out;
+  if (joint.body_name != joint.local_name) out.body = joint.body_name;
   out.parent = joint.parent == 0 ? "root" : character.joints()[at(joint.parent)].name;
   if (joint.kind == JointKind::prismatic)
     out.type = GuestJointType::fixed;
@@ -90,7 +91,10 @@ GuestParam described_param(const ParamDef& def) {
 std::optional<GuestAction> described_action(const OfferedAction& offered, const std::string& slot) {
   GuestAction out;
   out.name = offered.name, out.help = offered.help, out.layer = offered.layer, out.slots = {slot};
-  out.duration_s = kLasts_s, out.blend_in_s = out.blend_out_s = kFades_s;
+  out.duration_s = kLasts_s;
+  // A goal is approached all the time, and on the base layer there is nothing to fade to.
+  if (offered.timing == Timing::course) out.blend_in_s = kFades_s;
+  if (offered.layer != Layer::overwrite) out.blend_out_s = kFades_s;
   for (const ParamDef& def : offered.params) {
     if (def.optional) continue;
     const GuestParam param = described_param(def);

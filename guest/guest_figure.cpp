@@ -84,6 +84,7 @@ JointDesc joint_desc(const GuestFigure& figure, std::size_t j) {
   out.name = figure.names[j];
   out.parent = figure.begins_slot(j) ? "" : figure.local_name(at(figure.parent(j)));
   out.type = joint.type == GuestJointType::ball ? JointType::ball : JointType::hinge;
+  if (!joint.body.empty()) out.body = legal_name(joint.body);
   out.position_m = figure.basis.point_m(joint.position);
   const auto& [x, y, z, w] = joint.rotation;
   out.rotation_deg = to_rotation_vector(normalize(figure.basis.rotation(x, y, z, w))) * kDegPerRad;

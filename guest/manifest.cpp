@@ -103,6 +103,8 @@ void fields(V& v, const GuestJoint*) {
   v.field("swing_center_deg", &GuestJoint::swing_center_deg, {.low = -360, .high = 360},
           "Of a ball: rotation vector to the middle of its swing.");
   v.field("max_speed_deg_s", &GuestJoint::max_speed_deg_s, {.low = 1, .high = 1e5}, "Greatest angular speed.");
+  v.field("body", &GuestJoint::body, {.text = Text::label, .may_be_empty = true},
+          "Name of the body that moves with it; empty: that of the joint.");
 }
 
 template <class V>

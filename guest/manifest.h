@@ -49,6 +49,7 @@ struct GuestJoint {
   std::optional<Vec3> swing_axis{};
   Vec3 swing_center_deg{0.0};  // rotation vector: the middle of the swing against rest
   double max_speed_deg_s = 720.0;
+  std::string body{};  // that moves with the joint; "": named like the joint
   bool operator==(const GuestJoint&) const = default;
 };
 

@@ -46,7 +46,7 @@ TEST(GuestFigures, GiveNamesThatAreTheSameInLettersOfOursANumber) {
   GuestManifest manifest = chain(0.1);
   manifest.characters[0].colliders.push_back(ball_on("Hand", "arm/lower", 0.1));
   const Character character = built(manifest);
-  EXPECT_EQ(character.colliders()[1].name, "arm/hand");
+  EXPECT_EQ(character.colliders()[2].name, "arm/hand");
   EXPECT_EQ(character.colliders()[3].name, "arm/hand_2");
 }
 
