@@ -33,7 +33,7 @@ std::string check_title(std::string_view check) {
       {"none_error", "Changed by what changes nothing"},
       {"history_error", "Depends on earlier requests"},
       {"rate_error", "Depends on the rate"},
-      {"undo_error", "Action leaves something behind"},
+      {"undo_error", "Does not return after an action"},
       {"gain_error", "Jumps between near parameters"},
       {"mirror_error", "Sides differ"},
       {"loop_seam", "Loop does not close"},

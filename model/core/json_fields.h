@@ -233,7 +233,8 @@ class FieldSchema {
     Json property = Codec<T>::schema(rule);
     property["description"] = std::string(help);
     if (rule.required) required_.push_back(std::string(name));
-    if (!rule.required) property["default"] = Codec<T>::write(defaults.*member, rule);
+    Json preset = Codec<T>::write(defaults.*member, rule);
+    if (!rule.required && !preset.is_null()) property["default"] = std::move(preset);
     properties_[std::string(name)] = std::move(property);
   }
   void constant(std::string_view name, std::string_view value) {

@@ -21,10 +21,11 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
+// All JSON files.
 Texts texts_in(const std::string& folder) {
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(CONTORT_SOURCE_DIR) + "/" + folder))
-    if (entry.is_regular_file()) paths.push_back(entry.path().string());
+    if (entry.is_regular_file() && entry.path().extension() == ".json") paths.push_back(entry.path().string());
   std::ranges::sort(paths);
   Texts out;
   for (const std::string& path : paths) out.push_back(slurp(path));
