@@ -17,6 +17,7 @@ HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$")
 INLINE = re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 REFERENCE = re.compile(r"^\s{0,3}\[[^\]]+\]:\s+<?([^\s>]+)>?")
 PATH_IN_CODE = re.compile(r"`([a-z]+)(/[\w./-]+)`")
+MADE = {"build", "contort-out"}  # folders of the project that commands make
 PLACEHOLDER = re.compile(r"/[A-Z]+(/|$)")
 ELSEWHERE = re.compile(r"^[a-z][a-z0-9+.-]*:", re.IGNORECASE)
 
@@ -63,7 +64,7 @@ def paths_in_code(project, path):
     """Yields (line number, path) of each code span that names a file or folder of the project."""
     for number, line in lines_outside_code(path.read_text(encoding="utf-8")):
         for folder, rest in PATH_IN_CODE.findall(line):
-            if (project / folder).is_dir() and not PLACEHOLDER.search(rest):
+            if folder.strip("/") not in MADE and (project / folder).is_dir() and not PLACEHOLDER.search(rest):
                 yield number, folder + rest
 
 
