@@ -138,9 +138,13 @@ void show(const CorpusOptions& options, Context& context) {
   for (const std::string& run : bucket.runs) line("run", run);
   if (minimal)
     for (const Family& other : minimal->co_failures) line("comes with", print_family(other));
+  // A corpus names no program, so that its command is for the reader to fill in.
+  Sources sources = context.sources;
+  const std::string found_with = minimal ? minimal->provenance.generator : "";
+  if (sources.generator.empty() && !found_with.empty()) sources.generator = "COMMAND OF " + found_with;
+  line("generator", found_with);
   for (const std::string& file : files_of(bucket))
-    line(file.substr(0, file.find('-')).c_str(),
-         replay_command(corpus->folder_of(bucket) + "/" + file, context.sources));
+    line(file.substr(0, file.find('-')).c_str(), replay_command(corpus->folder_of(bucket) + "/" + file, sources));
 }
 
 // Returns the buckets of the one cause whose id begins with `prefix`. A fixed bucket belongs to no cause.

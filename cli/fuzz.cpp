@@ -325,6 +325,12 @@ void run(FuzzOptions options, Context& context) {
   if (!options.json) print_result(result);
 }
 
+std::string profile_names() {
+  std::string names;
+  for (const Profile& profile : built_in_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+  return names;
+}
+
 }  // namespace
 
 void add_fuzz(CLI::App& app, Context& context) {
@@ -340,7 +346,7 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Worker processes (default: one per core)")->check(CLI::Range(1, 1024));
   command->add_option("--profile", options->profile,
-                      "Profile that says what is drawn: nightly, pr, smoke, tame, or a file (contort schema profile)");
+                      "Profile that says what is drawn: " + profile_names() + ", or a file (contort schema profile)");
   command->add_option("--seeds", options->seeds,
                       "Folder of specs and cases (*.json) that run before the drawn cases, in addition to --cases");
   command->add_option(

@@ -79,7 +79,7 @@ constexpr Verb kVerbs[] = {
     {"queue_gap", "begins or goes on at the wrong place"},
     {"joint_torque", "needs more effort than its strength"},
     {"balance", "loses balance"},
-    {"tracking_error", "does not come back to its target after an impact"},
+    {"tracking_error", "does not come back to its target"},
     {"ground_penetration", "sinks into the ground"},
     {"foot_slide", "slides on the ground"},
     {"contact_slide", "moves although it is said to stand still"},
