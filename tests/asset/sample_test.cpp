@@ -162,8 +162,8 @@ TEST(JointSpeeds, OfAMotionThatWasSampledAndWrittenAsStepAreThoseOfItsRate) {
     AssetClip clip;
     clip.channels = {turns({0.0, 0.1, 0.2, 0.3}, interpolation)};
     for (double& t : clip.channels[0].times_s) t /= 30.0;
-    for (const SpeedInterval& step : joint_speeds(clip)[0].between_keys)
-      EXPECT_NEAR(step.speed_rad_s, 0.1 * 30.0, 1e-9);
+    const ChannelSpeeds speeds = joint_speeds(clip)[0];
+    for (const SpeedInterval& step : speeds.between_keys) EXPECT_NEAR(step.speed_rad_s, 0.1 * 30.0, 1e-9);
   }
 }
 
