@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "formats/robot/robot.h"
 #include "model/core/json_fields.h"
@@ -38,6 +39,34 @@ std::string fault_of(const tinyxml2::XMLDocument& document) {
     return line + "elements are nested deeper than the allowed " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH);
   if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) return "the file has no XML element";
   return line + "the XML is not well-formed (" + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")";
+}
+
+// The bytes of the UTF-8 character at the front of the text; 0 if there is none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  std::uint32_t code = first & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fU);
+  }
+  const bool is_longer_than_needed = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  return is_longer_than_needed || is_surrogate || code > 0x10ffff ? 0 : length;
+}
+
+// Files say UTF-8 and are Latin-1, and numbers of characters may be wrong; names go into JSON, which takes UTF-8 alone.
+std::string in_utf8(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    out += length == 0 ? std::string_view("?") : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
 }
 
 }  // namespace
@@ -76,7 +105,7 @@ const XmlElement* element_of(const XmlElement& element, const char* tag) { retur
 
 std::string attribute_of(const XmlElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
-  return text == nullptr ? "" : std::string(trimmed(text));
+  return text == nullptr ? "" : in_utf8(trimmed(text));
 }
 
 bool has_attribute(const XmlElement& element, const char* attribute) {
@@ -86,11 +115,11 @@ bool has_attribute(const XmlElement& element, const char* attribute) {
 std::map<std::string, std::string> attributes_of(const XmlElement& element) {
   std::map<std::string, std::string> out;
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
-    out[a->Name()] = std::string(trimmed(a->Value()));
+    out[in_utf8(a->Name())] = in_utf8(trimmed(a->Value()));
   return out;
 }
 
-std::string tag_of(const XmlElement& element) { return std::string(element.Name()).substr(0, 60); }
+std::string tag_of(const XmlElement& element) { return in_utf8(std::string_view(element.Name()).substr(0, 60)); }
 
 std::optional<std::vector<double>> numbers_in(std::string_view text, std::size_t most) {
   std::vector<double> out;

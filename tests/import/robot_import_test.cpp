@@ -31,6 +31,19 @@ bool says(const std::vector<std::string>& notes, const std::string& what) {
   return std::ranges::any_of(notes, [&](const std::string& text) { return text.find(what) != std::string::npos; });
 }
 
+// A file in Latin-1, a character that is cut off, and a number that is no character. Found by libFuzzer.
+TEST(RobotImport, NamesThatAreNotUtf8AreImportedWithReplacements) {
+  for (const std::string name : {"\xe1rm", "arm\xc3", "\xed\xa0\x80", "&#xD800;", "\xf8\x88\x80\x80\x80", "\xc3\xa4rm"}) {
+    std::string text = two_links("revolute", R"(<limit lower="-1" upper="2" velocity="3" effort="4"/>)");
+    text.replace(text.find("name=\"j\""), 8, "name=\"" + name + "\"");
+    const Result<RobotModel> robot = parse_urdf(text);
+    ASSERT_TRUE(robot) << name;
+    const Result<ImportedRobot> imported = import_robot(*robot, "r");
+    ASSERT_TRUE(imported) << name;
+    for (const ImportFile& file : imported->files) EXPECT_FALSE(file.text.empty()) << name;
+  }
+}
+
 TEST(RobotImport, KeepsLimitsSpeedAndEffort) {
   const JointDesc joint =
       only_joint(import_urdf(two_links("revolute", R"(<limit lower="-1" upper="2" velocity="3" effort="4"/>)")));
