@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "process/children.h"
+#include "cli/program_files.h"
 #include "cli/progress_line.h"
-#include "cli/render.h"
 #include "cli/report_folder.h"
 #include "cli/surroundings.h"
 #include "corpus/corpus.h"
@@ -93,9 +93,8 @@ void write_one(const Stamped& one, const std::string& folder, Generator& generat
   if (!written) warn(page.key, written.issue());
 }
 
-// viewer.js and viewer.css lie in page/, beside the program.
 Result<Done> copy_viewer(const std::string& folder) {
-  const std::string from = (fs::path(renderer_path()).parent_path() / "page").string();
+  const std::string from = pages_path();
   if (const Result<Done> made = make_folder(folder); !made) return made;
   for (const char* name : {"viewer.js", "viewer.css"}) {
     const Result<std::string> text = read_file(from + "/" + name, std::size_t{1} << 26);

@@ -77,6 +77,8 @@ void add_explain(CLI::App& app, Context& context);
 void add_list(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_tables(CLI::App& app, Context& context);
+void add_man(CLI::App& app, Context& context);
+void add_completion(CLI::App& app, Context& context);
 void add_version(CLI::App& app, Context& context);
 void add_help(CLI::App& app, Context& context);
 void add_serve(CLI::App& app, Context& context);

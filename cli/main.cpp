@@ -98,7 +98,7 @@ int run(int argc, char** argv) {
   for (const auto add :
        {add_fuzz, add_generator, add_guest_builtin, add_replay, add_generate, add_audit, add_check, add_measure, add_shrink, add_render, add_report,
         add_corpus, add_causes, add_explain, add_merge, add_import, add_contacts, add_list, add_schema, add_tables,
-        add_serve, add_version, add_help})
+        add_serve, add_man, add_completion, add_version, add_help})
     add(app, context);
   try {
     app.parse(argc, argv);

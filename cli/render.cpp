@@ -8,18 +8,13 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "cli/program_files.h"
 #include "cli/render_options.h"
 #include "corpus/corpus.h"
 #include "fuzz/parallel.h"
 #include "process/program.h"
 
 namespace contort::cli {
-
-std::string renderer_path() {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (self.parent_path() / "contort-render").string();
-}
 
 std::vector<std::string> renderer_call(const Context& context) {
   std::vector<std::string> call = {renderer_path(), "--gl", context.gl};

@@ -10,9 +10,6 @@
 
 namespace contort::cli {
 
-// Path of contort-render, beside the running program.
-std::string renderer_path();
-
 // A spec or case file, and the strip that is drawn of it.
 struct StripFile {
   std::string file;

@@ -10,7 +10,7 @@
 #include "cli/catalogue_fields.h"
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "cli/render.h"
+#include "cli/program_files.h"
 #include "model/core/files.h"
 #include "model/spec/dynamics_desc.h"
 #include "server/app.h"
@@ -77,8 +77,7 @@ std::string catalogue(Generator& generator, const ServeOptions& options) {
 }
 
 std::vector<std::string> own_call(const Context& context) {
-  std::error_code error;
-  std::vector<std::string> call = {fs::read_symlink("/proc/self/exe", error).string(), "--gl", context.gl};
+  std::vector<std::string> call = {own_path(), "--gl", context.gl};
   for (const std::string& argument : context.sources.arguments()) call.push_back(argument);
   if (!context.settings_file.empty()) call.insert(call.end(), {"--settings", context.settings_file});
   if (!context.today.empty()) call.insert(call.end(), {"--today", context.today});
@@ -126,7 +125,7 @@ server::AppConfig app_config(const ServeOptions& options, int port, const server
   config.guard = {hosts_of(options, port), options.token};
   config.read_only = options.read_only, config.corpus = options.corpus;
   config.report = options.corpus.empty() ? "" : options.report.empty() ? scratch.folder("report") : options.report;
-  config.pages = (fs::path(renderer_path()).parent_path() / "page").string();
+  config.pages = pages_path();
   config.scratch = scratch.folder("files");
   config.program = own_call(context);
   config.today = [&context] { return context.day(); };

@@ -12,7 +12,8 @@ namespace contort {
 namespace {
 
 const char* const kCommands[] = {"fuzz", "replay", "generate", "check",    "shrink", "render",  "report", "corpus",
-                                 "list", "schema", "import",   "contacts", "merge",  "version", "help"};
+                                 "list", "schema", "import",   "contacts", "merge",  "version", "help",   "man",
+                                 "completion"};
 
 // One line for people, and no motion found to be clean.
 void expect_refused(const std::vector<std::string>& arguments, int code, const std::string& needle = "") {
