@@ -10,7 +10,6 @@ set(owner "${CMAKE_MATCH_1}")
 string(STRIP "${CMAKE_MATCH_2}" terms)
 string(REGEX REPLACE "\n\n" "\n.\n" terms "${terms}")
 string(REPLACE "\n" "\n " terms "${terms}")
-# The text with their years is at the end of each bundled script, too (renders/page/build.mjs).
 file(WRITE ${doc}/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: contort
 
@@ -27,7 +26,9 @@ Copyright: ${owner}
 License: Expat
 ")
 endif()
-file(APPEND ${doc}/copyright "
+file(APPEND ${doc}/copyright "Comment: licences has the texts of the libraries whose headers are compiled in,
+ or which are linked statically.
+
 License: Expat
  ${terms}
 ")

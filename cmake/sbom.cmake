@@ -4,6 +4,7 @@
 # are those of this machine. The time in it is SOURCE_DATE_EPOCH, where that is set.
 cmake_minimum_required(VERSION 3.25)
 string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC)
+include(${CMAKE_CURRENT_LIST_DIR}/compiled_in.cmake)
 set(packages "")
 set(relations "")
 
@@ -14,8 +15,8 @@ function(contort_sbom_add list text)
   set(${list} "${text}" PARENT_SCOPE)
 endfunction()
 
-# contort_sbom_package(ID NAME VERSION LICENCE URL RELATION COMMENT): RELATION is CONTAINS where the package is in our
-# files, else what the package is for Contort.
+# contort_sbom_package(ID NAME VERSION LICENCE URL RELATION COMMENT): RELATION is CONTAINS or STATIC_LINK where code of
+# the package is in our files, else what the package is for Contort.
 function(contort_sbom_package id name version licence url relation comment)
   string(REPLACE "\\" "\\\\" comment "${comment}")
   string(REPLACE "\"" "\\\"" comment "${comment}")
@@ -24,7 +25,7 @@ function(contort_sbom_package id name version licence url relation comment)
 \"licenseDeclared\": \"${licence}\", \"copyrightText\": \"NOASSERTION\", \"comment\": \"${comment}\", \
 \"externalRefs\": [{\"referenceCategory\": \"PACKAGE-MANAGER\", \"referenceType\": \"purl\", \
 \"referenceLocator\": \"${url}\"}]}")
-  if(relation STREQUAL "CONTAINS")
+  if(relation MATCHES "^(CONTAINS|STATIC_LINK)$")
     set(from Contort)
     set(to ${id})
   else()
@@ -51,7 +52,11 @@ foreach(line IN LISTS lines)
     if(version STREQUAL "")
       set(version NOASSERTION)
     endif()
-    contort_sbom_package(deb-${id} ${name} ${version} NOASSERTION "pkg:deb/debian/${name}" BUILD_DEPENDENCY_OF "${why}")
+    set(relation BUILD_DEPENDENCY_OF)
+    if(name IN_LIST CONTORT_COMPILED_IN)
+      set(relation STATIC_LINK)
+    endif()
+    contort_sbom_package(deb-${id} ${name} ${version} NOASSERTION "pkg:deb/debian/${name}" ${relation} "${why}")
   endif()
 endforeach()
 
@@ -65,9 +70,9 @@ foreach(i RANGE ${last})
   foreach(field version license integrity)
     string(JSON ${field} GET ${lock} packages node_modules/${name} ${field})
   endforeach()
-  set(relation CONTAINS)
-  if(name STREQUAL "esbuild")
-    set(relation BUILD_TOOL_OF)
+  set(relation BUILD_TOOL_OF)
+  if(name IN_LIST CONTORT_BUNDLED)
+    set(relation CONTAINS)
   endif()
   contort_sbom_package(npm-${name} ${name} ${version} ${license} "pkg:npm/${name}@${version}" ${relation}
                        "npm integrity ${integrity}")

@@ -50,11 +50,22 @@ assert len(wanted) > 15 and set(wanted) <= set(names), set(wanted) - set(names)
 related = {(r["spdxElementId"], r["relationshipType"], r["relatedSpdxElement"]) for r in sbom["relationships"]}
 for name in ("three", "uplot"):
     assert (names["contort"], "CONTAINS", names[name]) in related, name
+for name in ("libglm-dev", "librapidcheck-dev"):
+    assert (names["contort"], "STATIC_LINK", names[name]) in related, name
 ids = [package["SPDXID"] for package in sbom["packages"]]
 assert len(ids) == len(set(ids)), "an id is there twice"
 assert all(a in ids + ["SPDXRef-DOCUMENT"] and b in ids for a, _, b in related)
 assert sbom["spdxVersion"] == "SPDX-2.3" and sbom["creationInfo"]["created"].endswith("Z")
 END
+
+# Whose code is in the programs and pages, their licences are there, too.
+inside="libcli11-dev libglm-dev librapidcheck-dev libxxhash-dev nlohmann-json3-dev"
+if [ -f "$build/page/viewer.js" ]; then inside="$inside three uplot"; fi
+for name in $inside; do
+  if [ -d "/usr/share/doc/$name" ] || [ "${name%-dev}" = "$name" ]; then
+    grep -qi copyright "$root/share/doc/contort/licences/$name.txt"
+  fi
+done
 
 # A project that finds it: a generator, what Contort finds in it, and a game that asks the rules.
 project_of_user() { cmake -S "$project/docs/examples/sdk" -B user -DCMAKE_PREFIX_PATH="$root" "$@" >log || { cat log; exit 1; }; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""links_test.py PROJECT: does each relative link of README.md, CONTRIBUTING.md, docs/ and adapters/ lead somewhere?
+"""links_test.py PROJECT: does each relative link of the root, docs/ and adapters/ lead somewhere?
 
 A link must point at a file or folder of the project, and its anchor at a heading of the Markdown file. A code span that
 holds a path below one of the project's folders, such as `docs/cli.md`, must name a file or folder, too; a path with a
@@ -82,7 +82,7 @@ def problem(project, page, target):
 
 
 def pages(project):
-    named = [project / "README.md", project / "CONTRIBUTING.md"]
+    named = [project / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")]
     return [page for page in named if page.exists()] + sorted(
         page for folder in ("docs", "adapters") for page in (project / folder).rglob("*.md"))
 
@@ -123,12 +123,14 @@ def test_itself():
         ("[a](../../etc/passwd)", "leads out of the project"),
         ("[a]: nowhere.md", "there is no such file"),
         ("`docs/other.md`, `docs/NAME/other.md` and `elsewhere/nowhere.md`", ""),
+        ("`build/nowhere`", ""),
         ("`docs/nowhere.md`", "docs/page.md:1: docs/nowhere.md: there is no such file"),
     ]
     for text, expected in rows:
         with tempfile.TemporaryDirectory() as folder:
             project = pathlib.Path(folder)
             (project / "docs").mkdir()
+            (project / "build").mkdir()
             (project / "README.md").write_text("# First steps\n", encoding="utf-8")
             (project / "docs/other.md").write_text("# Other\n", encoding="utf-8")
             (project / "docs/page.md").write_text(text, encoding="utf-8")

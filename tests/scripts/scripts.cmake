@@ -15,11 +15,12 @@ foreach(page IN LISTS guide_pages)
 endforeach()
 add_test(NAME Scripts.Manual COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/manual_test.sh $<TARGET_FILE:contort>)
 set_tests_properties(Scripts.Manual PROPERTIES TIMEOUT 180)
-# Both install what is built; one after the other, for the texts are made in the build folder.
+# These install what is built; one after the other, because some texts are made in the build folder.
 add_test(NAME Scripts.Install
   COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/install_test.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
 add_test(NAME Scripts.Deb COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/deb_test.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
-set_tests_properties(Scripts.Install Scripts.Deb PROPERTIES TIMEOUT 300 RESOURCE_LOCK installed_texts)
+set_tests_properties(Scripts.Install Scripts.Deb PROPERTIES TIMEOUT 300)
+set_tests_properties(Scripts.Install Scripts.Deb Scripts.Guide.install PROPERTIES RESOURCE_LOCK installed_texts)
 set_tests_properties(Scripts.Deb PROPERTIES SKIP_RETURN_CODE 77 LABELS slow)
 add_test(NAME Scripts.LinksExtraction COMMAND ${CMAKE_CURRENT_LIST_DIR}/links_test.py)
 add_test(NAME Scripts.Links COMMAND ${CMAKE_CURRENT_LIST_DIR}/links_test.py ${CMAKE_SOURCE_DIR})

@@ -1,0 +1,5 @@
+# Debian packages of which code is in our programs, as headers or as a static library. Their licences go along with each
+# copy. All other libraries are shared ones, which stay packages of their own.
+set(CONTORT_COMPILED_IN libcli11-dev libglm-dev librapidcheck-dev libxxhash-dev nlohmann-json3-dev)
+# And packages of npm that are in the scripts of the pages.
+set(CONTORT_BUNDLED three uplot)
