@@ -15,6 +15,9 @@ foreach(page IN LISTS guide_pages)
 endforeach()
 add_test(NAME Scripts.Manual COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/manual_test.sh $<TARGET_FILE:contort>)
 set_tests_properties(Scripts.Manual PROPERTIES TIMEOUT 180)
+add_test(NAME Scripts.CiFiles
+  COMMAND ${CMAKE_CURRENT_LIST_DIR}/ci_files_test.py ${CMAKE_SOURCE_DIR} $<TARGET_FILE:contort>)
+set_tests_properties(Scripts.CiFiles PROPERTIES TIMEOUT 180 SKIP_RETURN_CODE 77 LABELS slow)
 # These install what is built; one after the other, because some texts are made in the build folder.
 add_test(NAME Scripts.Install
   COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/install_test.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
