@@ -8,13 +8,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `installed` is the way from the folder of an installed program. Without either, the name beside the program is told,
-// for messages.
-std::string beside_or(const std::string& name, const std::string& installed) {
+// `installed` is the way from the folder of an installed program. It goes first, because programs of others lie beside
+// that one, and may have the same name.
+std::string installed_or_beside(const std::string& installed, const std::string& name) {
   const fs::path folder = fs::path(own_path()).parent_path();
   std::error_code error;
-  const bool is_beside = fs::exists(folder / name, error) || !fs::exists(folder / installed, error);
-  return (is_beside ? folder / name : (folder / installed).lexically_normal()).string();
+  if (fs::exists(folder / installed, error)) return (folder / installed).lexically_normal().string();
+  return (folder / name).string();
 }
 
 }  // namespace
@@ -24,8 +24,10 @@ std::string own_path() {
   return fs::read_symlink("/proc/self/exe", error).string();
 }
 
-std::string renderer_path() { return beside_or("contort-render", "../libexec/contort/contort-render"); }
+std::string renderer_path() {
+  return installed_or_beside("../libexec/contort/contort-render", "contort-render");
+}
 
-std::string pages_path() { return beside_or("page", "../share/contort/page"); }
+std::string pages_path() { return installed_or_beside("../share/contort/page", "page"); }
 
 }  // namespace contort::cli

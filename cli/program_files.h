@@ -9,10 +9,10 @@ namespace contort::cli {
 // The running program itself.
 std::string own_path();
 
-// contort-render: beside the program, or in ../libexec/contort.
+// contort-render: in ../libexec/contort, or beside the program.
 std::string renderer_path();
 
-// The folder of the report's viewer and of the server's pages: page beside the program, or ../share/contort/page.
+// The folder of the report's viewer and of the server's pages: ../share/contort/page, or page beside the program.
 std::string pages_path();
 
 }  // namespace contort::cli

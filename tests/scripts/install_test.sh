@@ -24,6 +24,7 @@ contort completion fish | cmp - "$root/share/fish/vendor_completions.d/contort.f
 [ "$(contort schema spec)" = "$(cat "$root/share/doc/contort/schema/spec.schema.json")" ]
 diff -r --exclude=__pycache__ "$project/adapters" "$root/share/contort/adapters"
 diff -r --exclude=__pycache__ "$project/docs/guide" "$root/share/doc/contort/guide"
+[ -f "$root/share/contort/adapters/cpp/../../docs/guests.md" ]
 "$root/libexec/contort/contort-render" --version >version
 [ "$(cut -d " " -f 2 version)" = "$(contort --version | cut -d " " -f 2)" ]
 
@@ -97,6 +98,7 @@ read -ra flags <<<"$(pkg-config --cflags contort)"
 
 # The report's viewer, where npm could build it.
 if [ -f "$build/page/viewer.js" ]; then
+  mkdir "$root/bin/page"  # somebody else's
   contort --generator user/arm --gl none report corpus -o report >/dev/null
   cmp "$build/page/viewer.js" report/viewer/viewer.js
 fi
