@@ -11,7 +11,7 @@ std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');
   return colon != std::string::npos && type.find(type.substr(0, colon) + " in ") == colon + 1 ? type.substr(colon + 1)
-                                                                                             : type;
+                                                                                              : type;
 }
 
 OptionEntry entry_of(const CLI::Option& option) {

@@ -61,8 +61,8 @@ std::string arms_that_walk(std::span<const CommandEntry> commands) {
   std::string text;
   for (const CommandEntry& command : commands)
     for (const std::string& below : command.commands)
-      text += "      " + double_quoted(command.name + "|" + below) + ") at=" +
-              double_quoted(place_of(command, below)) + " ;;\n";
+      text += "      " + double_quoted(command.name + "|" + below) + ") at=" + double_quoted(place_of(command, below)) +
+              " ;;\n";
   for (const std::string& pattern : patterns_with_value(commands)) text += "      " + pattern + ") i=$((i + 1)) ;;\n";
   return text;
 }

@@ -68,11 +68,13 @@ std::string man_page(std::span<const CommandEntry> commands, const std::string& 
   page << ".TH CONTORT 1 \"\" \"contort " << version << "\" \"User Commands\"\n"
        << ".SH NAME\ncontort \\- find the motions that an animation generator should never produce\n"
        << ".SH SYNOPSIS\n\\fBcontort\\fR [\\fIOPTIONS\\fR] \\fICOMMAND\\fR [\\fIARGUMENTS\\fR]\n"
-       << ".SH DESCRIPTION\n" << roff(program.about) << "\n"
-       << ".SH OPTIONS\nThese options may also follow the command.\n" << items_of(program)
-       << ".SH COMMANDS\n";
+       << ".SH DESCRIPTION\n"
+       << roff(program.about) << "\n"
+       << ".SH OPTIONS\nThese options may also follow the command.\n"
+       << items_of(program) << ".SH COMMANDS\n";
   for (const CommandEntry& command : commands.subspan(1)) page << section_of(command);
-  page << ".SH EXIT STATUS\n" << verbatim(program.footer)
+  page << ".SH EXIT STATUS\n"
+       << verbatim(program.footer)
        << ".SH SEE ALSO\nThe pages in share/doc/contort of the installation, beginning with guide/README.md.\n";
   return page.str();
 }

@@ -24,9 +24,7 @@ std::string own_path() {
   return fs::read_symlink("/proc/self/exe", error).string();
 }
 
-std::string renderer_path() {
-  return installed_or_beside("../libexec/contort/contort-render", "contort-render");
-}
+std::string renderer_path() { return installed_or_beside("../libexec/contort/contort-render", "contort-render"); }
 
 std::string pages_path() { return installed_or_beside("../share/contort/page", "page"); }
 
