@@ -87,7 +87,7 @@ double most_apart_rad(std::span<const Quat> a, std::span<const Quat> b) {
   return most;
 }
 
-// How far the poses around the frames [first, last], which are at rest, are from it; 0 where the figure is on its way
+// The distance of the poses around the frames [first, last], which are at rest, from the rest pose; 0 where the figure is on its way
 // there or back, or comes from one side and goes to another.
 double flash_rad(const ClipPoses& poses, int first, int last) {
   const auto apart = [&](int a, int b) { return most_apart_rad(poses.pose(a), poses.pose(b)); };

@@ -1,4 +1,4 @@
-// What is wrong with a clip in its file, so that its reader had to go around it.
+// The faults of a clip in its file that its reader went around.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// Those of the clip; for the first clip of a file also those that concern all clips.
+// Returns the faults of the clip; for the first clip of a file also those that concern all clips.
 std::vector<const AssetFault*> faults_of(const Asset& asset, const AssetClip& clip);
 
 }  // namespace contort

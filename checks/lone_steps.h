@@ -24,7 +24,7 @@ inline constexpr double kLongestBlip_s = 0.13;  // three frames at 24 Hz: two ke
 inline constexpr double kBlipFactor = 4.0;      // times every other step
 inline constexpr double kJumpFactor = 8.0;      // times every other step, and kBlipFactor times the two beside it
 
-// What a channel of this interpolation is judged by: a STEP jumps by what it is, and only blips are no part of it.
+// Returns the limits for a channel of this interpolation. A STEP channel consists of jumps, so only its blips are judged.
 LoneLimits lone_limits(Interpolation interpolation, const LoneLimits& limits);
 
 // Returns for each interval the largest step that would not stand alone; infinite where nothing is judged: an interval

@@ -45,7 +45,7 @@ bool may_travel(const ClipInput& in, int node) {
   return true;
 }
 
-// How far two keys are apart; of a node that travels, in height.
+// The distance between two keys; for a node that travels, the difference in height alone.
 double apart_m(const ClipInput& in, const ClipFigure& figure, const AssetChannel& channel, std::size_t a,
                std::size_t b) {
   const Vec3 change = sample_vector(channel, channel.times_s[b]) - sample_vector(channel, channel.times_s[a]);

@@ -17,12 +17,14 @@ struct Blow {
   bool operator==(const Blow&) const = default;
 };
 
-// A figure of mass m whose centre of mass is h above the ground, and d inside the edge of its support in the direction
-// of a push, tips over that edge if a push gives it more than d sqrt(g/h): its extrapolated centre of mass then leaves the support (A. L. Hof et
-// al., "The condition for dynamic stability", J. Biomechanics 38, 2005). So it withstands m d sqrt(g/h), with d of the
-// character at rest, or the push that the character's file says (`withstands_N_s`). A figure that stands still with
-// less support, as on one leg, withstands what that support allows.
-// `direction` is horizontal and of length 1.
+// Returns the greatest horizontal impulse along `direction`, which is horizontal and of length 1, before the frame.
+//
+// The centre of mass of a figure of mass m is at height h, and at the distance d from the edge of the support in that
+// direction. The figure tips over the edge if the push gives it a speed above d sqrt(g/h), because its extrapolated
+// centre of mass then leaves the support (A. L. Hof et al., "The condition for dynamic stability", J. Biomechanics 38,
+// 2005). So it withstands m d sqrt(g/h), with the d of the character at rest, or the value in the character's file
+// (`withstands_N_s`). A figure that stands still with less support, as on one leg, withstands what that support allows.
+// Loads that it carries do not count.
 double withstands_N_s(const Character& character, const Motion& motion, int frame, const Vec3& direction);
 
 // The first blow of the motion that is harder.

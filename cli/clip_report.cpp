@@ -200,7 +200,7 @@ constexpr double kPlainTurn_rad = 1.0 * kRadPerDeg;  // left out: more than this
 constexpr double kPlainOffset_m = 0.01;
 constexpr std::size_t kMostLines = 5;
 
-// Of a pop: ", 90.5 deg in one step".
+// The angle of a pop as text: ", 90.5 deg in one step".
 std::string step_text(const ClipFinding& f) {
   if (f.finding.check != "pop" || !std::isfinite(f.worst_speed_rad_s)) return "";
   return ", " + decimal(f.worst_speed_rad_s * (f.worst_t1_s - f.worst_t0_s) * kDegPerRad, 1) + " deg in one step";

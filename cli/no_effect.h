@@ -13,7 +13,7 @@
 
 namespace contort::cli {
 
-// What the options found in all files.
+// The clips, joints and files on which options had an effect, over all files.
 struct Touched {
   std::vector<std::string> clips;  // labels, each once
   bool has_take = false;           // an .amc was read

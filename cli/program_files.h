@@ -1,4 +1,4 @@
-// Where the running program and the files that it needs lie. In a build they are beside the program. An installation may
+// Finds the running program and the files that it needs. In a build they are beside the program. An installation may
 // be moved as a whole: there, its programs are in bin and the others at fixed ways from bin.
 #pragma once
 

@@ -24,7 +24,7 @@ std::set<std::string> names_of(const Asset& asset) {
   return names;
 }
 
-// What stands before the names that the map has, by node of the map.
+// The prefixes before the names that the map has, by node of the map.
 std::set<std::string> prefixes(const std::set<std::string>& names, const std::string& bare) {
   std::set<std::string> out;
   for (const std::string& name : names)

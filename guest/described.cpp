@@ -87,7 +87,7 @@ GuestParam described_param(const ParamDef& def) {
   return out;
 }
 
-// Nothing where the action needs a point of an object, and there is none.
+// Returns no action if it needs a point of an object and the part carries no object.
 std::optional<GuestAction> described_action(const OfferedAction& offered, const std::string& slot) {
   GuestAction out;
   out.name = offered.name, out.help = offered.help, out.layer = offered.layer, out.slots = {slot};

@@ -19,7 +19,7 @@ struct LinkageShape {
   bool is_guessed = false;  // from the body's inertia, as its mesh was not read
 };
 
-// What moves as one: the joints between it and its carrier, and what is fixed to the last one.
+// Bodies that move as one: the joints between it and its carrier, and what is fixed to the last one.
 struct RobotLink {
   std::string body{};               // of the file, the first one
   int parent = -1;                  // an earlier link; -1 for the root

@@ -199,7 +199,7 @@ void find_range(AssetClip& clip) {
   }
 }
 
-// What the standard forbids of times, and we read.
+// Remarks key times that the standard forbids and that are read nevertheless.
 void remark_times(const AssetClip& clip, std::vector<Remark>& remarks) {
   const auto has_twins = [](const AssetChannel& c) { return std::ranges::adjacent_find(c.times_s) != c.times_s.end(); };
   if (clip.first_s < 0.0)

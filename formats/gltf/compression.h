@@ -1,5 +1,5 @@
 // Fills in what extensions have compressed: views by EXT_meshopt_compression, meshes by KHR_draco_mesh_compression.
-// What they hold becomes new buffers of the model, so that accessors read it like all other data, with the same checks.
+// Their contents become new buffers of the model, so that accessors read it like all other data, with the same checks.
 #pragma once
 
 #include <span>

@@ -224,7 +224,7 @@ int read_frames(MocapWords& words, const Hierarchy& hierarchy, int said, AssetCl
   return frames;
 }
 
-// What "Frames:" says; a fault where that is more than is allowed.
+// Reads the number after "Frames:"; one above the limit is a fault.
 int read_frame_count(MocapWords& words, const Hierarchy& hierarchy) {
   words.expect_label("Frames:");
   const int frames = words.count("frames", kMaxMocapNumbers);

@@ -75,7 +75,7 @@ struct AssetFault {
   std::string code;   // as of an Issue: "gltf.bad_times"
   std::string where;  // a JSON pointer into the file
   std::string text;
-  // Of a rotation that is no unit quaternion, with the number of its key: the channel was read all the same.
+  // The number of the key, and its length, of a rotation that is no unit quaternion. The channel was read all the same.
   int key = -1;
   double length = 1.0;
   bool operator==(const AssetFault&) const = default;

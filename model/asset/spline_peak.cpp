@@ -25,7 +25,7 @@ constexpr double choose(std::size_t n, std::size_t k) {
   return out;
 }
 
-// Of the products of coefficients, in the product of two polynomials.
+// The weights of products of coefficients in the product of two polynomials.
 template <std::size_t N, std::size_t M>
 constexpr std::array<std::array<double, M>, N> weights() {
   std::array<std::array<double, M>, N> out{};

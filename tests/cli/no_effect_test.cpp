@@ -24,7 +24,7 @@ class NoEffect : public testing::Test {
   }
   std::string walk() const { return file("walk.bvh", leg_bvh({0, 1, 2, 3, 2, 1, 0})); }
 
-  // What is said on standard error; the code is 2, and nothing is on standard output.
+  // The message on standard error; the code is 2, and nothing is on standard output.
   static std::string refusal(const std::vector<std::string>& arguments) {
     const Ran ran = contort_program(arguments);
     EXPECT_EQ(ran.code, 2) << ran.out;

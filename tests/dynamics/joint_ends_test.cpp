@@ -24,7 +24,7 @@ std::array<double, 4> coords_of(const Joint& ball, const SwingTwist& at) {
   return coords;
 }
 
-// How far a ball is outside of its range after a turn.
+// The angle by which a ball is outside of its range after a turn.
 double beyond_rad(const Joint& ball, const std::array<double, 4>& coords, const Vec3& turn_rad) {
   const Quat q = Quat(coords[0], coords[1], coords[2], coords[3]) * from_rotation_vector(turn_rad);
   double inside[4] = {q.w, q.x, q.y, q.z};
