@@ -29,7 +29,8 @@ struct BallEnd {
 struct BallEnds {
   std::array<BallEnd, 2> ends{};
   int count = 0;
-  std::span<const BallEnd> all() const { return std::span(ends).first(static_cast<std::size_t>(count)); }
+  std::span<const BallEnd> all() const& { return std::span(ends).first(static_cast<std::size_t>(count)); }
+  void all() && = delete;  // would point into a value that is gone
 };
 BallEnds ball_ends(const Joint& ball, const double* coords, const Vec3& turn_rad);
 

@@ -94,7 +94,8 @@ void LooseMotion::add_ball_stop(const Joint& joint, const Link& link, const Figu
   const double speed = length(rate);
   if (speed == 0.0) return;
   const Vec3 turn = (tick_s_ + kNearEnd / speed) * rate;
-  for (const BallEnd& end : ball_ends(joint, &state.coords[at(link.coord)], turn).all())
+  const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn);
+  for (const BallEnd& end : ends.all())
     contacts_.add_ball_stop(link.dof, -end.out, -std::max(end.room_rad, 0.0) / tick_s_);
 }
 
