@@ -113,7 +113,7 @@ class PossibleTarget {
   }
 
   Momentum momentum_at(const TargetMotion& target, int frame) {
-    FigureState state = standing_start(body_, target);
+    FigureState state = moving_start(body_, target);
     target.root_at(frame, state.root, velocity_.data());
     for (const Link& link : body_.links().subspan(1))
       target.joint_at(link, frame, &state.coords[at(link.coord)], &velocity_[at(link.dof)]);
@@ -216,7 +216,6 @@ class PossibleTarget {
   }
 
   void move() {
-    start_m_s_ += pendulum_per_s(0) * shift_m_.front();
     for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m += shift_m_[at(f)];
     keep_all_soles();
     for (int again = 0; again < kLowerings && lower(missing_m_); ++again) keep_all_soles();
@@ -267,7 +266,6 @@ class PossibleTarget {
 
   BalancePlan balance() {
     BalancePlan out;
-    out.start_m_s = start_m_s_;
     for (int f = 0; f < motion_.frame_count; ++f) {
       Vec3 is, wanted;
       const Need& need = needs_[at(f)];
@@ -289,7 +287,6 @@ class PossibleTarget {
   std::vector<double> velocity_, zeros_, forces_, missing_m_;
   std::vector<Need> needs_;
   std::vector<Vec3> speeds_, shift_m_, corners_;
-  Vec3 start_m_s_{0.0};
   HullScratch hull_;
 };
 

@@ -20,7 +20,6 @@ struct BalancePlan {
   std::vector<Vec3> com_m;    // centre of mass
   std::vector<Vec3> com_m_s;  // its velocity
   std::vector<Vec3> zmp_m;    // zero moment point; under the centre of mass in flight
-  Vec3 start_m_s{0.0};        // of the root, in frame 0, beyond what the target's frames say
 };
 
 // Moves root and legs of a motion. The figure counts without its loads, of which a target does not know. A motion that

@@ -55,16 +55,10 @@ class Simulation {
     s_.actuation.assign(n);
     s_.contacts.begin(figure_, environment_, plan_, motion_.rate_hz);
     s_.record.begin(motion_, body_.dof_count());
-    s_.equation.begin(figure_, standing_start(body_, target_));
-    add_start_speed();
+    s_.equation.begin(figure_, moving_start(body_, target_));
     s_.standing.begin(figure_, balance_, tick_s_);
     s_.loose.begin(tick_s_);
     s_.contacts.lead_all();
-  }
-
-  // The root of a target that was shifted begins on its way.
-  void add_start_speed() {
-    for (int k = 0; k < 3; ++k) state_.velocity[at(k)] = balance_.start_m_s[k];
   }
 
   // Whether something acts from outside, or did a short while ago.

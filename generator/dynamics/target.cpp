@@ -53,13 +53,23 @@ TargetMotion::Between TargetMotion::between(double frame) const {
   return {before, std::min(before + 1, frame_count_ - 1), clamped - before, stands ? 0.0 : rate_hz_};
 }
 
-// Half of the way from the frame before to the one after: Catmull and Rom's slope. Ends have none.
+// The way to the inside of the motion from a frame at its end, 0 from other frames.
+int TargetMotion::inward(int frame) const {
+  if (frame_count_ < 4) return 0;
+  return frame == 0 ? 1 : frame == frame_count_ - 1 ? -1 : 0;
+}
+
+// Half of the way from the frame before to the one after: Catmull and Rom's slope. At its ends the motion goes on as it
+// goes beside them: a target is a piece of a longer motion, and a figure that had to start or stop within a frame would
+// need any force. Motions of less than four frames stand still at their ends.
 double TargetMotion::slope(int frame, int coord) const {
+  if (const int way = inward(frame)) return 2.0 * slope(frame + way, coord) - slope(frame + 2 * way, coord);
   if (frame == 0 || frame == frame_count_ - 1) return 0.0;
   return 0.5 * (row(frame + 1)[coord] - row(frame - 1)[coord]);
 }
 
 Vec3 TargetMotion::turn_slope(int frame, int coord) const {
+  if (const int way = inward(frame)) return 2.0 * turn_slope(frame + way, coord) - turn_slope(frame + 2 * way, coord);
   if (frame == 0 || frame == frame_count_ - 1) return Vec3(0.0);
   return 0.5 * to_rotation_vector(glm::conjugate(quat_at(row(frame - 1) + coord)) * quat_at(row(frame + 1) + coord));
 }
@@ -100,13 +110,15 @@ void TargetMotion::root_at(double frame, Rigid& world_from_root, double* velocit
   world_from_root.q = quat_at(q);
 }
 
-// Second differences: 0 at the ends.
+// Second differences; at the ends those of the frame beside.
 double TargetMotion::bend(int frame, int coord) const {
+  frame += inward(frame);
   if (frame <= 0 || frame >= frame_count_ - 1) return 0.0;
   return row(frame + 1)[coord] - 2.0 * row(frame)[coord] + row(frame - 1)[coord];
 }
 
 Vec3 TargetMotion::turn_bend(int frame, int coord) const {
+  frame += inward(frame);
   if (frame <= 0 || frame >= frame_count_ - 1) return Vec3(0.0);
   const Quat from = glm::conjugate(quat_at(row(frame) + coord));
   return to_rotation_vector(from * quat_at(row(frame + 1) + coord)) +

@@ -46,6 +46,7 @@ class TargetMotion {
   };
   Between between(double frame) const;
   const double* row(int frame) const { return &coords_[static_cast<std::size_t>(frame * coord_count_)]; }
+  int inward(int frame) const;
   double slope(int frame, int coord) const;
   void root_bend(int frame, double* bends) const;
   double bend(int frame, int coord) const;

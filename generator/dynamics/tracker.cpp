@@ -68,14 +68,14 @@ void add_missed(const Link& link, const TargetMotion& target, double frame, doub
 
 }  // namespace
 
-FigureState standing_start(const Multibody& body, const TargetMotion& target) {
+FigureState moving_start(const Multibody& body, const TargetMotion& target) {
   FigureState state;
   state.coords.resize(static_cast<std::size_t>(body.coord_count()));
   state.velocity.assign(static_cast<std::size_t>(body.dof_count()), 0.0);
-  double unused[kRootDofs];
-  target.root_at(0.0, state.root, unused);
+  target.root_at(0.0, state.root, state.velocity.data());
   for (const Link& link : body.links().subspan(1))
-    target.joint_at(link, 0.0, &state.coords[static_cast<std::size_t>(link.coord)], unused);
+    target.joint_at(link, 0.0, &state.coords[static_cast<std::size_t>(link.coord)],
+                    &state.velocity[static_cast<std::size_t>(link.dof)]);
   return state;
 }
 

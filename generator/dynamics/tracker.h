@@ -14,8 +14,8 @@ struct FigureState {
   std::vector<double> velocity;  // see Multibody
 };
 
-// The target's pose at frame 0, at rest.
-FigureState standing_start(const Multibody& body, const TargetMotion& target);
+// The target's pose and rates at frame 0.
+FigureState moving_start(const Multibody& body, const TargetMotion& target);
 
 struct Tracking {
   bool root_leads =

@@ -36,7 +36,7 @@ class Tick {
                         load_kg)};
     figure = build_figure(character, stage.legs, loads);
     const TargetMotion target(figure.body, generate(stage));
-    state = standing_start(figure.body, target);
+    state = moving_start(figure.body, target);
     double unused[kRootDofs];
     target.root_at(28.0, state.root, unused);
     for (const Link& link : figure.body.links().subspan(1))

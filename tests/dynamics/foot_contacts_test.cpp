@@ -33,7 +33,7 @@ struct StandingHuman {
     stage = fixtures::stage_of({});
     figure = build_figure(fixtures::human(), stage.legs, {});
     const TargetMotion target(figure.body, generate(stage));
-    equation.begin(figure, standing_start(figure.body, target));
+    equation.begin(figure, moving_start(figure.body, target));
     plan = ContactPlan(fixtures::human(), figure, kLevelGround, lifting_feet(stage));
     contacts.begin(figure, kLevelGround, plan, 60.0);
     place();

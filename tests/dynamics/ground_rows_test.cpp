@@ -22,7 +22,7 @@ struct Leaning {
     figure = build_figure(fixtures::human(), stage.legs, {});
     const Motion motion = generate(stage);
     plan = ContactPlan(fixtures::human(), figure, kFlatGround, motion);
-    equation.begin(figure, standing_start(figure.body, TargetMotion(figure.body, motion)));
+    equation.begin(figure, moving_start(figure.body, TargetMotion(figure.body, motion)));
     contacts.begin(figure, kFlatGround, plan, 60.0);
     equation.place();
     equation.find_mass();

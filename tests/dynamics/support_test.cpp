@@ -119,7 +119,7 @@ class Squat {
         ticks_(ticks),
         tick_s_(1.0 / (30.0 * ticks)) {
     target_.share_knots(closed_chain(*stage_.character, stage_.legs));
-    state_ = standing_start(body_, target_);
+    state_ = moving_start(body_, target_);
     world_.resize(stage_.character->joints().size());
     place_all();
     feet_ = feet_of(*stage_.character, world_);

@@ -87,6 +87,31 @@ TEST(Target, StandsStillBeforeItsStartAndAfterItsEnd) {
   }
 }
 
+// A hinge at an even speed, and a root in free fall, go on so at both ends: no force starts or stops them there.
+TEST(Target, GoesOnAtItsEndsAsItGoesBesideThem) {
+  const Result<Stage> stage = build_stage(scene("human_reaches"), stock_library());
+  const Character& character = *stage->character;
+  Motion motion = generate(*stage);
+  const Joint& elbow = character.joint(character.find_joint("arm_left/elbow"));
+  for (int f = 0; f < motion.frame_count; ++f) {
+    motion.row(f)[static_cast<std::size_t>(elbow.coord)] = 0.01 * f;
+    motion.root[static_cast<std::size_t>(f)].p_m.y = 1.0 - 0.001 * f * f;
+  }
+  const Multibody body = Multibody::of(character);
+  const TargetMotion target(body, motion);
+  const auto link = static_cast<std::size_t>(character.find_joint("arm_left/elbow"));
+  const auto dof = static_cast<std::size_t>(body.links()[link].dof);
+  const double rate = motion.rate_hz, last = motion.frame_count - 1;
+  for (const double frame : {0.0, last}) {
+    const Sample there = sampled(body, target, frame);
+    EXPECT_NEAR(there.velocity[dof], 0.01 * rate, 1e-9);
+    EXPECT_NEAR(there.velocity[1], -0.002 * frame * rate, 1e-9);
+    double fall[kRootDofs];
+    target.root_acceleration_at(frame, fall);
+    EXPECT_NEAR(fall[1], -0.002 * rate * rate, 1e-6);
+  }
+}
+
 TEST(Target, LegsOfOneChainShareTheirKnots) {
   const Result<Stage> stage = build_stage(scene("mech_walk_aim"), stock_library());
   const Motion motion = generate(*stage);
