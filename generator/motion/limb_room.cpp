@@ -81,8 +81,9 @@ void LimbRoom::begin_bodies() {
     for (const Solid& solid : solids) radius = std::max(radius, length(solid.center_m - center) + solid.bound_m);
     ball_center_m_.push_back(center), ball_radius_m_.push_back(radius);
   }
-  ball_world_m_ = ball_center_m_;
-  has_ball_.assign(ball_center_m_.size(), 0), has_solids_.assign(ball_center_m_.size(), 0);
+  ball_world_m_ = ball_center_m_, placed_at_.assign(ball_center_m_.size(), {});
+  has_solids_.assign(ball_center_m_.size(), 0);
+  ways_.assign(character_->judged_colliders().size(), Vec3(0.0));
 }
 
 // Whether a limb is this one or carried by it.
@@ -142,10 +143,15 @@ bool LimbRoom::has_grip(int limb) const {
          });
 }
 
-// Bodies are placed when they are first asked for.
+// Most bodies are where they were in the look before. Their solids are placed when they are first asked for.
 void LimbRoom::begin_look(int limb, std::span<const Rigid> world) {
   looks_from_ = limb, seen_ = world;
-  std::ranges::fill(has_ball_, 0), std::ranges::fill(has_solids_, 0);
+  for (int b = 0; b < static_cast<int>(placed_at_.size()); ++b) {
+    const Rigid& now = where(b);
+    if (now == placed_at_[at(b)]) continue;
+    placed_at_[at(b)] = now, has_solids_[at(b)] = 0;
+    ball_world_m_[at(b)] = now * ball_center_m_[at(b)];
+  }
 }
 
 // A body of another limb of the same kind is where it was before this frame.
@@ -156,22 +162,16 @@ const Rigid& LimbRoom::where(int body) const {
   return is_twin ? before_[joint] : seen_[joint];
 }
 
-const Vec3& LimbRoom::ball_of(int body) {
-  if (has_ball_[at(body)] == 0) ball_world_m_[at(body)] = where(body) * ball_center_m_[at(body)];
-  has_ball_[at(body)] = 1;
-  return ball_world_m_[at(body)];
-}
-
 void LimbRoom::place_solids(int body) {
   if (has_solids_[at(body)] != 0) return;
   has_solids_[at(body)] = 1;
   const Body& own = character_->bodies()[at(body)];
   for (int c = own.first_collider; c < own.first_collider + own.collider_count; ++c)
-    place(where(body), own_[at(c)], world_[at(c)]);
+    place(placed_at_[at(body)], own_[at(c)], world_[at(c)]);
 }
 
-// Infinite beyond the band. Both bodies are placed.
-double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) const {
+// Infinite beyond the band. Both bodies are placed. Colliders that were apart along a direction mostly still are.
+double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) {
   double least = kFar;
   for (int c = pair.first_pair; c < pair.first_pair + pair.pair_count; ++c) {
     const ColliderPair& colliders = character_->judged_colliders()[at(c)];
@@ -179,7 +179,9 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) cons
     const double matters = std::min(band_m, least), most = a.bound_m + b.bound_m + matters;
     const Vec3 d = b.center_m - a.center_m;
     if (most > 0.0 && glm::dot(d, d) > most * most) continue;
-    least = std::min(least, signed_distance(a, b, matters));
+    Vec3& way = ways_[at(c)];
+    if (way != Vec3(0.0) && gap_along(a, b, way) > matters + kSurely_m) continue;
+    least = std::min(least, signed_distance(a, b, matters, way));
   }
   return least > band_m ? kFar : least;
 }
@@ -187,7 +189,7 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) cons
 // Infinite beyond the band.
 double LimbRoom::distance_m(int pair, double band_m) {
   const JudgedPair& judged = character_->judged_pairs()[at(pair)];
-  const Vec3 apart = ball_of(judged.body_b) - ball_of(judged.body_a);
+  const Vec3 apart = ball_world_m_[at(judged.body_b)] - ball_world_m_[at(judged.body_a)];
   const double reach = ball_radius_m_[at(judged.body_a)] + ball_radius_m_[at(judged.body_b)] + band_m;
   if (reach < 0.0 || glm::dot(apart, apart) > reach * reach) return kFar;
   place_solids(judged.body_a), place_solids(judged.body_b);
@@ -313,7 +315,7 @@ bool LimbRoom::is_of(const HeldObject& held, int body, int object) const {
 }
 
 bool LimbRoom::holds(int body, int object) const {
-  const int limb = limb_of_[part_of(body)];
+  const int limb = limb_of_body_[at(body)];
   return limb >= 0 && is_of(held_[at(limb)], body, object);
 }
 

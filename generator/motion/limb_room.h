@@ -104,11 +104,10 @@ class LimbRoom {
   void begin_ground();
   void begin_look(int limb, std::span<const Rigid> world);
   const Rigid& where(int body) const;
-  const Vec3& ball_of(int body);
   void place_solids(int body);
   double distance_m(int pair, double band_m);
   double band_below(double room_m, int pair) const;
-  double collider_distance_m(const JudgedPair& pair, double band_m) const;
+  double collider_distance_m(const JudgedPair& pair, double band_m);
   double off_obstacles_m(int body, const Rigid& world_from_body, double band_m) const;
   double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment, double band_m) const;
 
@@ -132,11 +131,13 @@ class LimbRoom {
   std::vector<double> ball_radius_m_;
   std::vector<int> limb_of_body_;  // by body; -1 of the root part's
   std::vector<int> kind_;          // by limb: the first limb whose part is of the same kind
-  // The present look at the figure, from a limb or from none (-1), and the bodies that it has placed.
+  std::vector<Vec3> ways_;         // by judged collider: a direction along which they were apart, or 0
+  // The present look at the figure, from a limb or from none (-1), and where it has placed the bodies.
   int looks_from_ = -1;
   std::span<const Rigid> seen_;
+  std::vector<Rigid> placed_at_;
   std::vector<Vec3> ball_world_m_;
-  std::vector<char> has_ball_, has_solids_;
+  std::vector<char> has_solids_;
 };
 
 }  // namespace contort
