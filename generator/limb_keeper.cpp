@@ -118,7 +118,7 @@ void LimbKeeper::plant(const Limb& limb) {
 }
 
 void LimbKeeper::place(const Leg& leg, const Posture& posture) {
-  for (const int j : leg.joints) forward_kinematics(*stage_.character, posture.coords, j, j + 1, s_.rules.world());
+  forward_kinematics(*stage_.character, posture.coords, leg.joints, s_.rules.world());
 }
 
 // For a limb that no action moves any more: its feet go to where its base posture has them, by the greatest share of
@@ -169,7 +169,7 @@ Rigid LimbKeeper::rest_sole(const Leg& leg) {
   const int hip = leg.joints.front();
   for (int j = 1; j < hip; ++j)  // carriers first
     if (carries(character, j, hip)) forward_kinematics(character, s_.postures.base.coords, j, j + 1, s_.rest_world);
-  for (const int j : leg.joints) forward_kinematics(character, s_.postures.base.coords, j, j + 1, s_.rest_world);
+  forward_kinematics(character, s_.postures.base.coords, leg.joints, s_.rest_world);
   return world_from_socket(character, s_.rest_world, leg.sole);
 }
 
@@ -189,8 +189,7 @@ void LimbKeeper::hold_over_feet(const Limb& limb) {
     blend_part(*stage_.character, at(p), s_.past.before, s_.wanted, share, s_.postures.shown);
     s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
   }
-  for (const int j : limb.joints)
-    forward_kinematics(*stage_.character, s_.postures.shown.coords, j, j + 1, s_.rules.world());
+  forward_kinematics(*stage_.character, s_.postures.shown.coords, limb.joints, s_.rules.world());
 }
 
 bool LimbKeeper::is_carried_and_stands(const Limb& limb, int leg) const {
@@ -211,11 +210,10 @@ bool LimbKeeper::feet_reach(const Limb& limb, double steps) {
   std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
   s_.between.coords = s_.past.before.coords;
   for (const int p : limb.parts) blend_part(character, at(p), s_.past.before, s_.wanted, steps, s_.between);
-  for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, s_.rest_world);
+  forward_kinematics(character, s_.between.coords, limb.joints, s_.rest_world);
   return std::ranges::all_of(limb.legs, [&](int i) {
     if (!is_carried_and_stands(limb, i)) return true;
-    for (const int j : stage_.legs[at(i)].joints)
-      forward_kinematics(character, s_.between.coords, j, j + 1, s_.rest_world);
+    forward_kinematics(character, s_.between.coords, stage_.legs[at(i)].joints, s_.rest_world);
     s_.rules.feet().plant(at(i), s_.rest_world, s_.between.coords);
     return s_.rules.feet().off_m(at(i), s_.rest_world) < kReaches_m;
   });
@@ -234,7 +232,7 @@ bool LimbKeeper::has_room_on_the_way(const Limb& limb, double gap_m) {
   return std::ranges::all_of(std::array{0.25, 0.5, 0.75, 1.0}, [&](double share) {
     for (const int p : limb.parts)
       blend_part(character, at(p), s_.past.before, s_.postures.shown, share, s_.between);
-    for (const int j : limb.joints) forward_kinematics(character, s_.between.coords, j, j + 1, world);
+    forward_kinematics(character, s_.between.coords, limb.joints, world);
     LimbRoom& room = s_.rules.room();
     const std::size_t part = at(limb.parts.back());
     if (share == 1.0) return room.has_room(part, world, -kTooNear_m, gap_m);

@@ -37,7 +37,7 @@ void for_coords(const RuleInput& in, Copy copy) {
 
 bool has_room_for_aim(const RuleInput& in, const Posture& posture) {
   const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
-  for (const int j : in.room.limb_of(part).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+  forward_kinematics(in.character, posture.coords, in.room.limb_of(part).joints, in.world);
   return in.room.has_room(part, in.world);
 }
 

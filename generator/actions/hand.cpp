@@ -71,7 +71,7 @@ const Limb& limb_of(const RuleInput& in) {
 }
 
 void place(const RuleInput& in, const Posture& posture) {
-  for (const int j : limb_of(in).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+  forward_kinematics(in.character, posture.coords, limb_of(in).joints, in.world);
 }
 
 double& angle_of(const RuleInput& in, int joint, Posture& posture) {

@@ -21,7 +21,7 @@ const Limb& way_limb(const RuleInput& in) {
 
 double room_m(const RuleInput& in, const Posture& posture, const RoomRange& range) {
   const auto part = static_cast<std::size_t>(&in.part - in.character.parts().data());
-  for (const int j : way_limb(in).joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+  forward_kinematics(in.character, posture.coords, way_limb(in).joints, in.world);
   return in.room.room_m(part, in.world, range);
 }
 

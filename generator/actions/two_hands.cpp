@@ -86,7 +86,7 @@ double fault_of_second_hand(const RuleInput& in, Posture& posture) {
   double least = 1e30;
   cheapest_swivel(arm.side, [&](double swivel_rad) {
     reach_for(in.character, chain, in.world, point_m, swivel_rad, posture.coords);
-    for (const int j : limb.joints) forward_kinematics(in.character, posture.coords, j, j + 1, in.world);
+    forward_kinematics(in.character, posture.coords, limb.joints, in.world);
     const double lacks_m = std::max(0.0, -kTooNear_m - in.room.room_beside_m(at(in.aim->second.arm), held, in.world));
     const double fault = 10.0 * excess_of(in, limb, posture) + 100.0 * lacks_m;
     least = std::min(least, fault);

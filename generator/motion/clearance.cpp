@@ -67,8 +67,8 @@ struct Clearance::Case {
 
   // A foot of the limb's own that stands is lifted, and those on legs that it carries stay where they stood.
   void place() {
-    for (const int j : limb.joints) forward_kinematics(character, shown.coords, j, j + 1, world);
-    for (const int j : limb.carried) forward_kinematics(character, shown.coords, j, j + 1, world);
+    forward_kinematics(character, shown.coords, limb.joints, world);
+    forward_kinematics(character, shown.coords, limb.carried, world);
     is_lifted = false;
     for (const int leg : limb.legs)
       if (limb.is_its_own(feet.legs()[at(leg)]))
@@ -137,6 +137,11 @@ struct Clearance::Case {
   Vec3 step_of(int j) const { return way_between(character.joint(j), past.before, shown); }
   double greatest_step(int j) const { return character.joint(j).max_speed * past.frame_s; }
   bool is_clear() { return has_room(enough_m) && is_clear_between(); }
+  // Feet that are placed change the steps of their joints; without any, steps need no placing and are looked at first.
+  bool is_clear_and_slow() { return limb.legs.empty() ? is_slow() && is_clear() : is_clear() && is_slow(); }
+  bool is_clear_slow_and_smooth() {
+    return limb.legs.empty() ? is_smooth() && is_clear_and_slow() : is_clear_and_slow() && is_smooth();
+  }
 
   void go(double share) const {
     for (const int p : limb.parts) blend_part(character, at(p), past.before, wanted, share, shown);
@@ -144,7 +149,7 @@ struct Clearance::Case {
 
   // The greatest share of the way that is clear; if possible one that is also smooth, and that can be stopped after.
   bool stop_on_the_way() {
-    const auto is_good = [&](double share) { return go(share), is_clear() && is_slow(); };
+    const auto is_good = [&](double share) { return go(share), is_clear_and_slow(); };
     std::optional<double> good, smooth;
     for (const double share : kShares) {
       if (!is_good(share)) continue;
@@ -163,7 +168,7 @@ struct Clearance::Case {
       save();
       const Joint& joint = character.joint(j);
       std::copy_n(wanted.coords.begin() + joint.coord, coord_size(joint.kind), shown.coords.begin() + joint.coord);
-      if (!is_clear() || !is_slow() || !is_smooth()) restore();
+      if (!is_clear_slow_and_smooth()) restore();
     }
     place();
   }

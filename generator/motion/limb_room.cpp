@@ -248,11 +248,15 @@ double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world, const R
   const int limb = limb_of_[part];
   double least = range.high_m;
   begin_look(limb, world);
-  for (const int p : pairs_[at(limb)]) {
-    if (least < range.low_m) return least;
-    const JudgedPair& pair = character_->judged_pairs()[at(p)];
-    if (!holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a))
-      least = std::min(least, distance_m(p, band_below(least, p)) - std::min(range.gap_m, safe_m_[at(p)]));
+  std::vector<int>& pairs = pairs_[at(limb)];
+  for (std::size_t i = 0; i < pairs.size() && !(least < range.low_m); ++i) {
+    const JudgedPair& pair = character_->judged_pairs()[at(pairs[i])];
+    if (holds(pair.body_a, pair.body_b) || holds(pair.body_b, pair.body_a)) continue;
+    const double gap_m = std::min(range.gap_m, safe_m_[at(pairs[i])]);
+    const double room_m = distance_m(pairs[i], band_below(least, pairs[i])) - gap_m;
+    if (!(room_m < least)) continue;
+    least = room_m;
+    std::swap(pairs[i], pairs.front());  // the nearest pair is mostly the nearest in the next look, too
   }
   return least;
 }

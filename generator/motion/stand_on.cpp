@@ -18,7 +18,7 @@ constexpr double kStands_m = 1e-3;  // a sole that is missed by less is reached
 bool fits(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& sole,
           std::span<double> row) {
   place_foot(character, leg, world, sole, row);
-  for (const int j : leg.joints) forward_kinematics(character, row, j, j + 1, world);
+  forward_kinematics(character, row, leg.joints, world);
   const double missed_m = length(world_from_socket(character, world, leg.sole).p_m - sole.p_m);
   return missed_m <= kStands_m &&
          std::ranges::all_of(leg.joints, [&](int j) { return is_in_range(character.joint(j), row); });

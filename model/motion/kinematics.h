@@ -14,6 +14,10 @@ Rigid joint_motion(const Joint& joint, std::span<const double> row);
 void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
                         std::span<Rigid> world);
 
+// The same for these joints, carriers first.
+void forward_kinematics(const Character& character, std::span<const double> row, std::span<const int> joints,
+                        std::span<Rigid> world);
+
 // Computes the transforms of all joints; world[0] = root.
 void forward_kinematics(const Character& character, const Rigid& root, std::span<const double> row,
                         std::span<Rigid> world);
