@@ -13,8 +13,23 @@ namespace contort {
 
 namespace {
 
-// Level ground has a formula.
-double lowest(const Solid& solid) { return solid.center_m.y - extent_along(solid, Vec3(0.0, -1.0, 0.0)); }
+// Level ground has a formula, which needs only the upward parts of what place() would compute. `up` is the row of the
+// rotation that gives them. Hulls are placed.
+double lowest_m(const Rigid& world_from_body, const Vec3& up, const Solid& own, Solid& placed) {
+  const double center_m = (world_from_body * own.center_m).y;
+  switch (own.core) {
+    case Solid::Core::point: return center_m - own.radius_m;
+    case Solid::Core::segment:
+      return center_m - (own.half_length_m * std::fabs((world_from_body.q * own.axis).y) + own.radius_m);
+    case Solid::Core::box: {
+      const Vec3 rise(glm::dot(up, own.axes[0]), glm::dot(up, own.axes[1]), glm::dot(up, own.axes[2]));
+      return center_m - (glm::dot(glm::abs(rise), own.half_m) + own.radius_m);
+    }
+    case Solid::Core::hull: break;
+  }
+  place(world_from_body, own, placed);
+  return placed.center_m.y - extent_along(placed, Vec3(0.0, -1.0, 0.0));
+}
 
 double height_above(const Environment& environment, const Solid& solid) {
   double least_m = std::numeric_limits<double>::infinity();
@@ -43,11 +58,14 @@ void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
   for (int frame = 0; frame < in.motion.frame_count; ++frame)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Rigid& world_from_body = in.world_at(frame)[static_cast<std::size_t>(bodies[b].joint)];
+      const Mat3 axes = glm::mat3_cast(world_from_body.q);
+      const Vec3 up(axes[0].y, axes[1].y, axes[2].y);
       double least_m = std::numeric_limits<double>::infinity();
       for (int c = 0; c < bodies[b].collider_count; ++c) {
         const auto i = static_cast<std::size_t>(bodies[b].first_collider + c);
-        place(world_from_body, own[i], placed[i]);
-        const double height_m = is_level ? lowest(placed[i]) - level_m : height_above(in.environment, placed[i]);
+        if (!is_level) place(world_from_body, own[i], placed[i]);
+        const double height_m = is_level ? lowest_m(world_from_body, up, own[i], placed[i]) - level_m
+                                         : height_above(in.environment, placed[i]);
         if (!(height_m >= least_m)) least_m = height_m;
       }
       fold.report(static_cast<int>(b), frame, least_m + kSink_m);
