@@ -122,12 +122,24 @@ bool JointPath::follow_joint(int j, double* coords) {
   return true;
 }
 
+// Whether a joint of one coordinate rests where it is wanted: most joints do in most frames.
+bool JointPath::rests(int j, double wanted) const {
+  const Joint& joint = character_->joint(j);
+  return joint.kind != JointKind::ball && now_[at(joint.coord)] == wanted && wanted_[at(joint.coord)] == wanted &&
+         joints_[at(j)].speed == Vec3(0.0);
+}
+
 bool JointPath::follow(std::size_t part, std::span<double> coords) {
   const Part& own = character_->parts()[part];
   bool is_behind = false;
   for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
     const Joint& joint = character_->joint(j);
     if (joint.kind == JointKind::root) continue;
+    if (const double coord = coords[at(joint.coord)]; rests(j, coord)) {
+      now_[at(joint.coord)] = wanted_[at(joint.coord)] = coord;  // the sign of a zero may differ
+      joints_[at(j)] = {};
+      continue;
+    }
     std::array<double, 4> wanted{};
     const auto first = coords.begin() + joint.coord;
     std::copy_n(first, coord_size(joint.kind), wanted.begin());

@@ -40,6 +40,7 @@ class JointPath {
     bool is_behind = false;
   };
 
+  bool rests(int j, double wanted) const;
   bool follow_joint(int j, double* coords);
   void put(std::size_t part, std::span<const double> coords);
 

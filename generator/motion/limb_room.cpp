@@ -304,9 +304,10 @@ bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
   begin_look(-1, world);
   return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
-    const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)];
+    const int a = limb_of_body_[at(pair.body_a)], b = limb_of_body_[at(pair.body_b)];
+    const double touch_m = std::min(kTouch_m, safe_m_[at(p)]);
     return !swings(a) && !swings(b) && !holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a) &&
-           distance_m(p, kRoomBand_m) < std::min(kTouch_m, safe_m_[at(p)]);
+           distance_m(p, touch_m + kSurely_m) < touch_m;
   });
 }
 
@@ -329,7 +330,7 @@ bool LimbRoom::is_at(const HeldObject& held, std::size_t part, std::span<const R
   return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
     const JudgedPair& pair = character_->judged_pairs()[at(p)];
     return (is_of(held, pair.body_a, pair.body_b) || is_of(held, pair.body_b, pair.body_a)) &&
-           distance_m(p, kRoomBand_m) < kAt_m;
+           distance_m(p, kAt_m + kSurely_m) < kAt_m;
   });
 }
 
