@@ -18,8 +18,7 @@ stage() {
     END { printf "| %s | %.1f %% | %.2f |\n", name, 100 * sum / all, sum / frames / 1000 }' "$folder/inclusive"
 }
 
-for run in "tame human" "nightly human" "nightly mech" "nightly quadruped"; do
-  set -- $run  # splits it in two
+print_table() {
   frames=$(valgrind --tool=callgrind --callgrind-out-file="$folder/counts" "$program" "$1" "$2" "$cases" \
     2>"$folder/log" | sed 's/ .*//')
   callgrind_annotate --inclusive=yes --threshold=100 "$folder/counts" >"$folder/inclusive"
@@ -39,4 +38,9 @@ for run in "tame human" "nightly human" "nightly mech" "nightly quadruped"; do
   for check in self_collision ground_penetration foot_slide joint_range angular_velocity angular_acceleration; do
     stage "– $check" "contort::${check}_measure\("
   done
-done
+}
+
+print_table tame human
+print_table nightly human
+print_table nightly mech
+print_table nightly quadruped
