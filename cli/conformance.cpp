@@ -199,7 +199,8 @@ class Examination {
 
   void examine_drawn() {
     std::map<std::string, int> failing;
-    int refused = 0, frames = 0;
+    std::map<std::string, int> refused;  // by reason
+    int frames = 0;
     double spent_s = 0.0;
     const double begin_s = steady_s();
     for (int index = 0; index < kDrawn && !has_ended_ && steady_s() - begin_s < kMostDrawn_s; ++index) {
@@ -209,7 +210,7 @@ class Examination {
       spent_s += steady_s() - start_s;
       ++out_.motions;
       if (!evaluation) continue;
-      if (!*evaluation) ++refused, refusal_ = (*evaluation).issue().text;
+      if (!*evaluation) ++refused[(*evaluation).issue().text];
       if (!*evaluation) continue;
       frames += (*evaluation)->frame_count;
       for (const std::string& check : failing_checks(**evaluation)) ++failing[check];
@@ -217,7 +218,10 @@ class Examination {
       look_for_degrees(evaluator_.execution());
     }
     out_.frames_per_s = spent_s > 0.0 ? frames / spent_s : 0.0;
-    remark_on(failing, refused);
+    out_.refusals.assign(refused.begin(), refused.end());
+    std::ranges::stable_sort(out_.refusals, std::ranges::greater(), &std::pair<std::string, int>::second);
+    remark_on(failing);
+    remark_on_refusals();
   }
 
   static std::vector<std::string> failing_checks(const Evaluation& evaluation) {
@@ -258,7 +262,7 @@ class Examination {
     return std::fabs(wrap_angle(*now - *before));
   }
 
-  void remark_on(const std::map<std::string, int>& failing, int refused) {
+  void remark_on(const std::map<std::string, int>& failing) {
     const auto share = [&](const char* check) {
       const auto found = failing.find(check);
       return found == failing.end() ? 0.0 : static_cast<double>(found->second) / std::max(1, out_.motions);
@@ -280,13 +284,18 @@ class Examination {
     if (share("off_axis") > kOften)
       fault("Hinges turn about other axes than the manifest declares in " + rounded_text(100.0 * share("off_axis")) +
             " % of the motions; is axis in the joint's own frame?");
-    if (refused * 2 > out_.motions)
-      fault(rounded_text(100.0 * refused / std::max(1, out_.motions)) +
-            " % of the motions that the manifest allows are refused: " + refusal_);
     if (out_.frames_per_s > 0.0 && out_.frames_per_s < kSlow_frames_s)
       note("The generator makes " + rounded_text(out_.frames_per_s) +
            " frames per second; a night of eight hours then sees " +
            rounded_text(out_.frames_per_s * 8.0 * 3600.0 / 120.0) + " motions of two seconds on a core.");
+  }
+
+  void remark_on_refusals() {
+    int refused = 0;
+    for (const auto& [reason, count] : out_.refusals) refused += count;
+    if (refused * 2 > out_.motions)
+      fault(rounded_text(100.0 * refused / std::max(1, out_.motions)) +
+            " % of the motions that the manifest allows are refused: " + out_.refusals.front().first);
   }
 
   // Each number at the ends of its range, everything else at its default.
@@ -324,7 +333,7 @@ class Examination {
   Evaluator evaluator_;
   DrawConfig config_;
   Conformance out_;
-  std::string wild_joint_, refusal_;
+  std::string wild_joint_;
   bool has_ended_ = false;  // one such fault is enough: the next would be the same
 };
 

@@ -20,6 +20,7 @@ struct Conformance {
   std::vector<std::string> judged;                             // names of checks
   std::vector<std::pair<std::string, std::string>> not_judged;  // with the reasons
   int motions = 0;
+  std::vector<std::pair<std::string, int>> refusals;  // reasons of the drawn motions' refusals, the most frequent first
   double frames_per_s = 0.0;
   double start_s = 0.0;
 

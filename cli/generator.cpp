@@ -57,6 +57,8 @@ void print_conformance(const Conformance& found) {
   std::printf("judged: %s\n", judged.empty() ? "nothing" : judged.c_str());
   for (const auto& [check, reason] : found.not_judged)
     std::printf("not judged: %s: %s\n", check.c_str(), reason.c_str());
+  for (const auto& [reason, count] : found.refusals)
+    std::printf("refused: %d of %d motions: %s\n", count, found.motions, printable(reason).c_str());
   for (const ProtocolRemark& remark : found.remarks)
     std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", printable(remark.text).c_str());
   if (!found.has_fault()) std::printf("OK: the generator keeps the protocol.\n");

@@ -1,8 +1,12 @@
 // Programs under test as a user has them: contort generator check, and --generator with every command.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "tests/cli/program.h"
 
@@ -30,6 +34,23 @@ TEST(GeneratorCheck, FindsNothingWrongWithAGoodProgram) {
       << ran.out;
   EXPECT_NE(ran.out.find("determinism: The same request gives the same bits"), std::string::npos);
   EXPECT_NE(ran.out.find("not judged: self_collision: no two bodies are judged as a pair"), std::string::npos);
+}
+
+// The same reason is told once, with the number of motions.
+TEST(GeneratorCheck, CountsRefusedMotionsByTheirReason) {
+  const std::string out = contort_program({"generator", "check", script("refuses")}).out;
+  std::map<std::string, int> counts;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("refused: ")) continue;
+    const std::string reason = line.substr(line.rfind(": ") + 2);
+    EXPECT_EQ(counts.count(reason), 0U) << out;
+    counts[reason] = std::atoi(line.c_str() + 9);
+  }
+  ASSERT_EQ(counts.size(), 2U) << out;
+  EXPECT_GT(counts["the angle is too large"], 0) << out;
+  EXPECT_GT(counts["there are too many swings"], 0) << out;
+  EXPECT_LE(counts["the angle is too large"] + counts["there are too many swings"], 24) << out;
 }
 
 TEST(GeneratorCheck, TellsEachWayToBreakThePromisesInOneRightSentence) {
