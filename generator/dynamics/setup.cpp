@@ -1,6 +1,5 @@
 // Builds the dynamics of a stage from a description.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "generator/dynamics/simulate.h"
@@ -9,7 +8,6 @@ namespace contort {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kModes = {"kinematic", "tracking", "dynamic"};
 constexpr double kTicksPerSecond = 120.0;
 
 Issue unknown(const std::string& pointer, const std::string& name, const std::string& what) {
@@ -45,8 +43,6 @@ Result<Impact> build_blow(const ImpactDesc& desc, const Character& character, co
 }
 
 }  // namespace
-
-std::span<const std::string_view> mode_names() { return kModes; }
 
 Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& character, std::span<const Leg> legs,
                                      double rate_hz, const Quat& start) {
