@@ -70,7 +70,7 @@ Cost cost_of(int whose, const Work& work) {
   return {steady_s() - begin_s, cpu_s(whose) - begin_cpu_s, 0.0};
 }
 
-// Of an odd number of rounds, by each number for itself.
+// The median of each number by itself; the number of rounds is odd.
 template <class Round>
 Cost median_cost(const Round& round) {
   std::vector<double> wall_s, cpu_s;
