@@ -52,6 +52,23 @@ void expect_same_bits(const Character& character, const Motion& motion, const Pl
       << kernel.name << ", " << motion.frame_count << " frames";
 }
 
+TEST(Kinematics, OfChosenJointsHasTheBitsOfAWholePass) {
+  Random random(5);
+  for (const char* name : {"human", "mech", "quadruped"}) {
+    const Character character = *build_character({name, {}, {}}, stock_library());
+    const Motion motion = any_motion(character, 1, random);
+    const std::vector<Rigid> whole = frame_by_frame(character, motion);
+    for (int step = 1; step <= 3; ++step) {
+      std::vector<int> chosen;
+      for (int j = step; j < static_cast<int>(whole.size()); j += step) chosen.push_back(j);
+      std::vector<Rigid> world = whole;
+      for (const int j : chosen) world[static_cast<std::size_t>(j)] = {};
+      forward_kinematics(character, motion.row(0), chosen, world);
+      EXPECT_EQ(std::memcmp(world.data(), whole.data(), whole.size() * sizeof(Rigid)), 0) << name << ", " << step;
+    }
+  }
+}
+
 TEST(PlaceFrames, HasTheBitsOfOneFrameAtATime) {
   Random random(3);
   for (const char* name : {"human", "mech", "quadruped"}) {
