@@ -87,8 +87,8 @@ double most_apart_rad(std::span<const Quat> a, std::span<const Quat> b) {
   return most;
 }
 
-// The distance of the poses around the frames [first, last], which are at rest, from the rest pose; 0 where the figure is on its way
-// there or back, or comes from one side and goes to another.
+// The distance of the poses around the frames [first, last], which are at rest, from the rest pose; 0 where the figure
+// is on its way there or back, or comes from one side and goes to another.
 double flash_rad(const ClipPoses& poses, int first, int last) {
   const auto apart = [&](int a, int b) { return most_apart_rad(poses.pose(a), poses.pose(b)); };
   const double away = std::min(most_apart_rad(poses.pose(first - 1), poses.rest),
