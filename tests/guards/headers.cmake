@@ -41,7 +41,7 @@ endif()
 find_path(FCL_INCLUDE fcl/narrowphase/distance.h)
 find_path(BULLET_INCLUDE btBulletCollisionCommon.h PATH_SUFFIXES bullet)
 add_library(contort_bench_objects OBJECT EXCLUDE_FROM_ALL ${BENCHES})
-target_include_directories(contort_bench_objects PRIVATE ${CMAKE_SOURCE_DIR})
+target_include_directories(contort_bench_objects PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/adapters/cpp)
 target_compile_options(contort_bench_objects PRIVATE -Wall -Wextra -Wshadow -Wconversion -Werror -Wno-unused-function -O0 -g0)
 target_compile_definitions(contort_bench_objects PRIVATE
   CONTORT_ASSERTS CONTORT_HAS_MUJOCO CONTORT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CONTORT_BINARY_DIR="${CMAKE_BINARY_DIR}")
