@@ -41,6 +41,7 @@ async function shoot(folder, name, opened) {
 // The playground in the middle of something: a figure that was pushed while it walked, in two modes.
 async function openPlayground(contort) {
   const server = spawn(contort, ['serve', '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  process.on('exit', () => server.kill());
   const base = await new Promise((done) => {
     server.stdout.on('data', (text) => { const found = /http:\S+\//.exec(text); if (found) done(found[0]); });
   });

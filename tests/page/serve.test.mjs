@@ -21,6 +21,7 @@ before(async () => {
   const corpus = join(scratch, 'corpus');
   execFileSync(options.contort, ['fuzz', '--cases', '0', '--corpus', corpus], { stdio: 'ignore' });  // an empty one
   server = spawn(options.contort, ['serve', '--corpus', corpus, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  process.on('exit', () => server.kill());  // also where this process ends before after() is called
   url = await new Promise((done, failed) => {
     let said = '';
     server.stdout.on('data', (text) => {

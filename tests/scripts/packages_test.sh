@@ -39,6 +39,14 @@ install() {
 called() { grep -q -- "$1" "$scratch/calls" || { echo "not called: $1"; exit 1; }; }
 nothing_called() { [ ! -e "$scratch/calls" ] || { echo "called: $(cat "$scratch/calls")"; exit 1; }; }
 
+# Node 18 is Debian 12's. A package that asks for a later one would end every test that needs it.
+for lock in "$project"/renders/page/package-lock.json "$project"/tests/page/package-lock.json; do
+  mapfile -t leasts < <(grep -oE '"node": ">= ?[0-9]+' "$lock" | grep -oE '[0-9]+$')
+  for least in "${leasts[@]}"; do
+    [ "$least" -le 18 ] || { echo "$lock: a package needs Node $least, and Debian 12 has Node 18"; exit 1; }
+  done
+done
+
 new_machine
 install 0 'Missing packages' product
 called 'apt-get update'
