@@ -1,5 +1,5 @@
 // Finds the smallest distance of two bodies between two frames. Joints are assumed to turn and travel evenly from one
-// frame to the next. docs/checks.md has the formulas.
+// frame to the next. docs/reference/checks.md has the formulas.
 #pragma once
 
 #include <cstddef>

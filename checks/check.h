@@ -1,6 +1,6 @@
 // A check measures signed margins: > 0 safe, 0 at the limit, < 0 violated; NaN counts as violated. One fold turns them
 // into findings, and nothing else does. Adding a check is one row in check_list.inc, one measuring function, two
-// exemplars in the tests (just inside, just outside) and a line in docs/checks.md.
+// exemplars in the tests (just inside, just outside) and a line in docs/reference/checks.md.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ enum class Needs : std::uint8_t {
   foreign,           // the data of a generator that is a program of its own
 };
 
-// The kind of what is wrong, for grouping failures (docs/causes.md).
+// The kind of what is wrong, for grouping failures (docs/reference/causes.md).
 enum class CheckKind : std::uint8_t {
   broken,    // no motion, or NaN and infinite values
   speed,     // too fast, too abrupt

@@ -1,6 +1,6 @@
 // self_collision: signed distance of every judged pair of bodies, in frames and between them. Most pairs need not be
-// looked at in most frames: as far as they were apart, they cannot have come near enough since. docs/checks.md has the
-// bounds.
+// looked at in most frames: as far as they were apart, they cannot have come near enough since.
+// docs/reference/checks.md has the bounds.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
-// The push that a figure shall withstand: falls after a harder one are notes, and no findings (docs/dynamics.md).
+// The push that a figure shall withstand: falls after a harder one are notes, and no findings
+// (docs/internals/dynamics.md).
 #pragma once
 
 #include <optional>

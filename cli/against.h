@@ -1,4 +1,5 @@
-// contort fuzz --against: the base, the corpus of a pair of builds, and the rows about what differs (docs/against.md).
+// contort fuzz --against: the base, the corpus of a pair of builds, and the rows about what differs
+// (docs/reference/against.md).
 #pragma once
 
 #include <optional>

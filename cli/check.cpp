@@ -207,7 +207,8 @@ void add_check(CLI::App& app, Context& context) {
                  "With --all-clips or a folder: files that cannot be read are listed, and the others decide");
   command
       ->add_option("--accept-list", options->accept_list,
-                   "Findings that are known, by file, clip, check and joint: they fail no run (docs/checks.md)")
+                   "Findings that are known, by file, clip, check and joint: they fail no run "
+                   "(docs/reference/checking_files.md)")
       ->type_name("FILE");
   command
       ->add_option("--write-accept-list", options->write_accept_list,

@@ -16,7 +16,7 @@ class App;
 
 namespace contort::cli {
 
-// docs/cli.md lists them too.
+// docs/reference/cli.md lists them too.
 enum Exit : int {
   kClean = 0,         // nothing gating
   kFindings = 1,      // new or regressed failures

@@ -382,7 +382,7 @@ void add_fuzz(CLI::App& app, Context& context) {
       ->add_option(
           "--fail-on", options->fail_on,
           "Exit with 1 only for a cause of at least this severity (0 to 100) that is not in the baseline and that "
-          "nobody has acknowledged (docs/causes.md); 0: for any failure")
+          "nobody has acknowledged (docs/reference/causes.md); 0: for any failure")
       ->check(CLI::Range(0.0, 100.0))
       ->check(refuse_nan)
       ->excludes("--against")

@@ -1,4 +1,4 @@
-// Says of a spec whether it is known to go wrong, by the rules of a corpus (docs/conditions.md).
+// Says of a spec whether it is known to go wrong, by the rules of a corpus (docs/reference/conditions.md).
 #pragma once
 
 #include <string>

@@ -42,9 +42,11 @@ void print_params(const Json& action) {
   }
 }
 
-// docs/actions.md is this, and a test compares them.
+// docs/reference/actions.md is this, and a test compares them.
 void print_markdown(const Json& list) {
-  std::printf("# Actions\n\nWritten by `contort list actions --markdown`. Layers and timings: `docs/timeline.md`.\n");
+  std::printf(
+      "# Actions\n\nThis page lists every action of the built-in generator with its parameters; "
+      "`contort list actions --markdown` writes\nit. [timeline.md](timeline.md) explains layers and timings.\n");
   for (const Json& action : list) {
     const auto text = [&](const char* key) { return action[key].get<std::string>(); };
     std::printf("\n## %s\n\n%s Layer `%s`, a %s.\n", text("name").c_str(), text("help").c_str(), text("layer").c_str(),
@@ -126,7 +128,7 @@ void add_list(CLI::App& app, Context& context) {
       ->required()
       ->check(one_of(keys_of(listers())));
   command->add_flag("--json", options->json, "Print as JSON");
-  command->add_flag("--markdown", options->markdown, "Print actions as docs/actions.md")->excludes("--json");
+  command->add_flag("--markdown", options->markdown, "Print actions as docs/reference/actions.md")->excludes("--json");
   command->footer("Example: contort list actions");
   command->callback([options, &context] {
     Generator* generator = context.load_generator();

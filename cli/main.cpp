@@ -78,7 +78,7 @@ int run(int argc, char** argv) {
                  "Folder with parts, objects, characters and actions (*.json) of your own; may be repeated")
       ->type_name("DIR");
   app.add_option("--generator", context.sources.generator,
-                 "Test this program instead of the built-in generator (docs/guests.md)")
+                 "Test this program instead of the built-in generator (docs/reference/guests.md)")
       ->type_name("CMD");
   app.add_option("--settings", context.settings_file,
                  "File with limits to move and findings to waive (contort.settings/1)")

@@ -59,7 +59,7 @@ void add_measure(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("measure", "Print the margins of specs that come on standard input, one JSON line for each");
   command->footer(
-      "docs/against.md has the protocol. A request is a spec on one line, or an object with \"spec\".\n"
+      "docs/reference/against.md has the protocol. A request is a spec on one line, or an object with \"spec\".\n"
       "Example: jq -c . spec.json | contort measure");
   command->callback([&context] { run_measure(context); });
 }

@@ -310,7 +310,7 @@ void add_replay(CLI::App& app, Context& context) {
   command->footer(
       "Verdicts: same (equal motion, equal finding), same family, different, passes, refused.\n"
       "Exit code for case files: 1 if one still fails, 0 if all pass. For a corpus: 1 if a bucket fails that is\n"
-      "new, has regressed, or whose quarantine is over (docs/corpus.md).\n"
+      "new, has regressed, or whose quarantine is over (docs/reference/corpus.md).\n"
       "Example: contort replay contort-out/corpus\n"
       "         contort replay CASE --level part:arm_right");
   command->callback([options, &context] { run(*options, context); });

@@ -25,7 +25,7 @@ std::string bucket_id(const Family& family, const std::string& features);
 // then the text itself.
 bool cheaper(const Spec& a, const Spec& b);
 
-// docs/corpus.md describes the transitions. In files `fresh` is "new".
+// docs/reference/corpus.md describes the transitions. In files `fresh` is "new".
 enum class BucketState { fresh, open, fixed, regressed, flaky, quarantined, invalid };
 std::string_view state_name(BucketState state);
 

@@ -46,7 +46,7 @@ struct Provenance {
   int rank = 0;                 // among the failures of its case by first frame; 0: the earliest
   std::string profile;          // of the run, by name; shrinking stays within it. "": it draws everything
   Family met_shrinking;       // of the failure whose shrinking met this one; empty where the case itself showed it
-  std::string base{};         // the other build of a comparison, "0.1.0 1a2b…"; "": there was none (docs/against.md)
+  std::string base{};         // the other build of a comparison, "0.1.0 1a2b…"; "": none (docs/reference/against.md)
   std::string base_shows{};   // by that build for this spec: "passes_check", "passes" or "milder"
   double base_margin = 0.0;   // the base's margin for the family, in the check's scale; 0 if it judged none
   std::string generator{};        // name of the program under test; "": the built-in generator

@@ -90,7 +90,7 @@ void fields(V& v, const Case*) {
           "Pointers into the spec: fields that could as well have other values.");
   v.field("also", &Case::co_failures, {.max_count = 100'000, .text = json_fields::Text::prose},
           "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
-  v.field("cause", &Case::cause, {}, "Of a minimal case: which of its actions fails alone (docs/causes.md).");
+  v.field("cause", &Case::cause, {}, "Of a minimal case: which of its actions fails alone (docs/reference/causes.md).");
 }
 
 namespace json_fields {

@@ -1,5 +1,5 @@
-// The cause of a failure: what people read, where a bucket is what is tracked. docs/causes.md describes the experiments
-// that find it (fuzz/culprits.h).
+// The cause of a failure: what people read, where a bucket is what is tracked. docs/reference/causes.md describes the
+// experiments that find it (fuzz/culprits.h).
 #pragma once
 
 #include <cstdint>

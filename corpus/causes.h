@@ -1,4 +1,5 @@
-// The causes of a corpus: its buckets, grouped and ordered for people. docs/causes.md has the formula of severity.
+// The causes of a corpus: its buckets, grouped and ordered for people. docs/reference/causes.md has the formula of
+// severity.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The condition under which a cause shows: a rule that was learned from cases that fail and cases that pass, and tried
-// on others. docs/conditions.md describes it; fuzz/condition_search.h learns it.
+// on others. docs/reference/conditions.md describes it; fuzz/condition_search.h learns it.
 #pragma once
 
 #include <functional>

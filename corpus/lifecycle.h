@@ -1,4 +1,5 @@
-// The states of a bucket: the table of docs/corpus.md as pure functions. They use no clock; dates are arguments.
+// The states of a bucket: the table of docs/reference/corpus.md as pure functions. They use no clock; dates are
+// arguments.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // A measurement: the numbers that a build produces for a spec, by which two builds are compared. The lines in which one
-// build sends them to another are described in docs/against.md, "Protocol".
+// build sends them to another are described in docs/reference/against.md, "Protocol".
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Reads a spec as requests whose values a rule can compare (known.h, docs/conditions.md).
+// Reads a spec as requests whose values a rule can compare (known.h, docs/reference/conditions.md).
 #pragma once
 
 #include <optional>

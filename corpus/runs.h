@@ -31,7 +31,7 @@ struct StrategyCount {
   bool operator==(const StrategyCount&) const = default;
 };
 
-// The comparison of a run with another build (docs/against.md). Counts are of cases.
+// The comparison of a run with another build (docs/reference/against.md). Counts are of cases.
 struct AgainstCounts {
   std::string base;          // version and content hash of the other build
   std::string build;         // the same of this one

@@ -1,4 +1,5 @@
-// Runs specs on two builds: a failure counts only if the base does not show it for the same spec (docs/against.md).
+// Runs specs on two builds: a failure counts only if the base does not show it for the same spec
+// (docs/reference/against.md).
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The base of a comparison: another build that measures the same specs (docs/against.md).
+// The base of a comparison: another build that measures the same specs (docs/reference/against.md).
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The difference between what two builds show for one spec (docs/against.md, "Definitions").
+// The difference between what two builds show for one spec (docs/reference/against.md, "Definitions").
 #pragma once
 
 #include <optional>

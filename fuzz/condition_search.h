@@ -1,5 +1,5 @@
-// Finds the condition under which a cause shows, by drawing requests like its minimal case. docs/conditions.md describes
-// the draws, the learning and the trial.
+// Finds the condition under which a cause shows, by drawing requests like its minimal case.
+// docs/reference/conditions.md describes the draws, the learning and the trial.
 #pragma once
 
 #include <string>

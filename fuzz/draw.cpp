@@ -1,7 +1,7 @@
 // RapidCheck draws a RawSpec, which is nothing but bounded whole numbers; compose() reads it as choices among what the
-// generator offers. RapidCheck traps that shape this file (docs/fuzzing.md): gen::exec and `*gen` are not thread safe, so
-// only pure combinators are used; list lengths of gen::container follow the size parameter and multiply when nested, so
-// lists have their own generator; there is no bounded real, so reals are whole numbers on a lattice.
+// generator offers. RapidCheck traps that shape this file (docs/internals/fuzzing.md): gen::exec and `*gen` are not
+// thread safe, so only pure combinators are used; list lengths of gen::container follow the size parameter and multiply
+// when nested, so lists have their own generator; there is no bounded real, so reals are whole numbers on a lattice.
 #include "fuzz/draw.h"
 
 #include <rapidcheck.h>

@@ -15,12 +15,12 @@ enum Stream : std::uint64_t { kChoice, kChange };
 
 constexpr int kThrows = 8;  // of one mutation
 
-// docs/fuzzing.md measures what these are worth.
+// docs/internals/search_measurements.md has what these are worth.
 constexpr std::uint64_t kMates = 4;    // that are laid over a case
 constexpr std::uint64_t kGrounds = 2;  // of them may bring another ground to a case that is on level ground
 
 // Cases of a run until guidance has its whole share. With all of it from the first case on, 3,000 cases showed 130
-// families, and even draws 144 (docs/fuzzing.md).
+// families, and even draws 144 (docs/internals/search_measurements.md).
 constexpr double kLearning = 4096.0;
 
 // `config` and `generator` say what the numbers mean.

@@ -2,8 +2,8 @@
 //
 // One fault often breaks several limits at the same time: a knee that snaps straight is too fast, and so is its hip,
 // which pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows all of
-// them. Of the failures at that time which are at least as deep, the earliest names them all (docs/shrinking.md, "Who
-// names it").
+// them. Of the failures at that time which are at least as deep, the earliest names them all
+// (docs/internals/shrinking.md, "Who names it").
 #pragma once
 
 #include <functional>

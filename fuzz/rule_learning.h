@@ -1,4 +1,5 @@
-// Learns the rule that separates failing from passing requests. docs/conditions.md has the score that it maximises.
+// Learns the rule that separates failing from passing requests. docs/reference/conditions.md has the score that it
+// maximises.
 //
 // Rules are searched by beam search over conjunctions, as in rule learners of the CN2 family (Clark and Niblett, The CN2
 // Induction Algorithm, Machine Learning 3, 1989), with F1 as the measure; a second conjunction covers what the first one

@@ -1,6 +1,6 @@
 // Shrinking: a smaller spec that fails in the same way. Works on the spec itself, never on the draw, so a case from
 // anywhere can be shrunk. Deterministic: the same input gives the same output, and shrinking that again changes nothing
-// (docs/shrinking.md).
+// (docs/internals/shrinking.md).
 #pragma once
 
 #include <functional>

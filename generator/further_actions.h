@@ -1,5 +1,5 @@
 // Further actions: where a part cannot be directed at its target, the torso that carries it turns, and then the figure
-// steps round (P13 of the seed, docs/aim.md).
+// steps round (P13 of the seed, docs/internals/aim.md).
 #pragma once
 
 #include <span>

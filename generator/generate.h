@@ -1,5 +1,5 @@
 // Stage to Motion. In each frame the queue says which sequences run; then the parts are moved, from the root outward,
-// each by its own stack of layers (base, ik, additive); docs/timeline.md has the rules of both.
+// each by its own stack of layers (base, ik, additive); docs/reference/timeline.md has the rules of both.
 #pragma once
 
 #include "generator/further_actions.h"

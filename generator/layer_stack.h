@@ -1,5 +1,5 @@
 // The actions that hold the two exclusive layers of a part, overwrite and ik, and the share to which each has come in.
-// The postures are moved in generate.cpp; docs/timeline.md has the rules.
+// The postures are moved in generate.cpp; docs/reference/timeline.md has the rules.
 #pragma once
 
 #include "generator/playback.h"

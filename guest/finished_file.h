@@ -1,6 +1,6 @@
 // A finished animation file as a generator of one motion: a clip becomes an Execution of a character, without an
 // intent, because the file has none. Data that the conversion cannot take over are listed in the result, and never
-// dropped silently (docs/checks.md).
+// dropped silently (docs/reference/checks.md).
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// The conversation with a generator that is a program of its own (docs/guests.md).
+// The conversation with a generator that is a program of its own (docs/reference/guests.md).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The manifest that a generator sends which is a program of its own (contort.generator/1, docs/guests.md), as plain
-// values. Positions, axes and rotations are in the generator's own convention.
+// The manifest that a generator sends which is a program of its own (contort.generator/1, docs/reference/guests.md), as
+// plain values. Positions, axes and rotations are in the generator's own convention.
 #pragma once
 
 #include <array>

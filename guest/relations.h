@@ -1,4 +1,4 @@
-// Requests that a manifest's relations make from a spec: `gain` and `mirror` (docs/guests.md).
+// Requests that a manifest's relations make from a spec: `gain` and `mirror` (docs/reference/guests.md).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Makes a character from a rigged model: the stages in order, and the files that they write (docs/import.md).
+// Makes a character from a rigged model: the stages in order, and the files that they write (docs/reference/import.md).
 #pragma once
 
 #include "import/contacts.h"

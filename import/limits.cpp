@@ -16,7 +16,7 @@ constexpr double kMoves_deg = 2.0;   // a bone that clips turn by less says noth
 constexpr double kBent_deg = 10.0;   // a knee or elbow that is bent at rest by more shows its axis
 constexpr double kGenericSwing_deg = 45.0, kGenericTwist_deg = 30.0, kGenericHinge_deg = 60.0;
 
-// ---- the table of people, in the stance with hanging arms; sources as in docs/characters.md
+// ---- the table of people, in the stance with hanging arms; sources as in docs/reference/characters.md
 
 struct BallRow {
   BoneRole role;

@@ -1,5 +1,5 @@
 // Makes a character from a robot: its limits, speeds, efforts, masses, shapes and allowed contacts are those of the
-// file (docs/import.md).
+// file (docs/reference/import.md).
 #pragma once
 
 #include <map>

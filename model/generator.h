@@ -19,7 +19,8 @@ namespace contort {
 
 inline constexpr int kMaxFrames = 36000;  // of one motion: ten minutes at 60 Hz
 
-// A goal is reached at the end of the action's period; a course is a posture as a function of time (docs/timeline.md).
+// A goal is reached at the end of the action's period; a course is a posture as a function of time
+// (docs/reference/timeline.md).
 enum class Timing { goal, course };
 
 // The goal that an action sets to the limb that it moves; the intent says it to checks (model/motion/intent.h).

@@ -1,5 +1,5 @@
 // Makes the data of a failure for the viewer: its motions with everything that happened in them,
-// contort.report_case/1 (docs/report.md).
+// contort.report_case/1 (docs/reference/report.md).
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// The causes of the failures of a report (docs/causes.md): what is wrong, in how many ways, and what matters most.
+// The causes of the failures of a report (docs/reference/causes.md): what is wrong, in how many ways, and what matters
+// most.
 #pragma once
 
 #include <string>
@@ -7,7 +8,8 @@
 
 namespace contort {
 
-// Returns a severity (docs/causes.md) as a word: "very high" from 20 on, "high" from 5, "medium" from 1, or "low".
+// Returns a severity (docs/reference/causes.md) as a word: "very high" from 20 on, "high" from 5, "medium" from 1, or
+// "low".
 std::string severity_word(double severity);
 
 // Returns a section with a row for each of the most severe causes; "" if there are none. A row has the worst

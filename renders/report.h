@@ -44,7 +44,7 @@ struct ReportRow {
   std::string needs;      // of the minimal spec, in words (renders/needs.h)
   std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
   std::string case_file;  // of the minimal case: a relative path, as code hosts want it
-  std::string since_base;  // result of the base for the same spec (docs/against.md); "" without a comparison
+  std::string since_base;  // result of the base for the same spec (docs/reference/against.md); "" without a comparison
   std::string meaning;    // of the check, in a sentence; may be ""
   std::string note;       // the knowledge of people: "ana, ticket 12"
   std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known
@@ -52,7 +52,7 @@ struct ReportRow {
   double depth = 0.0;                // of the failure, comparable between checks
 };
 
-// A cause of failures (docs/causes.md). Its texts are untrusted, too.
+// A cause of failures (docs/reference/causes.md). Its texts are untrusted, too.
 struct ReportCause {
   std::string id;
   std::string headline;                 // "Left hand goes through right thigh during aim"
@@ -61,7 +61,7 @@ struct ReportCause {
   std::vector<std::string> characters;  // sorted
   std::vector<std::string> buckets;     // ids, the deepest first
   std::string key;                      // of the row of its deepest case, if that has a motion; else ""
-  // Sentences that say when it fails, by character (docs/conditions.md); empty where none were learned.
+  // Sentences that say when it fails, by character (docs/reference/conditions.md); empty where none were learned.
   std::map<std::string, std::string> conditions{};
   bool is_new = false;  // not in the baseline; without one, nobody has looked at any of its failures
 };

@@ -1,5 +1,5 @@
 // Writes the rows for which the report's first page has no room: as data that page.js adds to the page
-// (docs/report.md), and as a plain list for browsers without scripts.
+// (docs/reference/report.md), and as a plain list for browsers without scripts.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Makes JSON pieces of a motion for pages; docs/report.md describes their fields. Included from .cpp files only.
+// Makes JSON pieces of a motion for pages; docs/reference/report.md describes their fields. Included from .cpp files
+// only.
 #pragma once
 
 #include <span>

@@ -15,8 +15,8 @@ struct StripTile {
   int x = 0, y = 0, width = 0, height = 0;  // of the picture without its caption, in the strip's pixels
 };
 
-// Returns contort.strip/1 (docs/report.md): JSON in one line, safe inside of a <script>. All tiles have the same
-// size.
+// Returns contort.strip/1 (docs/reference/report.md): JSON in one line, safe inside of a <script>. All tiles have the
+// same size.
 std::string strip_views_json(const std::vector<StripTile>& tiles);
 
 // Writes it as a script beside the strip: "x.png" has "x.js". Code file.unwritable.

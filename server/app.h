@@ -27,7 +27,7 @@ struct AppConfig {
   std::string report;                  // folder of the page that is made of it
   std::string pages;                   // folder of play.html and what it loads
   std::string scratch;                 // folder for registered libraries and for files that pass
-  std::string catalogue;               // JSON: what there is; docs/server.md
+  std::string catalogue;               // JSON: what there is; docs/reference/server.md
   std::vector<std::string> program;    // the command line of contort
   std::function<std::string()> today;  // for what gates
 };

@@ -88,7 +88,8 @@ std::string openapi(std::string_view version) {
       {"info",
        {{"title", "Contort"},
         {"version", std::string(version)},
-        {"description", "Browse and triage a corpus, and drive characters. docs/server.md explains the calls."}}},
+        {"description", "Browse and triage a corpus, and drive characters. docs/reference/server.md explains the "
+                        "calls."}}},
       {"security", {Json::object(), {{"token", Json::array()}}}},
       {"paths", paths},
       {"components", error_components()}}

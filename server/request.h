@@ -34,7 +34,7 @@ struct Answer {
   Pieces pieces;  // if it is not empty, the body is a stream
 };
 
-// The HTTP status of a code; see docs/server.md.
+// The HTTP status of a code; see docs/reference/server.md.
 int status_of(const Issue& issue);
 Answer refusal(const Issue& issue);
 

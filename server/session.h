@@ -1,5 +1,5 @@
-// A client's session: a spec that grows, its motions, and a clock (docs/server.md). It can be used from any thread:
-// one mutex guards the shown state, and workers run while nobody holds it.
+// A client's session: a spec that grows, its motions, and a clock (docs/reference/server.md). It can be used from any
+// thread: one mutex guards the shown state, and workers run while nobody holds it.
 #pragma once
 
 #include <condition_variable>

@@ -96,7 +96,7 @@ class SessionState {
   std::int64_t problem_number_ = 0;
 };
 
-// Prints the state of a session of this name as JSON (docs/server.md).
+// Prints the state of a session of this name as JSON (docs/reference/server.md).
 std::string print_state(const SessionState& shown, const std::string& session, double cpu_s, Time now);
 
 }  // namespace contort::server

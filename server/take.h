@@ -1,6 +1,6 @@
 // Turns a client's commands into edits of a spec. The functions are pure: they take a spec and the position of its
 // motion, and return a spec. An edit at a frame changes no earlier frame, except what dynamic control foresees
-// (docs/server.md).
+// (docs/reference/server.md).
 #pragma once
 
 #include <span>

@@ -52,7 +52,7 @@ Result<Reply> parse_reply(const std::string& text);
 //   [x, y, z, w]} play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes:
 //   compact frames judge     {curves, findings} evaluate  {motion_hash, frame_count, rate_hz, findings} make_case the
 //   case as corpus files have it
-// docs/server.md has their fields and what a compact frame is.
+// docs/reference/server.md has their fields and what a compact frame is.
 class Worker {
  public:
   // `tool` is written into cases.

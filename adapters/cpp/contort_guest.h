@@ -1,6 +1,6 @@
 // Lets Contort test an animation generator in C++. This header needs C++17 and nothing else; it works on machines with
-// little-endian numbers. Give `serve` a manifest as JSON text (docs/guests.md has all its fields) and a function that
-// fills the poses of a motion:
+// little-endian numbers. Give `serve` a manifest as JSON text (docs/reference/guests.md has all its fields) and a
+// function that fills the poses of a motion:
 //
 //   int main() {
 //     return contort_guest::serve(kManifest, [](const contort_guest::Request& request, contort_guest::Motion& motion) {

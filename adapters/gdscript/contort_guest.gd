@@ -7,7 +7,7 @@ var connection = StreamPeerTCP.new()
 var received = PoolByteArray()
 
 
-# Override this. Returns the manifest as a dictionary; docs/guests.md has all its fields.
+# Override this. Returns the manifest as a dictionary; docs/reference/guests.md has all its fields.
 func manifest():
 	return {}
 

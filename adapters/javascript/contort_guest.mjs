@@ -1,6 +1,6 @@
 // Lets Contort test an animation generator that runs in Node (18 or newer). Copy this file next to your code, give
-// `serve` a manifest (docs/guests.md has all its fields) and a function that fills one pose for each frame. CommonJS
-// modules load it with `const { serve } = await import('./contort_guest.mjs')`.
+// `serve` a manifest (docs/reference/guests.md has all its fields) and a function that fills one pose for each frame.
+// CommonJS modules load it with `const { serve } = await import('./contort_guest.mjs')`.
 import net from 'node:net';
 import process from 'node:process';
 

@@ -1,7 +1,7 @@
 """Lets Contort test an animation generator that is written in Python, or that Python can call.
 
-Copy this file next to your code. Give `serve` a manifest (docs/guests.md has all its fields) and a function that yields
-one pose for each frame. The file needs Python 3.8 and nothing else.
+Copy this file next to your code. Give `serve` a manifest (docs/reference/guests.md has all its fields) and a
+function that yields one pose for each frame. The file needs Python 3.8 and nothing else.
 """
 import json
 import math

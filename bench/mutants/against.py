@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How soon `contort fuzz --against` the clean build shows planted faults, and whether its small cases pass there: docs/against.md."""
+"""Measures how soon `contort fuzz --against` the clean build shows planted faults, and whether its small cases pass
+there, for docs/reference/against.md."""
 
 import argparse
 import json

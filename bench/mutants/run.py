@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How many cases the fuzzer needs to find faults that were planted in the generator: docs/mutants.md."""
+"""Measures how many cases the fuzzer needs to find faults that were planted in the generator, for
+docs/internals/mutants.md."""
 
 import argparse
 import collections

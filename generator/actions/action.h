@@ -1,5 +1,5 @@
 // The registry of actions. Adding one is a row in action_list.inc, a rule in a .cpp of this folder, and a test; the
-// command line, docs/actions.md, the fuzzer and the report take it from there.
+// command line, docs/reference/actions.md, the fuzzer and the report take it from there.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ struct AimPlan {
   SecondHand second;
 };
 
-// A target whose azimuth from the chest is greater has the torso turn, as people do (docs/aim.md).
+// A target whose azimuth from the chest is greater has the torso turn, as people do (docs/internals/aim.md).
 inline constexpr double kEasyAim_rad = 60.0 * kRadPerDeg;
 
 // With two hands on the object, people stand with the shoulder of the front hand forward, and aim across the chest.

@@ -1,5 +1,5 @@
-// Rules that users write in Lua, in action files (docs/own_actions.md): a script computes joints of a part, or
-// parameters of a built-in action, from time, parameters and surroundings.
+// Rules that users write in Lua, in action files (docs/reference/own_actions.md): a script computes joints of a part,
+// or parameters of a built-in action, from time, parameters and surroundings.
 //
 // A script is run from its first line to its last in every frame, and keeps nothing from one run to the next: what it
 // is given alone decides what it says. It has no files, no clock and no random numbers, and the functions that Contort

@@ -1,4 +1,4 @@
-// The postures in which two hands can hold one object (docs/aim.md): what an aim asks before it chooses one.
+// The postures in which two hands can hold one object (docs/internals/aim.md): what an aim asks before it chooses one.
 #pragma once
 
 #include "generator/actions/action.h"

@@ -2,7 +2,7 @@
 // articulated figures", Eurographics 2001): where a joint carries more than it would without loads, and where the zero
 // moment point leaves the support, accelerations of a few freedoms are changed: arms, then the back, then the lower
 // body. Both are least squares over the group's handles, with effort in units of the joints' own strength;
-// docs/dynamics.md.
+// docs/internals/dynamics.md.
 #pragma once
 
 #include <array>

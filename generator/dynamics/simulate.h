@@ -1,5 +1,5 @@
-// The stage of dynamics: a target motion in, the motion of a figure with mass out. docs/dynamics.md has the order of a
-// tick.
+// The stage of dynamics: a target motion in, the motion of a figure with mass out. docs/internals/dynamics.md has the
+// order of a tick.
 #pragma once
 
 #include <functional>

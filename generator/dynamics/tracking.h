@@ -1,7 +1,7 @@
 // Tracking control (seed D2): every joint by itself, without any mass, follows a target that is a function of time. The
 // acceleration now is that of the cubic from the present angle and rate to the target's angle and rate at its next
 // knot; planned anew in every tick, this is a spring and damper that grow stiffer as the knot comes near.
-// docs/dynamics.md.
+// docs/internals/dynamics.md.
 #pragma once
 
 #include <span>

@@ -1,5 +1,6 @@
 // Aim information: postures of a chain by the direction in which they point its socket. Built by stepping the joints
-// through their ranges (aim_states.h), once per geometry; immutable, so that threads may share it. docs/aim.md.
+// through their ranges (aim_states.h), once per geometry; immutable, so that threads may share it.
+// docs/internals/aim.md.
 //
 // Directions are binned into the 1,944 cells, about 5 degrees wide, of a cube map. Each cell keeps at most per_cell postures
 // that differ from one another, of those with some room to their joint limits: two thirds of them the ones nearest to rest,

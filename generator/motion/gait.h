@@ -1,6 +1,6 @@
 // Gait: where root and feet are as functions of time, for any number of legs. A stance foot is fixed in the world; its
-// foothold is its home place carried along the path to the middle of that stance, put on the ground. docs/gait.md has
-// the equations.
+// foothold is its home place carried along the path to the middle of that stance, put on the ground.
+// docs/internals/gait.md has the equations.
 #pragma once
 
 #include <array>

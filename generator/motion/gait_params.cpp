@@ -96,7 +96,7 @@ GaitParams walk_on_many(std::span<const Leg> legs, double speed_m_s, double head
 
 // Feet roll forward, the more the longer the stance is, up to 0.8 of a leg; sideways and backward they stay flat. The
 // numbers were searched for curves of hip, knee and ankle like those of people (CMU 02_01, 12_01, DeepMimic walk) and
-// for walks of human and mech up to 2 m/s within their joints' speeds (docs/gait.md).
+// for walks of human and mech up to 2 m/s within their joints' speeds (docs/internals/gait.md).
 GaitParams walk_on_two(std::span<const Leg> legs, double speed_m_s, double heading_rad, double roll_share) {
   const double length_m = least_length_m(legs), rolling = roll_share * std::max(0.0, det::cos(heading_rad));
   const auto mixed = [&](double flat, double rolled) { return flat + rolling * (rolled - flat); };

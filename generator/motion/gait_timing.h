@@ -1,4 +1,5 @@
-// When feet swing and how far the root has come: the timing of a gait's course. docs/gait.md has the equations.
+// When feet swing and how far the root has come: the timing of a gait's course. docs/internals/gait.md has the
+// equations.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The queue of sequences at run time: first in, first out, and interrupts (docs/timeline.md has the rules).
+// The queue of sequences at run time: first in, first out, and interrupts (docs/reference/timeline.md has the rules).
 #pragma once
 
 #include <span>

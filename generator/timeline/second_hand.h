@@ -1,4 +1,5 @@
-// Two hands on one object: an aim that knows of the other hand, which a weapon_hold brings to the object (docs/aim.md).
+// Two hands on one object: an aim that knows of the other hand, which a weapon_hold brings to the object
+// (docs/internals/aim.md).
 #pragma once
 
 #include "generator/timeline/timeline.h"

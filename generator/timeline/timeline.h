@@ -39,7 +39,7 @@ struct PlannedAction {
   int further = -1;  // index into Timeline::further: it moves its part only once it is acquired; -1: it is of the spec
 };
 
-// An action that an aim may acquire where its own part cannot be directed at the target (docs/aim.md).
+// An action that an aim may acquire where its own part cannot be directed at the target (docs/internals/aim.md).
 struct FurtherAction {
   int of_use = 0;  // the use that aims
   int action = 0;  // index into Timeline::actions: on the part that is to help, a torso or the root

@@ -1,5 +1,5 @@
 // Descriptions of a user's own actions from files: key poses, variants of built-in actions, and scripts.
-// docs/own_actions.md explains them; generator/actions makes Actions of them for their parts.
+// docs/reference/own_actions.md explains them; generator/actions makes Actions of them for their parts.
 #pragma once
 
 #include <map>

@@ -147,7 +147,8 @@ struct AllowedPairDesc {  // Colliders that may touch: "slot/collider", or "obje
   bool operator==(const AllowedPairDesc&) const = default;
 };
 
-// Joints that dynamic control uses together (docs/dynamics.md). "root" stands for where the hips are and their pitch.
+// Joints that dynamic control uses together (docs/internals/dynamics.md). "root" stands for where the hips are and
+// their pitch.
 struct ControlGroupDesc {
   std::string name;                 // "arms"
   std::vector<std::string> joints;  // "arm_left/shoulder"; a ball counts as two, the root as four, eight at most

@@ -1,5 +1,5 @@
 // The data of a generator that is a program of its own, beside the motion that coordinates can hold. Checks of such
-// generators read it (docs/guests.md).
+// generators read it (docs/reference/guests.md).
 #pragma once
 
 #include <cstdint>

@@ -111,7 +111,7 @@ struct Motion {
 };
 
 // Returns a hash of rate, root and coordinates, bit by bit. Equal spec text gives the equal hash everywhere
-// (docs/determinism.md).
+// (docs/internals/determinism.md).
 std::uint64_t motion_hash(const Motion& motion);
 
 // Returns a running hash after each frame, 16 bits each: two motions first differ in the frame in which these do.

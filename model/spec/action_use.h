@@ -16,7 +16,7 @@ struct ActionUse {
   int duration_frames = 30;  // [0, 36000]; a longer period plays slower
   double speed = 1.0;        // [0.1, 10]; progress within the period: at 2 the target is reached halfway, then held
   // [0, 600], of content: how long a course takes to come in; 0 is a cut. -1: as long as the way needs
-  // (docs/timeline.md).
+  // (docs/reference/timeline.md).
   int blend_in_frames = -1;
   int blend_out_frames = 0;  // [0, 600], of content: how long it fades out before its end
   std::map<std::string, ParamValue> params;  // by the names that the action declares; the rest at their defaults

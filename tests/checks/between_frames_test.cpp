@@ -102,7 +102,7 @@ struct Steps {
 
 constexpr int kParts = 256;
 
-// Coordinates in between, as docs/checks.md says. Written anew: the check's own interpolation is on trial.
+// Coordinates in between, as docs/reference/checks.md says. Written anew: the check's own interpolation is on trial.
 std::vector<double> row_between(const Character& character, const Motion& motion, double time) {
   std::vector<double> row(motion.row(0).begin(), motion.row(0).end());
   for (const Joint& joint : character.joints()) {

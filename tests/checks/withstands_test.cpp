@@ -25,7 +25,7 @@ Motion resting(const Character& character, const Rigid& turn = {}) {
 }
 
 // 73 kg whose centre of mass is about 1 m high, some 5 cm before the heels and some 20 cm behind the toes. Measured in
-// the simulation without a step: 49 N s forward, 15 backward (docs/dynamics.md).
+// the simulation without a step: 49 N s forward, 15 backward (docs/internals/dynamics.md).
 TEST(Withstands, IsAsMuchAsAPersonsWeightAndSolesAllow) {
   const Character human = stock("human");
   const double forward = withstands_N_s(human, resting(human), 1, kForward);

@@ -51,7 +51,7 @@ TEST_F(ReportOfCorpus, HasWhatTheViewerShowsOfEachBucket) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(files("cases"), std::vector<std::string>{key() + ".js"});
   const std::string script = slurp(folder_ / ("out/cases/" + key() + ".js"));
-  EXPECT_TRUE(script.starts_with("// made of ")) << "what it was made of, see DIR/cases in docs/report.md";
+  EXPECT_TRUE(script.starts_with("// made of ")) << "what it was made of, see DIR/cases in docs/reference/report.md";
   EXPECT_NE(script.find("\ncontortCase(\"" + key() + "\", {"), std::string::npos);
   EXPECT_NE(script.find("\"role\":\"minimal\""), std::string::npos);
   EXPECT_NE(script.find("\"role\":\"original\""), std::string::npos);

@@ -275,8 +275,8 @@ TEST_F(Usage, NamesWithOddBytesDoNotBreakTheOneLine) {
 TEST_F(Usage, TheActionsPageIsWhatTheRegistrySays) {
   const Ran ran = contort_program({"list", "actions", "--markdown"});
   EXPECT_EQ(ran.code, 0);
-  EXPECT_EQ(ran.out, slurp(std::string(CONTORT_SOURCE_DIR) + "/docs/actions.md"))
-      << "contort list actions --markdown > docs/actions.md";
+  EXPECT_EQ(ran.out, slurp(std::string(CONTORT_SOURCE_DIR) + "/docs/reference/actions.md"))
+      << "contort list actions --markdown > docs/reference/actions.md";
   EXPECT_EQ(contort_program({"list", "checks", "--markdown"}).code, 2);
 }
 

@@ -1,4 +1,4 @@
-// The states of a bucket, as docs/corpus.md has them.
+// The states of a bucket, as docs/reference/corpus.md has them.
 #include "corpus/lifecycle.h"
 
 #include <gtest/gtest.h>

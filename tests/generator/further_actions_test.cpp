@@ -1,4 +1,5 @@
-// An aim whose target lies behind has the torso turn, and then the figure (docs/aim.md). And turns on the spot alone.
+// An aim whose target lies behind has the torso turn, and then the figure (docs/internals/aim.md). And turns on the
+// spot alone.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -183,9 +183,10 @@ TEST(Generate, BallsStayUnitQuaternionsAndAllIsFinite) {
   }
 }
 
-// The rule of docs/timeline.md, by counting: in each layer the action that started last, of all so far, has the part
-// while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. An additive may last up
-// to half a second longer, while its part is on its way back; one that moves a leg ends when a course takes the legs over.
+// The rule of docs/reference/timeline.md, by counting: in each layer the action that started last, of all so far, has
+// the part while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. An additive
+// may last up to half a second longer, while its part is on its way back; one that moves a leg ends when a course takes
+// the legs over.
 void expect_spans_fit(const Stage& stage) {
   const Motion motion = generate(stage);
   std::vector<int> offset;  // of each sequence on the time line: nothing is cut here

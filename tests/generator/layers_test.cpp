@@ -1,4 +1,4 @@
-// The tables "Priorities" and "Blending" of docs/timeline.md, a test for each cell.
+// The tables "Priorities" and "Blending" of docs/reference/timeline.md, a test for each cell.
 #include <gtest/gtest.h>
 
 #include <cmath>

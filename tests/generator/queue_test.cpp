@@ -1,4 +1,4 @@
-// The queue against a reference that does the same with plain lists, from the table in docs/timeline.md.
+// The queue against a reference that does the same with plain lists, from the table in docs/reference/timeline.md.
 #include "generator/timeline/queue.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The rules for includes: the arrows of docs/architecture.md, and one door for each third-party library.
+// The rules for includes: the arrows of docs/internals/architecture.md, and one door for each third-party library.
 #include <fnmatch.h>
 #include <gtest/gtest.h>
 

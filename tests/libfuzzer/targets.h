@@ -1,6 +1,6 @@
 // The files that a stranger may hand to a user, one target for each format: from bytes as far as the program would go
-// with them, in bounded work. libFuzzer runs them (docs/hostile_input.md), and hostile_files_test.cpp with what was
-// found.
+// with them, in bounded work. libFuzzer runs them (docs/internals/hostile_input.md), and hostile_files_test.cpp with
+// what was found.
 #pragma once
 
 #include <span>

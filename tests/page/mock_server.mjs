@@ -1,5 +1,5 @@
-// A server that answers as docs/server.md says, with made-up motion: for what the real one does only on bad days (busy,
-// gone, hostile names), and for work on the pages without it.
+// A server that answers as docs/reference/server.md says, with made-up motion: for what the real one does only on bad
+// days (busy, gone, hostile names), and for work on the pages without it.
 //
 //   node mock_server.mjs --contort BINARY --pages DIR [--report DIR] [--port N]
 import { execFileSync } from 'node:child_process';

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# screenshots.sh PROJECT BINARIES: makes the pictures of docs/report.md and docs/server.md, in docs/images: a short search of a stock
-# character, its report, and what a browser shows of it. Beforehand the page's tests have to have run: they fetch what
-# drives the browser.
+# screenshots.sh PROJECT BINARIES: makes the pictures of docs/reference/report.md and docs/reference/server.md, in
+# docs/images: a short search of a stock character, its report, and what a browser shows of it. Beforehand the page's
+# tests have to have run: they fetch what drives the browser.
 set -euo pipefail
 
 project=$1

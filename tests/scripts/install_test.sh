@@ -24,7 +24,7 @@ contort completion fish | cmp - "$root/share/fish/vendor_completions.d/contort.f
 [ "$(contort schema spec)" = "$(cat "$root/share/doc/contort/schema/spec.schema.json")" ]
 diff -r --exclude=__pycache__ "$project/adapters" "$root/share/contort/adapters"
 diff -r --exclude=__pycache__ "$project/docs/guide" "$root/share/doc/contort/guide"
-[ -f "$root/share/contort/adapters/cpp/../../docs/guests.md" ]
+[ -f "$root/share/contort/adapters/cpp/../../docs/reference/guests.md" ]
 "$root/libexec/contort/contort-render" --version >version
 [ "$(cut -d " " -f 2 version)" = "$(contort --version | cut -d " " -f 2)" ]
 

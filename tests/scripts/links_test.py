@@ -2,8 +2,8 @@
 """links_test.py PROJECT: does each relative link of the root, docs/ and adapters/ lead somewhere?
 
 A link must point at a file or folder of the project, and its anchor at a heading of the Markdown file. A code span that
-holds a path below one of the project's folders, such as `docs/cli.md`, must name a file or folder, too; a path with a
-word in capitals is a placeholder. Fenced code is ignored. Without PROJECT the script tests itself on small pages.
+holds a path below one of the project's folders, such as `docs/reference/cli.md`, must name a file or folder, too; a
+path with a word in capitals is a placeholder. Fenced code is ignored. Without PROJECT the script tests itself on small pages.
 """
 import pathlib
 import re

@@ -376,7 +376,7 @@ TEST(OpenApi, HasEveryCallWithItsIds) {
 }
 
 TEST(OpenApi, TheTableInTheDocsIsTheTableOfCalls) {
-  const std::string docs = slurp(CONTORT_SOURCE_DIR "/docs/server.md");
+  const std::string docs = slurp(CONTORT_SOURCE_DIR "/docs/reference/server.md");
   for (const Route& route : routes()) {
     if (!route.documented) continue;
     std::string path(route.pattern.substr(0, route.pattern.rfind('/') + 1));

@@ -1,4 +1,5 @@
-// Calls of the server (docs/server.md). Everything that goes wrong becomes an ApiError with a sentence for the reader.
+// Calls of the server (docs/reference/server.md). Everything that goes wrong becomes an ApiError with a sentence for
+// the reader.
 
 const kTries = 5;
 const kLongestWait_s = 10;

@@ -1,4 +1,5 @@
-// The viewer of one case. The page's script loads this with the first case that is opened; see docs/report.md.
+// The viewer of one case. The page's script loads this with the first case that is opened; see
+// docs/reference/report.md.
 import 'uplot/dist/uPlot.min.css';
 import './viewer.css';
 import { Damaged } from './case_data.js';
