@@ -1,6 +1,6 @@
 #!/bin/sh
-# Prints the table of docs/performance.md: which share of the instructions of a fuzzer's worker each stage takes, and how
-# many thousands that are for a frame. Counts do not change with the load of the machine, as times do.
+# Prints the table of docs/internals/performance.md: which share of the instructions of a fuzzer's worker each stage
+# takes, and how many thousands that are for a frame. Counts do not change with the load of the machine, as times do.
 #
 # bench/profile.sh BUILD_FOLDER [CASES]    needs valgrind, and a build with -DCONTORT_BENCH=ON
 set -eu
