@@ -1,6 +1,6 @@
-// Measures the protocol of docs/reference/guests.md with a figure of 67 joints that this program itself serves: a request
-// of 120 frames, as frames arrive and as they are converted; the frames per second that one process of `contort fuzz`
-// checks; and the throughput of two processes over that of one. Medians are printed.
+// Measures the protocol of docs/reference/guests.md with a figure of 67 joints that this program itself serves: a
+// request of 120 frames, as frames arrive and as they are converted; the frames per second that one process of
+// `contort fuzz` checks; and the throughput of two processes over that of one. Medians are printed.
 //
 // contort_guest_bench CONTORT [CASES]
 #include <contort_guest.h>  // as a user of it has it: from adapters/cpp

@@ -3,7 +3,8 @@
 
 A link must point at a file or folder of the project, and its anchor at a heading of the Markdown file. A code span that
 holds a path below one of the project's folders, such as `docs/reference/cli.md`, must name a file or folder, too; a
-path with a word in capitals is a placeholder. Fenced code is ignored. Without PROJECT the script tests itself on small pages.
+path with a word in capitals is a placeholder. Fenced code is ignored. Without PROJECT the script tests itself on small
+pages.
 """
 import pathlib
 import re
@@ -82,7 +83,7 @@ def problem(project, page, target):
 
 
 def pages(project):
-    named = [project / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")]
+    named = [project / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md")]
     return [page for page in named if page.exists()] + sorted(
         page for folder in ("docs", "adapters") for page in (project / folder).rglob("*.md"))
 
