@@ -1,18 +1,27 @@
-# Tests of commands that a user types: the scripts of the root, and the commands of the README and of docs/guide.
+# Tests of commands that a user types: the scripts of the root, and the commands of the README and of the pages in docs.
 add_test(NAME Scripts.Packages COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/packages_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.Run COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/run_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.Test COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/test_test.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME Scripts.ReadmeExtraction COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands_test.sh)
 add_test(NAME Scripts.ReadmeCommands
   COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort>)
-# One test for each page of the guide: Scripts.Guide.first_night and so on.
-file(GLOB guide_pages RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/guide/*.md)
-foreach(page IN LISTS guide_pages)
-  get_filename_component(name ${page} NAME_WE)
-  add_test(NAME Scripts.Guide.${name} COMMAND
-    bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort> ${page})
-  set_tests_properties(Scripts.Guide.${name} PROPERTIES TIMEOUT 300 COST 100)
+# One test for each page that has commands: Scripts.Guide.first_night, Scripts.Reference.checks and so on.
+foreach(part IN ITEMS Guide Reference Internals)
+  string(TOLOWER ${part} folder)
+  file(GLOB pages RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/${folder}/*.md)
+  foreach(page IN LISTS pages)
+    file(STRINGS ${CMAKE_SOURCE_DIR}/${page} blocks REGEX "^```sh$")
+    if(blocks)
+      get_filename_component(name ${page} NAME_WE)
+      add_test(NAME Scripts.${part}.${name} COMMAND
+        bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort> ${page})
+      set_tests_properties(Scripts.${part}.${name} PROPERTIES TIMEOUT 300 COST 100)
+    endif()
+  endforeach()
 endforeach()
+# docs/README.md lists every page, and no page is too long.
+add_test(NAME Scripts.Contents COMMAND ${CMAKE_CURRENT_LIST_DIR}/contents_test.py ${CMAKE_SOURCE_DIR})
+add_test(NAME Scripts.ContentsExtraction COMMAND ${CMAKE_CURRENT_LIST_DIR}/contents_test.py)
 add_test(NAME Scripts.Manual COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/manual_test.sh $<TARGET_FILE:contort>)
 set_tests_properties(Scripts.Manual PROPERTIES TIMEOUT 180)
 add_test(NAME Scripts.CiFiles
