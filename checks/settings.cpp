@@ -65,23 +65,24 @@ template <class V>
 void fields(V& v, const LimitRule*) {
   v.field("check", &LimitRule::check, {.required = true}, "Name of a check.");
   v.field("subject", &LimitRule::subject, {.text = Text::label},
-          "Subjects that are meant; * is any run of characters.");
-  v.field("phase", &LimitRule::phase, {.may_be_empty = true}, "Only in this phase; empty: in every one.");
+          "Pattern of the subjects; * stands for any characters.");
+  v.field("phase", &LimitRule::phase, {.may_be_empty = true}, "Phase in which the limit applies; empty: every phase.");
   v.field("use", &LimitRule::use, {.names = kUses}, "change: move the limit; ignore: judge nothing.");
   v.field("tolerance", &LimitRule::tolerance, {.low = -1e6, .high = 1e6},
-          "change: added to margins, in the check's unit; below 0 is stricter.");
-  v.field("reason", &LimitRule::reason, {.text = Text::prose, .required = true}, "Why.");
+          "For change: number that is added to margins, in the check's unit; a negative one is stricter.");
+  v.field("reason", &LimitRule::reason, {.text = Text::prose, .required = true}, "Reason for the change.");
 }
 
 template <class V>
 void fields(V& v, const Waiver*) {
   v.field("check", &Waiver::check, {.required = true}, "Name of a check.");
-  v.field("subject", &Waiver::subject, {.text = Text::label}, "Subjects that are meant; * is any run of characters.");
-  v.field("phase", &Waiver::phase, {.may_be_empty = true}, "Of the worst frame; empty: any.");
+  v.field("subject", &Waiver::subject, {.text = Text::label}, "Pattern of the subjects; * stands for any characters.");
+  v.field("phase", &Waiver::phase, {.may_be_empty = true}, "Phase of the worst frame; empty: any.");
   v.field("deepest", &Waiver::deepest, {.low = 0, .high = 1e6},
-          "Hides margins down to minus this, in the check's unit; 0: however deep.");
-  v.field("reason", &Waiver::reason, {.text = Text::prose, .required = true}, "Why that is no fault until then.");
-  v.field("owner", &Waiver::owner, {.text = Text::label, .required = true}, "Who answers for it.");
+          "Greatest depth that is hidden, in the check's unit; 0: every depth.");
+  v.field("reason", &Waiver::reason, {.text = Text::prose, .required = true}, "Reason for hiding the finding.");
+  v.field("owner", &Waiver::owner, {.text = Text::label, .required = true},
+          "Person who is responsible for the waiver.");
   v.field("expires", &Waiver::expires, {.text = Text::label, .required = true}, "Last day, YYYY-MM-DD.");
 }
 
@@ -89,7 +90,7 @@ template <class V>
 void fields(V& v, const CheckSettings*) {
   v.constant("format", "contort.settings/1");
   v.field("collision_band_m", &CheckSettings::collision_band_m, {.low = 0.001, .high = 10},
-          "Clearances are measured up to this.");
+          "Distance up to which clearances are measured.");
   v.field("merge_gap_frames", &CheckSettings::merge_gap_frames, {.low = 0, .high = 600},
           "Safe frames between two violations that do not split a finding.");
   v.field("limits", &CheckSettings::limits, {.max_count = 1000}, "Limits that are moved or switched off.");

@@ -17,7 +17,8 @@ void fields(V& v, const AcceptedFinding*) {
   v.field("clip", &AcceptedFinding::clip, {.text = Text::label, .required = true}, "Clip of the file.");
   v.field("check", &AcceptedFinding::check, {.required = true}, "Name of a check.");
   v.field("joint", &AcceptedFinding::joint, {.text = Text::label, .required = true}, "Subject of the finding.");
-  v.field("reason", &AcceptedFinding::reason, {.text = Text::prose, .may_be_empty = true}, "Why it is accepted.");
+  v.field("reason", &AcceptedFinding::reason, {.text = Text::prose, .may_be_empty = true},
+          "Reason for accepting the finding.");
 }
 
 template <class V>

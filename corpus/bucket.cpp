@@ -69,19 +69,21 @@ void fields(V& v, const Bucket*) {
   v.field("check", &Bucket::check, {.required = true}, "The check that fails.");
   v.field("family", &Bucket::family, {.text = Text::prose, .required = true},
           "Identity of the failure, without numbers.");
-  v.field("features", &Bucket::features, kProse, "What the minimal spec needed.");
-  v.field("signature", &Bucket::signature, {.low = 1, .high = 1e6}, "Version of the rules that made the id.");
-  v.field("state", &Bucket::state, {.names = kStateNames, .required = true}, "What is to be done about it.");
-  v.field("was", &Bucket::was, {.names = kStateNames}, "State before it was flaky or invalid.");
-  v.field("owner", &Bucket::owner, kLabel, "Who looks after it.");
-  v.field("ticket", &Bucket::ticket, kLabel, "Where that is written down.");
-  v.field("reason", &Bucket::reason, kProse, "Why it is quarantined.");
+  v.field("features", &Bucket::features, kProse, "Features that the minimal spec needs.");
+  v.field("signature", &Bucket::signature, {.low = 1, .high = 1e6},
+          "Version of the rules by which the id was computed.");
+  v.field("state", &Bucket::state, {.names = kStateNames, .required = true}, "State of the failure.");
+  v.field("was", &Bucket::was, {.names = kStateNames}, "State before the failure became flaky or invalid.");
+  v.field("owner", &Bucket::owner, kLabel, "Person who is responsible for the failure.");
+  v.field("ticket", &Bucket::ticket, kLabel, "Ticket or address of the ticket.");
+  v.field("reason", &Bucket::reason, kProse, "Reason for the quarantine.");
   v.field("expires", &Bucket::expires, kLabel, "Last day of the quarantine, YYYY-MM-DD.");
-  v.field("note", &Bucket::note, {.text = Text::prose, .may_be_empty = true}, "What people say about it.");
+  v.field("note", &Bucket::note, {.text = Text::prose, .may_be_empty = true}, "Note for people.");
   v.field("passed_in", &Bucket::passed_in, {.max_count = 2, .text = Text::label},
-          "Builds in which it was gone since it failed last.");
-  v.field("streak", &Bucket::streak, kCount, "Replays in a row: passed while quarantined, steady while flaky.");
-  v.field("changes", &Bucket::changes, kCount, "How often the state and what belongs to it changed.");
+          "Builds that have passed since the last failure.");
+  v.field("streak", &Bucket::streak, kCount,
+          "Number of replays in a row that passed (quarantined) or gave equal results (flaky).");
+  v.field("changes", &Bucket::changes, kCount, "Number of changes of the state and of its fields.");
   v.field("runs", &Bucket::runs, {.max_count = 100000}, "Runs that put a case here.");
   v.field("min", &Bucket::min, case_of("min-"), "File of the smallest case.");
   v.field("worst", &Bucket::worst, case_of("worst-"), "File of the deepest case.");

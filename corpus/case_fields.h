@@ -21,8 +21,9 @@ inline const Rule kWholeNumber{.low = -1, .high = 0x1p53};
 template <class V>
 void fields(V& v, const Expectation*) {
   v.field("check", &Expectation::check, {.required = true}, "The check that fails.");
-  v.field("subject", &Expectation::subject, stored_rules::kSubject, "What it judges.");
-  v.field("unit", &Expectation::unit, stored_rules::kText, "Of worst_margin.");
+  v.field("subject", &Expectation::subject, stored_rules::kSubject,
+          "Joint, part or pair of bodies that the check judged.");
+  v.field("unit", &Expectation::unit, stored_rules::kText, "Unit of worst_margin.");
   v.field("first_frame", &Expectation::first_frame, stored_rules::kFrame, "First violated frame.");
   v.field("worst_frame", &Expectation::worst_frame, stored_rules::kFrame, "Frame of the worst margin.");
   v.field("last_frame", &Expectation::last_frame, stored_rules::kFrame, "Last violated frame.");
@@ -31,52 +32,56 @@ void fields(V& v, const Expectation*) {
   v.field("depth", &Expectation::depth, {.low = 0, .high = 1e300}, "-worst_margin in the check's scale.");
   v.field("motion_hash", &Expectation::motion_hash, stored_rules::kHash, "Hash of all frames.");
   v.field("character_hash", &Expectation::character_hash, stored_rules::kHash, "Hash of the assembled character.");
-  v.field("trace", &Expectation::trace, {.text = json_fields::Text::hex}, "Running hash, four hex digits a frame.");
+  v.field("trace", &Expectation::trace, {.text = json_fields::Text::hex},
+          "Hash of the motion up to each frame, four hex digits for each frame.");
   v.field("phase", &Expectation::phase, stored_rules::kText,
-          "What was going on in the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
+          "Circumstances of the worst frame: impact, interrupt, clip_switch, blend, mid_clip or at_rest.");
   v.field("limit_s", &Expectation::limit_s, {.low = 0, .high = 86400},
-          "Of a timeout: it did not end in so many seconds.");
-  v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20}, "Of memory: it took more than this.");
+          "For findings of `timeout`: the time limit that was exceeded.");
+  v.field("limit_MB", &Expectation::limit_MB, {.low = 0, .high = 1 << 20},
+          "For findings of `memory`: the limit that was exceeded.");
   v.field("printed", &Expectation::printed, {.text = json_fields::Text::prose, .may_be_empty = true},
-          "Last words of a generator that is a program of its own, before it ended.");
+          "Last output of the generator's program before it ended.");
 }
 
 template <class V>
 void fields(V& v, const Provenance*) {
-  v.field("tool", &Provenance::tool, stored_rules::kText, "Version that found it.");
-  v.field("seed", &Provenance::seed, stored_rules::kWholeNumber, "Of the run; -1: written by a person.");
-  v.field("index", &Provenance::index, stored_rules::kWholeNumber, "Of the case in the run.");
+  v.field("tool", &Provenance::tool, stored_rules::kText, "Version of Contort that found the failure.");
+  v.field("seed", &Provenance::seed, stored_rules::kWholeNumber, "Seed of the run; -1 if a person wrote the spec.");
+  v.field("index", &Provenance::index, stored_rules::kWholeNumber, "Index of the case in the run.");
   v.field("shrunk_from", &Provenance::shrunk_from, stored_rules::kText, "Content id of the spec before shrinking.");
   v.field("shrink_evaluations", &Provenance::shrink_evaluations, stored_rules::kFrame,
           "Motions generated while shrinking.");
   v.field("shrink_stopped", &Provenance::shrink_stopped, stored_rules::kText,
-          "fixpoint, evaluations, time, flaky or gone.");
+          "Reason why shrinking stopped: fixpoint, evaluations, time, flaky or gone.");
   v.field("original_depth", &Provenance::original_depth, {.low = 0, .high = 1e300}, "Depth before any shrinking.");
   v.field("rank", &Provenance::rank, {.low = 0, .high = 1'000'000},
-          "Among the failures of its case by first frame; 0: the earliest.");
+          "Rank among the failures of the drawn case, ordered by first frame; 0 is the earliest.");
   v.field("profile", &Provenance::profile, {.text = json_fields::Text::prose, .may_be_empty = true},
-          "Profile of the run, by name; empty: it draws everything.");
+          "Name of the run's profile; empty if the run had none.");
   v.field("met_shrinking", &Provenance::met_shrinking, {.text = json_fields::Text::prose, .may_be_empty = true},
-          "Family of the failure whose shrinking met this one; empty: the case itself showed it.");
+          "Family of the failure during whose shrinking this one appeared; empty if the drawn case showed it.");
   v.field("base", &Provenance::base, stored_rules::kText,
-          "Build that this one was compared with: version and content hash; empty: with none.");
+          "Build that served as the base of a comparison, as version and content hash; empty without a comparison.");
   v.field("base_shows", &Provenance::base_shows, stored_rules::kText,
-          "By the base for this spec: passes_check (no finding of the check), passes (none of the family) or milder.");
+          "Result of the base build: passes_check (no finding of the check), passes (none of the family) or milder.");
   v.field("base_margin", &Provenance::base_margin, {.low = -1e300, .high = 1e300},
-          "The base's margin for the family, in the check's scale; 0 if it judged none.");
+          "Margin of the base build for the family, in the check's scale; 0 if the base did not judge the family.");
   v.field("generator", &Provenance::generator, stored_rules::kText,
           "Name of the program that made the motion; empty: the built-in generator.");
   v.field("generator_build", &Provenance::generator_build, stored_rules::kText,
-          "Its build, and the hash of its manifest.");
+          "Build of the generator, and the hash of its manifest.");
 }
 
 template <class V>
 void fields(V& v, const Cause*) {
-  v.field("scheme", &Cause::scheme, {.low = 0, .high = 1e6}, "Version of the rules that found it; 0: not found yet.");
+  v.field("scheme", &Cause::scheme, {.low = 0, .high = 1e6},
+          "Version of the rules that found the cause; 0: not found yet.");
   v.field("scope", &Cause::scope, {.names = cause_scope_names()},
           "alone: one action fails by itself; company: several fail only together; setting: no action explains it.");
   v.field("names", &Cause::names, stored_rules::kNames, "The culprit, the actions, or the surroundings.");
-  v.field("also", &Cause::also, stored_rules::kNames, "Other actions that fail by themselves, too; of a setting, the actions of the spec.");
+  v.field("also", &Cause::also, stored_rules::kNames,
+          "Other actions that fail by themselves as well; for a setting, the actions of the spec.");
   v.field("simulated", &Cause::is_simulated, {}, "The minimal spec needs dynamics.");
 }
 
@@ -84,13 +89,15 @@ template <class V>
 void fields(V& v, const Case*) {
   v.constant("format", "contort.case/1");
   v.field("spec", &Case::spec, {.required = true}, "The action specification.");
-  v.field("expect", &Case::expect, {.required = true}, "What running it shows.");
-  v.field("provenance", &Case::provenance, {}, "Where it came from.");
+  v.field("expect", &Case::expect, {.required = true}, "Result of running the spec.");
+  v.field("provenance", &Case::provenance, {}, "Origin of the case.");
   v.field("free_fields", &Case::free_fields, {.max_count = 1024, .text = json_fields::Text::label},
-          "Pointers into the spec: fields that could as well have other values.");
+          "JSON pointers to fields of the spec that may have any value without changing the failure.");
   v.field("also", &Case::co_failures, {.max_count = 100'000, .text = json_fields::Text::prose},
-          "Families of the original's other failures that this spec shows too, about as deep: told with this one.");
-  v.field("cause", &Case::cause, {}, "Of a minimal case: which of its actions fails alone (docs/reference/causes.md).");
+          "Families of other failures of the original case that this spec shows as well, about as deep; they are "
+          "reported together.");
+  v.field("cause", &Case::cause, {},
+          "For minimal cases: the actions that cause the failure (docs/reference/causes.md).");
 }
 
 namespace json_fields {

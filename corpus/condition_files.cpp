@@ -27,44 +27,46 @@ const Rule kCaseCount{.low = 0, .high = 1e6};
 template <class V>
 void fields(V& v, const ConditionTerm*) {
   v.field("name", &ConditionTerm::name, {.text = Text::label, .required = true}, "The value that is compared.");
-  v.field("quantity", &ConditionTerm::quantity, {.names = quantity_names()}, "The number that is made of it.");
-  v.field("mirrored", &ConditionTerm::is_mirrored, {}, "On the right side it counts with the opposite sign.");
-  v.field("op", &ConditionTerm::op, {.names = op_names(), .required = true}, "How it is compared.");
-  v.field("limit", &ConditionTerm::limit, {.low = -1e12, .high = 1e12}, "Of below and above.");
-  v.field("lowest", &ConditionTerm::lowest, {.low = -1e12, .high = 1e12}, "The limit may be anywhere from this");
-  v.field("highest", &ConditionTerm::highest, {.low = -1e12, .high = 1e12}, "to this.");
-  v.field("word", &ConditionTerm::word, kRuleLabel, "Of is and is_not.");
+  v.field("quantity", &ConditionTerm::quantity, {.names = quantity_names()}, "Number that is computed from the value.");
+  v.field("mirrored", &ConditionTerm::is_mirrored, {}, "Whether the value has the opposite sign on the right side.");
+  v.field("op", &ConditionTerm::op, {.names = op_names(), .required = true}, "Operator of the comparison.");
+  v.field("limit", &ConditionTerm::limit, {.low = -1e12, .high = 1e12}, "Limit of the comparisons below and above.");
+  v.field("lowest", &ConditionTerm::lowest, {.low = -1e12, .high = 1e12},
+          "Lower end of the interval in which the limit may be.");
+  v.field("highest", &ConditionTerm::highest, {.low = -1e12, .high = 1e12},
+          "Upper end of the interval in which the limit may be.");
+  v.field("word", &ConditionTerm::word, kRuleLabel, "Word of the comparisons is and is_not.");
 }
 
 template <class V>
 void fields(V& v, const RuleTrial*) {
-  v.field("inside", &RuleTrial::inside, kCaseCount, "Fresh cases for which the rule holds.");
-  v.field("inside_failing", &RuleTrial::inside_failing, kCaseCount, "Failing ones of them.");
-  v.field("outside", &RuleTrial::outside, kCaseCount, "Fresh cases for which the rule does not hold.");
-  v.field("outside_failing", &RuleTrial::outside_failing, kCaseCount, "Failing ones of them.");
+  v.field("inside", &RuleTrial::inside, kCaseCount, "Number of fresh cases for which the rule holds.");
+  v.field("inside_failing", &RuleTrial::inside_failing, kCaseCount, "Number of those inside that fail.");
+  v.field("outside", &RuleTrial::outside, kCaseCount, "Number of fresh cases for which the rule does not hold.");
+  v.field("outside_failing", &RuleTrial::outside_failing, kCaseCount, "Number of those outside that fail.");
   v.field("inside_share", &RuleTrial::inside_share, {.low = 0, .high = 1}, "Share of draws for which the rule holds.");
 }
 
 template <class V>
 void fields(V& v, const Condition*) {
   v.field("cause", &Condition::cause, {.text = Text::label, .required = true}, "Id of the cause.");
-  v.field("headline", &Condition::headline, {.text = Text::prose, .may_be_empty = true}, "Of the cause.");
+  v.field("headline", &Condition::headline, {.text = Text::prose, .may_be_empty = true}, "Headline of the cause.");
   v.field("character", &Condition::character, {.text = Text::label, .required = true}, "Name of the character.");
-  v.field("character_hash", &Condition::character_hash, kRuleLabel, "Of the minimal case.");
+  v.field("character_hash", &Condition::character_hash, kRuleLabel, "Hash of the minimal case's character.");
   v.field("tool", &Condition::tool, {.text = Text::prose, .may_be_empty = true}, "Build that learned the rule.");
   v.field("learned_from", &Condition::learned_from, kRuleLabel, "Content id of the minimal spec.");
   v.field("needs", &Condition::needs, {.max_count = 64, .text = Text::label}, "Values that a request must have.");
   v.field("any_of", &Condition::any_of, {.max_count = kMostComparisons},
-          "Conjunctions of comparisons; one has to hold. None: no rule was found.");
-  v.field("drawn", &Condition::drawn, kCaseCount, "Cases that it was learned from.");
-  v.field("failing", &Condition::failing, kCaseCount, "Failing ones of them.");
-  v.field("trial", &Condition::trial, {}, "Fresh cases that it was tried on.");
+          "Conjunctions of comparisons, of which one has to hold; an empty list: no rule was found.");
+  v.field("drawn", &Condition::drawn, kCaseCount, "Number of drawn cases from which the rule was learned.");
+  v.field("failing", &Condition::failing, kCaseCount, "Number of those cases that fail.");
+  v.field("trial", &Condition::trial, {}, "Result of trying the rule on fresh cases.");
 }
 
 template <class V>
 void fields(V& v, const StoredConditions*) {
   v.constant("format", "contort.rules/1");
-  v.field("rules", &StoredConditions::conditions, {.max_count = 10'000}, "One for each cause and character.");
+  v.field("rules", &StoredConditions::conditions, {.max_count = 10'000}, "Rules, one for each cause and character.");
 }
 
 namespace {

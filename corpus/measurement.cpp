@@ -64,9 +64,10 @@ const json_fields::Rule kAnyProse{.text = json_fields::Text::prose, .may_be_empt
 template <class V>
 void fields(V& v, const SubjectMargin*) {
   v.field("check", &SubjectMargin::check, {.required = true}, "The check.");
-  v.field("subject", &SubjectMargin::subject, {.text = json_fields::Text::prose, .required = true}, "What it judges.");
-  v.field("margin", &SubjectMargin::margin, {.required = true, .may_be_nan = true}, "In the check's scale.");
-  v.field("waived", &SubjectMargin::waived, {}, "A waiver hides it.");
+  v.field("subject", &SubjectMargin::subject, {.text = json_fields::Text::prose, .required = true},
+          "Joint, part or pair of bodies that the check judges.");
+  v.field("margin", &SubjectMargin::margin, {.required = true, .may_be_nan = true}, "Margin in the check's scale.");
+  v.field("waived", &SubjectMargin::waived, {}, "Whether a waiver hides the finding.");
 }
 
 template <class V>

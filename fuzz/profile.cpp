@@ -22,58 +22,62 @@ const json_fields::Rule kActionFrames{.low = 1, .high = 600};
 
 template <class V>
 void fields(V& v, const DrawRule*) {
-  v.field("slots", &DrawRule::slots, kNames, "Of these slots; empty: all.");
-  v.field("actions", &DrawRule::actions, kNames, "These actions; empty: all.");
-  v.field("never", &DrawRule::never, {}, "They are not drawn.");
+  v.field("slots", &DrawRule::slots, kNames, "Slots to which the rule applies; empty: all.");
+  v.field("actions", &DrawRule::actions, kNames, "Actions to which the rule applies; empty: all.");
+  v.field("never", &DrawRule::never, {}, "Whether these actions are never drawn.");
   v.field("param", &DrawRule::param, {.may_be_empty = true},
           "A number or vector among the parameters, blend_in_frames or blend_out_frames: drawn from low to high only.");
   v.field("low", &DrawRule::low, {.low = -1000, .high = 1000, .max_count = 3},
-          "One number, or three of a vector; one counts for all three.");
-  v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "The same.");
+          "Least value: one number, or three for a vector; one number counts for all three.");
+  v.field("high", &DrawRule::high, {.low = -1000, .high = 1000, .max_count = 3}, "Greatest value, given like `low`.");
   v.field("weight", &DrawRule::weight, {.low = 0, .high = 100},
-          "They are drawn so many times as often as other actions of their slot; 0: the rule says nothing of it.");
+          "Factor by which these actions are drawn more often than others of their slot; 0: not set.");
 }
 
 template <class V>
 void fields(V& v, const Profile*) {
   using json_fields::Text;
   v.constant("format", "contort.profile/1");
-  v.field("name", &Profile::name, {.required = true}, "For reports.");
-  v.field("about", &Profile::about, {.text = Text::prose, .may_be_empty = true}, "What it is for, in a sentence.");
+  v.field("name", &Profile::name, {.required = true}, "Name for reports.");
+  v.field("about", &Profile::about, {.text = Text::prose, .may_be_empty = true},
+          "Purpose of the profile, in one sentence.");
   v.field("base", &Profile::base, {.may_be_empty = true},
-          "A built-in profile, for what the file says nothing of; its rules come before those of the file.");
+          "Built-in profile that gives the fields which the file leaves out; its rules come before those of the file.");
   v.field("characters", &Profile::characters, kNames, "Characters that are drawn; empty: all.");
   v.field("slots", &Profile::slots, kNames, "Slots whose parts move by themselves; empty: all.");
   v.field("actions", &Profile::actions, kNames, "Actions that are drawn; empty: all.");
-  v.field("grounds", &Profile::grounds, kNames, "plane, slope, steps, heights; empty: all.");
-  v.field("swaps", &Profile::swaps, kOdds, "Odds that a slot gets another part than its own.");
-  v.field("objects", &Profile::objects, kOdds, "Odds that an object is carried.");
-  v.field("interrupts", &Profile::interrupts, kOdds, "Odds of interrupts.");
-  v.field("obstacles", &Profile::obstacles, kOdds, "Odds of an obstacle.");
-  v.field("tracking", &Profile::tracking, kOdds, "Odds of the mode tracking.");
-  v.field("dynamic", &Profile::dynamic, kOdds, "Odds of the mode dynamic.");
-  v.field("impacts", &Profile::impacts, {.low = 0, .high = 2}, "Blows in a dynamic spec, at most.");
+  v.field("grounds", &Profile::grounds, kNames,
+          "Kinds of ground that are drawn: plane, slope, steps, heights; empty: all.");
+  v.field("swaps", &Profile::swaps, kOdds, "Probability that a slot gets another part than its default.");
+  v.field("objects", &Profile::objects, kOdds, "Probability that an object is carried.");
+  v.field("interrupts", &Profile::interrupts, kOdds, "Probability of interrupts.");
+  v.field("obstacles", &Profile::obstacles, kOdds, "Probability of an obstacle.");
+  v.field("tracking", &Profile::tracking, kOdds, "Probability of the mode tracking.");
+  v.field("dynamic", &Profile::dynamic, kOdds, "Probability of the mode dynamic.");
+  v.field("impacts", &Profile::impacts, {.low = 0, .high = 2}, "Greatest number of blows in a dynamic spec.");
   v.field("speeds", &Profile::speeds, {}, "Whether actions and clips are played at other speeds, or stretched.");
   v.field("overlaps", &Profile::overlaps, {},
           "Whether an action may take over a part that another one of its sequence still moves.");
-  v.field("shortest_frames", &Profile::shortest_frames, kActionFrames, "Shortest action.");
-  v.field("longest_frames", &Profile::longest_frames, kActionFrames, "Longest action.");
+  v.field("shortest_frames", &Profile::shortest_frames, kActionFrames, "Shortest duration of an action.");
+  v.field("longest_frames", &Profile::longest_frames, kActionFrames, "Longest duration of an action.");
   v.field("wild_poses", &Profile::wild_poses, {},
-          "Whether poses are drawn for legs and feet, and such that put bodies into each other, the ground or a wall.");
+          "Whether poses are drawn for legs and feet, and poses that put bodies into each other, the ground or a "
+          "wall.");
   v.field("range", &Profile::range, {.low = 0.01, .high = 1},
           "Poses are drawn from this middle share of every joint's range.");
-  v.field("rules", &Profile::rules, {.max_count = 1000}, "What is narrower for some actions and slots.");
+  v.field("rules", &Profile::rules, {.max_count = 1000}, "Rules that narrow the draws of some actions and slots.");
   v.field("staged", &Profile::staged, {},
           "Actions are tried alone first, then pairs and crowds of those that are clean; false: everything at once.");
   v.field("guided", &Profile::guided, kOdds,
-          "Of a search that is not staged: share of the cases that are mutations of one that came near a limit; the first 4,096 cases have fewer.");
-  v.field(
-      "uniform", &Profile::uniform, kOdds,
-      "The same: share of the others that are drawn evenly; the rest is crowded, with corner values, features left out, both or "
-      "neither.");
+          "Without stages: share of the cases that mutate an earlier case near a limit; the first 4,096 cases have "
+          "fewer.");
+  v.field("uniform", &Profile::uniform, kOdds,
+          "Without stages: share of the other cases that are drawn uniformly; the rest is crowded, with corner values, "
+          "features left out, both or neither.");
   v.field("cases", &Profile::cases, {.low = 0, .high = 0x1p53},
-          "Of a run, unless the command line says; 0: no opinion.");
-  v.field("time", &Profile::time, {.may_be_empty = true}, "The same as a time: 45s, 10m, 2h.");
+          "Number of cases of a run if the command line gives none; 0: not set.");
+  v.field("time", &Profile::time, {.may_be_empty = true},
+          "Duration of a run if the command line gives none: 45s, 10m, 2h.");
 }
 
 bool DrawRule::speaks_of(std::string_view slot, std::string_view action) const {

@@ -79,18 +79,18 @@ void fields(V& v, const GuestConvention*) {
   v.field("up", &GuestConvention::up, {.names = kAxes}, "Axis that points up.");
   v.field("forward", &GuestConvention::forward, {.names = kAxes}, "Axis that figures face.");
   v.field("unit_m", &GuestConvention::unit_m, {.low = 1e-6, .high = 1e6}, "Metres of one unit of length.");
-  v.field("handed", &GuestConvention::handed, {.names = kHands}, "Hand of the coordinate system.");
+  v.field("handed", &GuestConvention::handed, {.names = kHands}, "Handedness of the coordinate system.");
 }
 
 template <class V>
 void fields(V& v, const GuestJoint*) {
-  v.field("name", &GuestJoint::name, kGuestLabel, "Unique in the character.");
+  v.field("name", &GuestJoint::name, kGuestLabel, "Name, unique in the character.");
   v.field("parent", &GuestJoint::parent, {.text = Text::label, .may_be_empty = true},
           "An earlier joint; empty for the first one, which is the root.");
-  v.field("slot", &GuestJoint::slot, {.may_be_empty = true}, "Part of the figure; empty: that of the parent.");
-  v.field("position", &GuestJoint::position, kGuestLength, "At rest, in the frame of the parent.");
+  v.field("slot", &GuestJoint::slot, {.may_be_empty = true}, "Slot of the figure; empty: the slot of the parent.");
+  v.field("position", &GuestJoint::position, kGuestLength, "Position at rest, in the frame of the parent.");
   v.field("rotation", &GuestJoint::rotation, {.low = -1.001, .high = 1.001},
-          "At rest against the parent, quaternion x y z w.");
+          "Rotation at rest relative to the parent, quaternion x y z w.");
   v.field("type", &GuestJoint::type, {.names = kGuestJointTypes}, "Kind of joint.");
   v.field("axis", &GuestJoint::axis, {.low = -1.001, .high = 1.001},
           "Axis of the hinge, or of a ball's twist, in the joint's own frame.");
@@ -99,32 +99,32 @@ void fields(V& v, const GuestJoint*) {
   v.field("swing_deg", &GuestJoint::swing_deg, {.low = 0.1, .high = 180},
           "Greatest swing of a ball: one angle, or one about swing_axis and one at a right angle to it.");
   v.field("swing_axis", &GuestJoint::swing_axis, {.low = -1.001, .high = 1.001},
-          "Of a ball: unit axis at a right angle to its axis, in the joint's own frame.");
+          "For a ball: unit axis at a right angle to its axis, in the joint's own frame.");
   v.field("swing_center_deg", &GuestJoint::swing_center_deg, {.low = -360, .high = 360},
-          "Of a ball: rotation vector to the middle of its swing.");
+          "For a ball: rotation vector to the middle of its swing.");
   v.field("max_speed_deg_s", &GuestJoint::max_speed_deg_s, {.low = 1, .high = 1e5}, "Greatest angular speed.");
   v.field("body", &GuestJoint::body, {.text = Text::label, .may_be_empty = true},
-          "Name of the body that moves with it; empty: that of the joint.");
+          "Name of the body that moves with the joint; empty: the name of the joint.");
 }
 
 template <class V>
 void fields(V& v, const GuestCollider*) {
-  v.field("name", &GuestCollider::name, kGuestLabel, "Unique in the character.");
+  v.field("name", &GuestCollider::name, kGuestLabel, "Name, unique in the character.");
   v.field("joint", &GuestCollider::joint, kGuestLabel, "The joint that moves it.");
   v.field("type", &GuestCollider::type, {.names = kGuestShapes}, "Shape.");
-  v.field("from", &GuestCollider::from, kGuestLength, "Of a capsule: one end, in the frame of the joint.");
-  v.field("to", &GuestCollider::to, kGuestLength, "Of a capsule: the other end.");
-  v.field("radius", &GuestCollider::radius, {.low = 1e-6, .high = 1e6}, "Of a capsule: radius.");
-  v.field("center", &GuestCollider::center, kGuestLength, "Of a box: its middle, in the frame of the joint.");
-  v.field("half", &GuestCollider::half, {.low = 1e-6, .high = 1e6}, "Of a box: half of each side.");
+  v.field("from", &GuestCollider::from, kGuestLength, "For a capsule: one end, in the frame of the joint.");
+  v.field("to", &GuestCollider::to, kGuestLength, "For a capsule: the other end.");
+  v.field("radius", &GuestCollider::radius, {.low = 1e-6, .high = 1e6}, "For a capsule: radius.");
+  v.field("center", &GuestCollider::center, kGuestLength, "For a box: its middle, in the frame of the joint.");
+  v.field("half", &GuestCollider::half, {.low = 1e-6, .high = 1e6}, "For a box: half of each side.");
   v.field("rotation", &GuestCollider::rotation, {.low = -1.001, .high = 1.001},
-          "Of a box: quaternion x y z w in the frame of the joint.");
+          "For a box: quaternion x y z w in the frame of the joint.");
 }
 
 template <class V>
 void fields(V& v, const GuestCharacter*) {
   v.field("name", &GuestCharacter::name, kGuestName, "Unique name.");
-  v.field("joints", &GuestCharacter::joints, {.max_count = 1000, .required = true}, "Parents first.");
+  v.field("joints", &GuestCharacter::joints, {.max_count = 1000, .required = true}, "Joints, parents first.");
   v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Shapes that must not overlap.");
   v.field("may_touch", &GuestCharacter::may_touch, {.max_count = 1000, .text = Text::label},
           "Pairs of colliders that may overlap.");
@@ -138,8 +138,8 @@ void fields(V& v, const GuestParam*) {
   v.field("type", &GuestParam::type, {.names = kGuestParamTypes}, "Type of the value.");
   v.field("low", &GuestParam::low, {.low = -1e9, .high = 1e9}, "Least value.");
   v.field("high", &GuestParam::high, {.low = -1e9, .high = 1e9}, "Greatest value.");
-  v.field("default", &GuestParam::preset, {.text = Text::label}, "Value where a spec gives none.");
-  v.field("choices", &GuestParam::choices, {.max_count = 256}, "Of a choice: words of a-z, 0-9 and _.");
+  v.field("default", &GuestParam::preset, {.text = Text::label}, "Value that is used if a spec gives none.");
+  v.field("choices", &GuestParam::choices, {.max_count = 256}, "For a choice: words of a-z, 0-9 and _.");
   v.field("special", &GuestParam::special, {.max_count = 64, .text = Text::label},
           "Values that are drawn more often than others.");
   v.field("mirror", &GuestParam::mirror, {.names = kOtherSides},
@@ -158,16 +158,16 @@ template <class V>
 void fields(V& v, const GuestAction*) {
   v.field("name", &GuestAction::name, kGuestName, "Unique name.");
   v.field("help", &GuestAction::help, kGuestText, "One sentence.");
-  v.field("slots", &GuestAction::slots, {.max_count = 64}, "Slots on which it can be asked for.");
+  v.field("slots", &GuestAction::slots, {.max_count = 64}, "Slots on which the action can be requested.");
   v.field("layer", &GuestAction::layer, {.names = kLayers}, "Order of evaluation.");
   v.field("duration_s", &GuestAction::duration_s, kGuestSeconds, "Shortest and longest duration.");
   v.field("blend_in_s", &GuestAction::blend_in_s, kGuestSeconds, "Shortest and longest fade in.");
   v.field("blend_out_s", &GuestAction::blend_out_s, kGuestSeconds, "Shortest and longest fade out.");
-  v.field("effect", &GuestAction::effect, {.names = kEffects}, "What it may do to the pose.");
+  v.field("effect", &GuestAction::effect, {.names = kEffects}, "Effect that the action may have on the pose.");
   v.field("params", &GuestAction::params, {.max_count = 64}, "Parameters by name.");
   v.field("goal", &GuestAction::goal, {}, "A point that a joint reaches.");
   v.field("returns_s", &GuestAction::returns_s, {.low = 0.0, .high = 60.0},
-          "This long after its end the motion is as if the action had not been asked for.");
+          "Time after the end of the action from which the motion is as if the action had not been requested.");
   v.field("mirror", &GuestAction::mirror, {.may_be_empty = true}, "The action of the other side; empty: itself.");
 }
 
@@ -176,22 +176,23 @@ void fields(V& v, const GuestChannel*) {
   v.field("name", &GuestChannel::name, kGuestLabel, "Unique name.");
   v.field("type", &GuestChannel::type, {.names = kChannelTypes}, "Type of its values.");
   v.field("contact", &GuestChannel::contact, {.text = Text::label, .may_be_empty = true},
-          "Of a flag: the joint that stands still in the world while the flag is set.");
+          "For a flag: the joint that stands still in the world while the flag is set.");
 }
 
 template <class V>
 void fields(V& v, const GuestManifest*) {
   v.field("contort", &GuestManifest::contort, {.low = 1, .high = 1, .required = true}, "Version of the protocol.");
-  v.field("name", &GuestManifest::name, kGuestLabel, "Of the generator.");
-  v.field("build", &GuestManifest::build, {.text = Text::label, .may_be_empty = true}, "Of the generator.");
+  v.field("name", &GuestManifest::name, kGuestLabel, "Name of the generator.");
+  v.field("build", &GuestManifest::build, {.text = Text::label, .may_be_empty = true}, "Build of the generator.");
   v.field("token", &GuestManifest::token, {.text = Text::label, .may_be_empty = true},
           "Over TCP: the value of CONTORT_TOKEN.");
   v.field("rate_hz", &GuestManifest::rate_hz, {.low = 1, .high = 1000}, "Rate of motions.");
   v.field("frames", &GuestManifest::frames, {.names = kFormats}, "Numbers of frames.");
-  v.field("determinism", &GuestManifest::determinism, {.names = kDeterminisms}, "How far motions repeat.");
+  v.field("determinism", &GuestManifest::determinism, {.names = kDeterminisms}, "Degree to which motions repeat.");
   v.field("convention", &GuestManifest::convention, {}, "Axes and units.");
-  v.field("characters", &GuestManifest::characters, {.max_count = 64, .required = true}, "At least one.");
-  v.field("actions", &GuestManifest::actions, {.max_count = 256, .required = true}, "At least one.");
+  v.field("characters", &GuestManifest::characters, {.max_count = 64, .required = true},
+          "Characters; there is at least one.");
+  v.field("actions", &GuestManifest::actions, {.max_count = 256, .required = true}, "Actions; there is at least one.");
   v.field("channels", &GuestManifest::channels, {.max_count = 64}, "Values per frame.");
   v.field("relations", &GuestManifest::relations, {.max_count = 4}, "Relations between motions that hold.");
 }

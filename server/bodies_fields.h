@@ -61,8 +61,9 @@ struct InterruptBody {
 };
 template <class V>
 void fields(V& v, const InterruptBody*) {
-  v.field("sequence", &InterruptBody::sequence, {.required = true}, "Runs at once.");
-  v.field("resume", &InterruptBody::resume, {}, "What it cuts goes on afterwards; else the rest is dropped.");
+  v.field("sequence", &InterruptBody::sequence, {.required = true}, "Sequence that runs at once.");
+  v.field("resume", &InterruptBody::resume, {},
+          "Whether the interrupted sequence continues afterwards; otherwise its rest is dropped.");
 }
 
 struct AimBody {
@@ -76,10 +77,10 @@ inline const Rule kWorld{.low = -1000, .high = 1000, .required = true};
 template <class V>
 void fields(V& v, const AimBody*) {
   v.field("slot", &AimBody::slot, {.required = true}, "The slot whose part aims.");
-  v.field("action", &AimBody::action, {}, "aim or look_at.");
-  v.field("point", &AimBody::point, {.may_be_empty = true}, "What it aims with; see the model's aims.");
-  v.field("target_m", &AimBody::target_m, kWorld, "In the world.");
-  v.field("duration_frames", &AimBody::duration_frames, {.low = 2, .high = 6000}, "How long.");
+  v.field("action", &AimBody::action, {}, "Action that aims: aim or look_at.");
+  v.field("point", &AimBody::point, {.may_be_empty = true}, "Point that aims; the model's aims list them.");
+  v.field("target_m", &AimBody::target_m, kWorld, "Target in the world.");
+  v.field("duration_frames", &AimBody::duration_frames, {.low = 2, .high = 6000}, "Duration of the aim.");
 }
 
 struct PushBody {
@@ -91,9 +92,10 @@ struct PushBody {
 template <class V>
 void fields(V& v, const PushBody*) {
   v.field("slot", &PushBody::slot, {.required = true}, "The slot whose part is struck.");
-  v.field("joint", &PushBody::joint, {.may_be_empty = true}, "Of that part, by its own name.");
-  v.field("point_m", &PushBody::point_m, {.low = -10, .high = 10}, "In that joint's frame.");
-  v.field("impulse_N_s", &PushBody::impulse_N_s, {.low = -10000, .high = 10000, .required = true}, "In the world.");
+  v.field("joint", &PushBody::joint, {.may_be_empty = true}, "Joint of that part, by its name in the part.");
+  v.field("point_m", &PushBody::point_m, {.low = -10, .high = 10}, "Struck point in the frame of that joint.");
+  v.field("impulse_N_s", &PushBody::impulse_N_s, {.low = -10000, .high = 10000, .required = true},
+          "Impulse in the world, N s.");
 }
 
 struct ClockBody {
@@ -103,9 +105,10 @@ struct ClockBody {
 };
 template <class V>
 void fields(V& v, const ClockBody*) {
-  v.field("play", &ClockBody::play, {}, "Whether it runs.");
-  v.field("step", &ClockBody::step, {.low = -36000, .high = 36000}, "Stops it, so many frames from where it is.");
-  v.field("restart", &ClockBody::restart, {}, "To the take's first frame.");
+  v.field("play", &ClockBody::play, {}, "Whether the clock runs.");
+  v.field("step", &ClockBody::step, {.low = -36000, .high = 36000},
+          "Stops the clock, this number of frames from where it is.");
+  v.field("restart", &ClockBody::restart, {}, "Goes to the first frame of the take.");
 }
 
 struct ChangeBody {
@@ -116,10 +119,11 @@ struct ChangeBody {
 };
 template <class V>
 void fields(V& v, const ChangeBody*) {
-  v.field("character", &ChangeBody::character, {}, "With its parts and objects.");
+  v.field("character", &ChangeBody::character, {}, "Character with its parts and objects.");
   v.field("environment", &ChangeBody::environment, {}, "Ground and obstacles.");
-  v.field("loads", &ChangeBody::loads, {.max_count = 16}, "All that it carries from now on.");
-  v.field("modes", &ChangeBody::modes, {.max_count = 3, .names = mode_names()}, "Each is a motion of its own.");
+  v.field("loads", &ChangeBody::loads, {.max_count = 16}, "All loads that the figure carries from now on.");
+  v.field("modes", &ChangeBody::modes, {.max_count = 3, .names = mode_names()},
+          "Modes of dynamics; each has a motion of its own.");
 }
 
 struct CaseBody {
@@ -130,10 +134,12 @@ struct CaseBody {
 };
 template <class V>
 void fields(V& v, const CaseBody*) {
-  v.field("check", &CaseBody::check, {.required = true}, "Of the finding.");
-  v.field("subject", &CaseBody::subject, {.text = Text::prose, .required = true}, "Of the finding.");
-  v.field("mode", &CaseBody::mode, {.names = mode_names(), .required = true}, "In whose motion it was found.");
-  v.field("take", &CaseBody::take, {.low = 0, .high = 1e9}, "This one or the one before; 0: this one.");
+  v.field("check", &CaseBody::check, {.required = true}, "Check of the finding.");
+  v.field("subject", &CaseBody::subject, {.text = Text::prose, .required = true}, "Subject of the finding.");
+  v.field("mode", &CaseBody::mode, {.names = mode_names(), .required = true},
+          "Mode of the motion in which it was found.");
+  v.field("take", &CaseBody::take, {.low = 0, .high = 1e9},
+          "Number of the present take or of the one before; 0: the present one.");
 }
 
 struct AcknowledgeBody {
@@ -142,8 +148,8 @@ struct AcknowledgeBody {
 };
 template <class V>
 void fields(V& v, const AcknowledgeBody*) {
-  v.field("owner", &AcknowledgeBody::owner, kNeededLabel, "Who looks after it.");
-  v.field("ticket", &AcknowledgeBody::ticket, kNeededLabel, "Where that is written down.");
+  v.field("owner", &AcknowledgeBody::owner, kNeededLabel, "Person who is responsible for the failure.");
+  v.field("ticket", &AcknowledgeBody::ticket, kNeededLabel, "Ticket or address of the ticket.");
 }
 
 struct QuarantineBody {
@@ -153,8 +159,9 @@ struct QuarantineBody {
 };
 template <class V>
 void fields(V& v, const QuarantineBody*) {
-  v.field("owner", &QuarantineBody::owner, kNeededLabel, "Who looks after it.");
-  v.field("reason", &QuarantineBody::reason, {.text = Text::prose, .required = true}, "Why it may fail.");
+  v.field("owner", &QuarantineBody::owner, kNeededLabel, "Person who is responsible for the failure.");
+  v.field("reason", &QuarantineBody::reason, {.text = Text::prose, .required = true},
+          "Reason why the failure may happen.");
   v.field("expires", &QuarantineBody::expires, kNeededLabel, "The last day, YYYY-MM-DD, at most 30 days from now.");
 }
 

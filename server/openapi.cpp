@@ -66,8 +66,9 @@ Json error_components() {
   const Json error = {{"type", "object"},
                       {"required", {"code", "pointer", "text"}},
                       {"properties", {{"code", text}, {"pointer", text}, {"text", text}}}};
-  const Json answer = {{"description", "Why not: a stable code, a JSON pointer into the body, a sentence."},
-                       {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
+  const Json answer = {
+      {"description", "Reason for the refusal: a stable code, a JSON pointer into the body, a sentence."},
+      {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
   return {{"schemas", {{"Error", error}}},
           {"responses", {{"Error", answer}}},
           {"securitySchemes", {{"token", {{"type", "http"}, {"scheme", "bearer"}}}}}};

@@ -27,20 +27,22 @@ const Rule kHelp{.text = Text::prose};
 
 template <class V>
 void fields(V& v, const JointDesc*) {
-  v.field("name", &JointDesc::name, kName, "Unique in the part; the same role has the same name in every part.");
+  v.field("name", &JointDesc::name, kName,
+          "Name, unique in the part; joints of the same role have the same name in every part.");
   v.field("parent", &JointDesc::parent, {.may_be_empty = true},
           "An earlier joint of the part; empty: the docking frame.");
   v.field("body", &JointDesc::body, {.may_be_empty = true},
-          "Name of the body that moves with it; empty: the joint's name.");
+          "Name of the body that moves with the joint; empty: the name of the joint.");
   v.field("type", &JointDesc::type, {.names = kJointTypes}, "Kind of joint.");
-  v.field("position_m", &JointDesc::position_m, kPoint, "In the parent's frame, at rest.");
-  v.field("rotation_deg", &JointDesc::rotation_deg, kRotation, "Rest rotation against the parent, as rotation vector.");
+  v.field("position_m", &JointDesc::position_m, kPoint, "Position at rest, in the parent's frame.");
+  v.field("rotation_deg", &JointDesc::rotation_deg, kRotation,
+          "Rotation at rest relative to the parent, as rotation vector.");
   v.field("axis", &JointDesc::axis, kUnit, "Unit axis: of the hinge, of the travel, or of a ball's twist.");
   v.field("low_deg", &JointDesc::low_deg, kRotation, "Lower end of the hinge's or the twist's range.");
   v.field("high_deg", &JointDesc::high_deg, kRotation, "Upper end.");
   v.field("low_m", &JointDesc::low_m, {.low = -10, .high = 10}, "Prismatic: lower end of the travel.");
   v.field("high_m", &JointDesc::high_m, {.low = -10, .high = 10}, "Prismatic: upper end.");
-  v.field("swing_axis", &JointDesc::swing_axis, kUnit, "Ball: unit, at a right angle to axis.");
+  v.field("swing_axis", &JointDesc::swing_axis, kUnit, "Ball: unit axis at a right angle to `axis`.");
   v.field("swing_deg", &JointDesc::swing_deg, {.low = 0.1, .high = 180},
           "Ball: half angles of the swing cone about swing_axis and about axis x swing_axis.");
   v.field("swing_center_deg", &JointDesc::swing_center_deg, kRotation,
@@ -52,7 +54,7 @@ void fields(V& v, const JointDesc*) {
           "Greatest effort against the axis, N m or N.");
   v.field("strength_high", &JointDesc::strength_high, {.low = 0, .high = 1e7},
           "Greatest effort along the axis, N m or N.");
-  v.field("mass_kg", &JointDesc::mass_kg, kMass, "Of the body that moves with the joint; 0 for a massless link.");
+  v.field("mass_kg", &JointDesc::mass_kg, kMass, "Mass of the body that moves with the joint; 0 for a massless link.");
   v.field("center_of_mass_m", &JointDesc::center_of_mass_m, kPoint, "In the joint's frame.");
   v.field("inertia_kg_m2", &JointDesc::inertia_kg_m2, kInertia,
           "Principal moments about the centre of mass, along the frame's axes.");
@@ -60,7 +62,7 @@ void fields(V& v, const JointDesc*) {
 
 template <class V>
 void fields(V& v, const ColliderDesc*) {
-  v.field("name", &ColliderDesc::name, kName, "Unique in the part.");
+  v.field("name", &ColliderDesc::name, kName, "Name, unique in the part.");
   v.field("joint", &ColliderDesc::joint, {.may_be_empty = true},
           "The joint that moves it; empty: the part's fixed body.");
   v.field("shape", &ColliderDesc::shape, {.required = true}, "Sphere, capsule or box.");
@@ -75,7 +77,7 @@ void fields(V& v, const MeshDesc*) {
 
 template <class V>
 void fields(V& v, const SocketDesc*) {
-  v.field("name", &SocketDesc::name, kName, "Unique in the part.");
+  v.field("name", &SocketDesc::name, kName, "Name, unique in the part.");
   v.field("joint", &SocketDesc::joint, {.may_be_empty = true},
           "The joint that moves it; empty: the part's fixed body.");
   v.field("position_m", &SocketDesc::position_m, kPoint, "In the joint's frame.");
@@ -84,14 +86,16 @@ void fields(V& v, const SocketDesc*) {
 
 template <class V>
 void fields(V& v, const ReachDesc*) {
-  v.field("upper", &ReachDesc::upper, kName, "A ball joint, or the first of three hinges at right angles.");
-  v.field("middle", &ReachDesc::middle, kName, "A hinge.");
-  v.field("tip", &ReachDesc::tip, kName, "A socket that the middle joint moves.");
+  v.field("upper", &ReachDesc::upper, kName,
+          "Ball joint at the beginning of the chain, or the first of three hinges at right angles.");
+  v.field("middle", &ReachDesc::middle, kName, "Hinge in the middle of the chain, such as an elbow.");
+  v.field("tip", &ReachDesc::tip, kName, "Socket at the end of the chain, which the middle joint moves.");
 }
 
 template <class V>
 void fields(V& v, const FacingDesc*) {
-  v.field("joints", &FacingDesc::joints, {.max_count = 8, .required = true}, "From the body outward.");
+  v.field("joints", &FacingDesc::joints, {.max_count = 8, .required = true},
+          "Joints of the chain, from the body outward.");
   v.field("socket", &FacingDesc::socket, kName, "The socket whose +Z shall face the direction.");
 }
 
@@ -99,16 +103,18 @@ template <class V>
 void fields(V& v, const PartDesc*) {
   v.constant("format", "contort.part/1");
   v.field("name", &PartDesc::name, kName, "Unique name.");
-  v.field("kind", &PartDesc::kind, kName, "Slots take parts of one kind.");
+  v.field("kind", &PartDesc::kind, kName, "Kind of the part; a slot takes parts of one kind.");
   v.field("help", &PartDesc::help, kHelp, "One sentence for people.");
-  v.field("joints", &PartDesc::joints, {.max_count = 64}, "Parents first.");
+  v.field("joints", &PartDesc::joints, {.max_count = 64}, "Joints, parents first.");
   v.field("colliders", &PartDesc::colliders, {.max_count = 64}, "Solid shapes for the self-collision check.");
-  v.field("mesh", &PartDesc::mesh, {.max_count = 256}, "What is drawn; empty: the colliders.");
-  v.field("sockets", &PartDesc::sockets, {.max_count = 64}, "Where other parts and objects dock, and named points.");
+  v.field("mesh", &PartDesc::mesh, {.max_count = 256}, "Shapes that are drawn; empty: the colliders.");
+  v.field("sockets", &PartDesc::sockets, {.max_count = 64},
+          "Frames where other parts and objects dock, and named points.");
   v.field("reach", &PartDesc::reach, {.max_count = 1}, "The chain that `reach` moves.");
   v.field("facing", &PartDesc::facing, {.max_count = 1}, "The chain that `direction` moves.");
   v.field("fixed_mass_kg", &PartDesc::fixed_mass_kg, kMass, "Mass that is fixed to the docking frame.");
-  v.field("fixed_center_of_mass_m", &PartDesc::fixed_center_of_mass_m, kPoint, "In the docking frame.");
+  v.field("fixed_center_of_mass_m", &PartDesc::fixed_center_of_mass_m, kPoint,
+          "Centre of that mass in the docking frame.");
   v.field("fixed_inertia_kg_m2", &PartDesc::fixed_inertia_kg_m2, kInertia, "Principal moments about that centre.");
   v.field("color", &PartDesc::color, kColor, "Linear RGB of colliders that are drawn.");
 }
@@ -119,18 +125,18 @@ void fields(V& v, const ObjectDesc*) {
   v.field("name", &ObjectDesc::name, kName, "Unique name.");
   v.field("help", &ObjectDesc::help, kHelp, "One sentence for people.");
   v.field("mass_kg", &ObjectDesc::mass_kg, kMass, "Mass.");
-  v.field("center_of_mass_m", &ObjectDesc::center_of_mass_m, kPoint, "In the object's frame.");
+  v.field("center_of_mass_m", &ObjectDesc::center_of_mass_m, kPoint, "Centre of mass in the object's frame.");
   v.field("inertia_kg_m2", &ObjectDesc::inertia_kg_m2, kInertia, "Principal moments about the centre of mass.");
   v.field("colliders", &ObjectDesc::colliders, {.max_count = 64}, "Solid shapes.");
-  v.field("mesh", &ObjectDesc::mesh, {.max_count = 256}, "What is drawn; empty: the colliders.");
+  v.field("mesh", &ObjectDesc::mesh, {.max_count = 256}, "Shapes that are drawn; empty: the colliders.");
   v.field("points", &ObjectDesc::points, {.max_count = 16}, "Named points with a direction (+Z): the muzzle.");
-  v.field("docks", &ObjectDesc::docks, {.max_count = 16}, "Sockets that it is made for.");
+  v.field("docks", &ObjectDesc::docks, {.max_count = 16}, "Sockets for which the object is made.");
   v.field("color", &ObjectDesc::color, kColor, "Linear RGB of colliders that are drawn.");
 }
 
 template <class V>
 void fields(V& v, const SlotDesc*) {
-  v.field("name", &SlotDesc::name, kName, "Unique in the character.");
+  v.field("name", &SlotDesc::name, kName, "Name, unique in the character.");
   v.field("kind", &SlotDesc::kind, kName, "Kind of part that fits.");
   v.field("side", &SlotDesc::side, {.names = kSides}, "right: the part is mirrored.");
   v.field("on_slot", &SlotDesc::on_slot, {.may_be_empty = true},
@@ -145,24 +151,23 @@ void fields(V& v, const AllowedPairDesc*) {
   v.field("a", &AllowedPairDesc::a, {.text = Text::label, .required = true},
           "A collider, slot/name or object:name/name.");
   v.field("b", &AllowedPairDesc::b, {.text = Text::label, .required = true}, "The other collider.");
-  v.field("reason", &AllowedPairDesc::reason, {.text = Text::label, .required = true},
-          "Why their contact is no fault.");
+  v.field("reason", &AllowedPairDesc::reason, {.text = Text::label, .required = true}, "Reason why they may touch.");
 }
 
 template <class V>
 void fields(V& v, const ControlGroupDesc*) {
-  v.field("name", &ControlGroupDesc::name, kName, "For reports.");
+  v.field("name", &ControlGroupDesc::name, kName, "Name for reports.");
   v.field("joints", &ControlGroupDesc::joints, {.max_count = 8, .text = json_fields::Text::label, .required = true},
-          "\"slot/joint\", or \"root\"; those of parts that are swapped out are passed over.");
+          "\"slot/joint\", or \"root\"; joints of parts that are swapped out are ignored.");
   v.field("greatest", &ControlGroupDesc::greatest, {.low = 1e-3, .high = 1000},
-          "Acceleration that control may add, rad/s^2 or m/s^2.");
+          "Greatest acceleration that control may add, rad/s^2 or m/s^2.");
 }
 
 template <class V>
 void fields(V& v, const RegionDesc*) {
-  v.field("name", &RegionDesc::name, kName, "Unique in the character.");
+  v.field("name", &RegionDesc::name, kName, "Name, unique in the character.");
   v.field("point", &RegionDesc::point, {.text = Text::label, .required = true},
-          "\"slot/socket\" or \"slot/joint\"; one of a part that is swapped out is passed over.");
+          "\"slot/socket\" or \"slot/joint\"; a point of a part that is swapped out is ignored.");
   v.field("shape", &RegionDesc::shape, {.required = true},
           "In the character's frame, on the ground under the root at rest; it moves with the root.");
   v.field("keep_out", &RegionDesc::keep_out, {}, "The point must stay outside instead of inside.");
@@ -174,50 +179,56 @@ void fields(V& v, const CharacterDesc*) {
   v.field("name", &CharacterDesc::name, kName, "Unique name.");
   v.field("help", &CharacterDesc::help, kHelp, "One sentence for people.");
   v.field("slots", &CharacterDesc::slots, {.max_count = 64, .required = true},
-          "The root slot first; carriers before what they carry.");
-  v.field("allowed_pairs", &CharacterDesc::allowed_pairs, {.max_count = 10000}, "Contacts that are no fault.");
+          "Slots: the root slot first, and each one after the slot that carries it.");
+  v.field("allowed_pairs", &CharacterDesc::allowed_pairs, {.max_count = 10000}, "Pairs of colliders that may touch.");
   v.field("objects", &CharacterDesc::objects, {.max_count = 64}, "Objects that may be attached.");
   v.field("control_groups", &CharacterDesc::control_groups, {.max_count = 16},
-          "What dynamic control uses together, in its order; none: found from the parts.");
-  v.field("regions", &CharacterDesc::regions, {.max_count = 64}, "Where points of the figure must stay or not come.");
+          "Groups of joints that dynamic control moves together, in order; if left out, they are found from the "
+          "parts.");
+  v.field("regions", &CharacterDesc::regions, {.max_count = 64},
+          "Regions in which points of the figure must stay, or which they must not enter.");
   v.field("withstands_N_s", &CharacterDesc::withstands_N_s, {.low = 0.0, .high = 1e6},
-          "The horizontal push that it shall withstand; else found from its mass, height and soles.");
+          "Horizontal push that the character shall withstand; if left out, it is found from mass, height and soles.");
 }
 
 template <class V>
 void fields(V& v, const KeyPoseDesc*) {
-  v.field("at", &KeyPoseDesc::at, {.low = 0, .high = 1, .required = true}, "Share of the period, above 0.");
-  v.field("ease", &KeyPoseDesc::ease, {.names = kEases}, "Of the way from the key before.");
+  v.field("at", &KeyPoseDesc::at, {.low = 0, .high = 1, .required = true},
+          "Time of the key as a share of the period, above 0.");
+  v.field("ease", &KeyPoseDesc::ease, {.names = kEases}, "Easing of the movement from the previous key to this one.");
   v.field("pose", &KeyPoseDesc::pose, {.max_count = 64, .required = true},
-          "Angles and travels, as parameters of `pose`.");
+          "Angles and travels of joints, named as the parameters of `pose`.");
 }
 
 template <class V>
 void fields(V& v, const ScriptParamDesc*) {
-  v.field("name", &ScriptParamDesc::name, kName, "As specs and the script call it; ends in its unit: \"depth_deg\".");
+  v.field("name", &ScriptParamDesc::name, kName,
+          "Name in specs and in the script; it ends in its unit, as in \"depth_deg\".");
   v.field("help", &ScriptParamDesc::help, kHelp, "One sentence for people.");
   v.field("low", &ScriptParamDesc::low, {.low = -1e6, .high = 1e6, .required = true}, "Least value.");
   v.field("high", &ScriptParamDesc::high, {.low = -1e6, .high = 1e6, .required = true}, "Greatest value.");
   v.field("preset", &ScriptParamDesc::preset, {.low = -1e6, .high = 1e6, .required = true},
-          "The value where a spec gives none.");
+          "Value that is used if a spec gives none.");
 }
 
 template <class V>
 void fields(V& v, const ActionDesc*) {
   v.constant("format", "contort.action/1");
-  v.field("name", &ActionDesc::name, kName, "What specs call it.");
+  v.field("name", &ActionDesc::name, kName, "Name by which specs use the action.");
   v.field("help", &ActionDesc::help, kHelp, "One sentence for people.");
-  v.field("parts", &ActionDesc::parts, {.max_count = 256}, "Names of the parts that can do it.");
-  v.field("kinds", &ActionDesc::kinds, {.max_count = 64}, "Kinds of parts that can do it.");
+  v.field("parts", &ActionDesc::parts, {.max_count = 256}, "Names of the parts that can perform the action.");
+  v.field("kinds", &ActionDesc::kinds, {.max_count = 64}, "Kinds of parts that can perform the action.");
   v.field("keys", &ActionDesc::keys, {.max_count = 64}, "Poses, one after another.");
-  v.field("of", &ActionDesc::of, {.may_be_empty = true}, "Or: a built-in action, with other values.");
-  v.field("params", &ActionDesc::params, {.max_count = 64}, "of: the values where a spec gives none.");
+  v.field("of", &ActionDesc::of, {.may_be_empty = true}, "Built-in action that this one varies, instead of `keys`.");
+  v.field("params", &ActionDesc::params, {.max_count = 64}, "With `of`: values that are used if a spec gives none.");
   v.field("script", &ActionDesc::script, {.max_count = 1000, .text = Text::prose, .may_be_empty = true},
           "Lines of Lua that compute `sets` in each frame.");
   v.field("sets", &ActionDesc::sets, {.max_count = 64},
-          "script: the joints that it sets, as parameters of `pose`; with `of`, the parameters of that action.");
-  v.field("parameters", &ActionDesc::parameters, {.max_count = 32}, "script: numbers that a spec may give it.");
-  v.field("adds", &ActionDesc::adds, {}, "script: what it sets is added to where the joints are.");
+          "For scripts: the joints that they set, named as the parameters of `pose`; with `of`, parameters of that "
+          "action.");
+  v.field("parameters", &ActionDesc::parameters, {.max_count = 32}, "For scripts: numbers that a spec may give.");
+  v.field("adds", &ActionDesc::adds, {},
+          "For scripts: the computed angles are added to the present ones instead of replacing them.");
 }
 
 using json_fields::read_document;

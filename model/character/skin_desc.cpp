@@ -11,8 +11,10 @@ template <class V>
 void fields(V& v, const SkinDesc*) {
   using json_fields::Text;
   v.constant("format", "contort.skin/1");
-  v.field("model", &SkinDesc::model, {.text = Text::label, .required = true}, "A .glb file of the same folder.");
-  v.field("metres_per_unit", &SkinDesc::metres_per_unit, {.low = 1e-9, .high = 1e9}, "Of the model's lengths.");
+  v.field("model", &SkinDesc::model, {.text = Text::label, .required = true},
+          "Name of a .glb file in the same folder.");
+  v.field("metres_per_unit", &SkinDesc::metres_per_unit, {.low = 1e-9, .high = 1e9},
+          "Metres in one unit of the model's lengths.");
   v.field("rotation_deg", &SkinDesc::rotation_deg, {.low = -360, .high = 360},
           "Rotation vector that makes the model face +Z.");
   v.field("joints", &SkinDesc::joints,
