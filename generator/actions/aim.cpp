@@ -193,7 +193,7 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
   const std::vector<std::string> points = own_points(character, part);
   const bool armed = std::find(points.begin(), points.end(), "muzzle") != points.end();
   point.preset = armed ? std::string("muzzle") : points.empty() ? std::string("grip") : points.front();
-  point.help = "What is directed: the grip of a hand, a face, or a point of what is carried.";
+  point.help = "Point that is directed: the grip of a hand, a face, or a point of a carried object.";
   ParamDef target;
   target.name = "target_m";
   target.type = ParamType::vector;
@@ -201,7 +201,7 @@ std::vector<ParamDef> aim_params(const Character& character, const Part& part) {
   target.preset = Vec3(0.0, 1.2, 5.0);
   target.domain = Domain::around;
   target.mirrored = Mirrored::point;
-  target.help = "The point, m, from where the character stood at first.";
+  target.help = "Target point, m, from the place where the character stood at first.";
   return {point, target};
 }
 

@@ -10,11 +10,11 @@ std::vector<ParamDef> direction_params(const Character&, const Part&) {
   azimuth.name = "azimuth_deg";
   azimuth.low = -180.0, azimuth.high = 180.0;
   azimuth.mirrored = Mirrored::opposite;
-  azimuth.help = "0 is forward, 90 to the character's left.";
+  azimuth.help = "Azimuth of the direction: 0 is forward, 90 to the character's left.";
   ParamDef elevation;
   elevation.name = "elevation_deg";
   elevation.low = -90.0, elevation.high = 90.0;
-  elevation.help = "0 is level, 90 straight up.";
+  elevation.help = "Elevation of the direction: 0 is level, 90 straight up.";
   return {azimuth, elevation};
 }
 

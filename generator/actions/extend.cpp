@@ -8,7 +8,7 @@ std::vector<ParamDef> extend_params(const Character&, const Part&) {
   share.name = "share";
   share.low = 0.0, share.high = 1.0;
   share.preset = 1.0;
-  share.help = "0: drawn in, 1: all the way out.";
+  share.help = "Share of the travel: 0 is drawn in, 1 all the way out.";
   return {share};
 }
 

@@ -12,12 +12,12 @@ std::vector<ParamDef> hit_reaction_params(const Character&, const Part&) {
   azimuth.name = "azimuth_deg";
   azimuth.low = -180.0, azimuth.high = 180.0;
   azimuth.mirrored = Mirrored::opposite;
-  azimuth.help = "Where the blow comes from: 0 is from the front, 90 from the character's left.";
+  azimuth.help = "Direction from which the blow comes: 0 is from the front, 90 from the character's left.";
   ParamDef strength;
   strength.name = "strength_deg";
   strength.low = 0.0, strength.high = 60.0;
   strength.preset = 15.0;
-  strength.help = "How far the whole part bends at most.";
+  strength.help = "Greatest angle by which the whole part bends.";
   return {azimuth, strength};
 }
 

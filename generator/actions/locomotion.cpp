@@ -27,21 +27,24 @@ ParamDef lead() {
   def.type = ParamType::choice;
   def.choices = {"left", "right"};
   def.preset = std::string("left");
-  def.help = "The side whose foot stands when it begins.";
+  def.help = "Side whose foot stands when the action begins.";
   return def;
 }
 
 std::vector<ParamDef> params_of_gait(double fastest_m_s, double preset_m_s) {
-  return {lead(), number("speed_m_s", 0.0, fastest_m_s, preset_m_s, "Of the way between start and stop."),
-          number("heading_deg", -180.0, 180.0, 0.0,
-                 "Where it goes, from where the character faces; 90 is to its left. It turns there as it starts; slow walks go "
-                 "sideways or backward.")};
+  return {
+      lead(), number("speed_m_s", 0.0, fastest_m_s, preset_m_s, "Speed between the start and the stop."),
+      number(
+          "heading_deg", -180.0, 180.0, 0.0,
+          "Direction of the way against the direction that the character faces; 90 is to its left. The character turns "
+          "there as it starts; slow walks go sideways or backward.")};
 }
 
 std::vector<ParamDef> params_of_bend() {
-  return {number("share", 0.0, 0.6, 0.3, "How far the hips go down, as a share of the legs' length."),
-          number("lean_deg", -30.0, 90.0, 0.0, "How far the hips lean forward at the lowest."),
-          number("back_m", -0.5, 0.5, 0.0, "How far they go back there: what leans forward must stay over its feet.")};
+  return {number("share", 0.0, 0.6, 0.3, "Distance by which the hips go down, as a share of the legs' length."),
+          number("lean_deg", -30.0, 90.0, 0.0, "Angle by which the hips lean forward at the lowest point."),
+          number("back_m", -0.5, 0.5, 0.0,
+                 "Distance by which the hips go back there, so that a figure that leans forward stays over its feet.")};
 }
 
 bool is_root_with_legs(const Character& character, const Part& part) {
@@ -230,7 +233,7 @@ std::vector<ParamDef> turn_params(const Character&, const Part&) {
   target.preset = Vec3(2.0, 1.2, -2.0);
   target.domain = Domain::around;
   target.mirrored = Mirrored::point;
-  target.help = "The point, m, from where the character stood at first. Its height does not matter.";
+  target.help = "Target point, m, from the place where the character stood at first. Its height does not matter.";
   return {target};
 }
 bool turn_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }

@@ -13,7 +13,7 @@ std::vector<ParamDef> look_at_params(const Character&, const Part&) {
   target.preset = Vec3(0.0, 1.5, 3.0);
   target.domain = Domain::around;
   target.mirrored = Mirrored::point;
-  target.help = "The point, m, from where the character stood at first.";
+  target.help = "Target point, m, from the place where the character stood at first.";
   return {target};
 }
 

@@ -15,7 +15,7 @@ std::vector<ParamDef> reach_params(const Character&, const Part&) {
   target.preset = Vec3(0.0, 1.0, 0.5);
   target.domain = Domain::within_reach;
   target.mirrored = Mirrored::point;
-  target.help = "Where the tip goes, m, from the ground under the character.";
+  target.help = "Target of the tip, m, from the ground under the character.";
   ParamDef swivel;
   swivel.name = "swivel_deg";
   swivel.low = -180.0, swivel.high = 180.0;

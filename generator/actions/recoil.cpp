@@ -10,12 +10,12 @@ std::vector<ParamDef> recoil_params(const Character&, const Part&) {
   rise.name = "rise_deg";
   rise.low = 0.0, rise.high = 45.0;
   rise.preset = 5.0;
-  rise.help = "How far the arm is thrown up.";
+  rise.help = "Angle by which the arm is thrown up.";
   ParamDef bend;
   bend.name = "bend_deg";
   bend.low = 0.0, bend.high = 60.0;
   bend.preset = 8.0;
-  bend.help = "How far the elbow gives.";
+  bend.help = "Angle by which the elbow bends.";
   return {rise, bend};
 }
 

@@ -11,12 +11,12 @@ std::vector<ParamDef> touch_params(const Character&, const Part&) {
   within.name = "within_m";
   within.low = 0.0, within.high = 3.0;
   within.preset = 0.6;
-  within.help = "Surfaces farther from the hand than this are left alone.";
+  within.help = "Greatest distance from the hand of a surface that is touched.";
   ParamDef gap;
   gap.name = "gap_m";
   gap.low = 0.0, gap.high = 0.5;
   gap.preset = 0.03;
-  gap.help = "Between the grip and the surface, at least; a hand that needs more takes it.";
+  gap.help = "Least distance between the grip and the surface; a hand that needs more keeps more.";
   return {within, gap};
 }
 
