@@ -16,6 +16,10 @@ foreach(part IN ITEMS Guide Reference Internals)
       add_test(NAME Scripts.${part}.${name} COMMAND
         bash ${CMAKE_CURRENT_LIST_DIR}/readme_commands.sh ${CMAKE_SOURCE_DIR} $<TARGET_FILE_DIR:contort> ${page})
       set_tests_properties(Scripts.${part}.${name} PROPERTIES TIMEOUT 300 COST 100)
+      # Their commands are those of other pages, some with runs of the fuzzer: ./test --all has the time for them.
+      if(part STREQUAL "Internals")
+        set_tests_properties(Scripts.${part}.${name} PROPERTIES LABELS slow)
+      endif()
     endif()
   endforeach()
 endforeach()
