@@ -55,7 +55,7 @@ void fields(V& v, const JointDesc*) {
   v.field("strength_high", &JointDesc::strength_high, {.low = 0, .high = 1e7},
           "Greatest effort along the axis, N m or N.");
   v.field("mass_kg", &JointDesc::mass_kg, kMass, "Mass of the body that moves with the joint; 0 for a massless link.");
-  v.field("center_of_mass_m", &JointDesc::center_of_mass_m, kPoint, "In the joint's frame.");
+  v.field("center_of_mass_m", &JointDesc::center_of_mass_m, kPoint, "Position in the joint's frame.");
   v.field("inertia_kg_m2", &JointDesc::inertia_kg_m2, kInertia,
           "Principal moments about the centre of mass, along the frame's axes.");
 }
@@ -80,7 +80,7 @@ void fields(V& v, const SocketDesc*) {
   v.field("name", &SocketDesc::name, kName, "Name, unique in the part.");
   v.field("joint", &SocketDesc::joint, {.may_be_empty = true},
           "The joint that moves it; empty: the part's fixed body.");
-  v.field("position_m", &SocketDesc::position_m, kPoint, "In the joint's frame.");
+  v.field("position_m", &SocketDesc::position_m, kPoint, "Position in the joint's frame.");
   v.field("rotation_deg", &SocketDesc::rotation_deg, kRotation, "Rotation vector; the socket looks along its +Z.");
 }
 
@@ -169,7 +169,7 @@ void fields(V& v, const RegionDesc*) {
   v.field("point", &RegionDesc::point, {.text = Text::label, .required = true},
           "\"slot/socket\" or \"slot/joint\"; a point of a part that is swapped out is ignored.");
   v.field("shape", &RegionDesc::shape, {.required = true},
-          "In the character's frame, on the ground under the root at rest; it moves with the root.");
+          "Shape in the character's frame, on the ground under the root at rest; it moves with the root.");
   v.field("keep_out", &RegionDesc::keep_out, {}, "The point must stay outside instead of inside.");
 }
 
