@@ -55,7 +55,7 @@ void fields(V& v, const JointDesc*) {
   v.field("strength_high", &JointDesc::strength_high, {.low = 0, .high = 1e7},
           "Greatest effort along the axis, N m or N.");
   v.field("mass_kg", &JointDesc::mass_kg, kMass, "Mass of the body that moves with the joint; 0 for a massless link.");
-  v.field("center_of_mass_m", &JointDesc::center_of_mass_m, kPoint, "Position in the joint's frame.");
+  v.field("center_of_mass_m", &JointDesc::center_of_mass_m, kPoint, "Centre of mass in the joint's frame.");
   v.field("inertia_kg_m2", &JointDesc::inertia_kg_m2, kInertia,
           "Principal moments about the centre of mass, along the frame's axes.");
 }
