@@ -3,6 +3,8 @@
 // at once, and a step that is too fast has a finding of its own; both are passed over.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "checks/check.h"
 #include "checks/fixed_limits.h"
@@ -17,15 +19,16 @@ bool is_struck(const Motion& motion, int frame) {
                              [&](const ImpactMark& m) { return frame >= m.frame && frame <= m.frame + 2; });
 }
 
-// rad/s^2 or m/s^2 about the frame before; negative where a step is too fast, or no number.
-double change_of_speed(const Motion& motion, const Joint& joint, int frame) {
-  const double* now = motion.row(frame).data();
-  const double* middle = motion.row(frame - 1).data();
-  const Vec3 first = joint_step_vector(joint, motion.row(frame - 2).data(), middle) * motion.rate_hz;
-  const Vec3 second = joint_step_vector(joint, middle, now) * motion.rate_hz;
+// One over the time between the middles of the steps before and after a frame.
+double rate_around_hz(const Motion& motion, int frame) {
+  return motion.times_s.empty() ? motion.rate_hz : 2.0 / (motion.time_s(frame + 1) - motion.time_s(frame - 1));
+}
+
+// rad/s^2 or m/s^2 between two steps, given as speeds; negative where a step is too fast, or no number.
+double change_of_speed(const Joint& joint, const Vec3& first, const Vec3& second, double rate_hz) {
   const double fastest = std::max(glm::dot(first, first), glm::dot(second, second));
   if (!(fastest <= joint.max_speed * joint.max_speed)) return -1.0;
-  const Vec3 change = (second - first) * motion.rate_hz;
+  const Vec3 change = (second - first) * rate_hz;
   return std::sqrt(glm::dot(change, change));
 }
 
@@ -39,11 +42,20 @@ Subject angular_acceleration_subject(const Character& character, int subject) {
 
 void angular_acceleration_measure(const CheckInput& in, MarginFold& fold) {
   const std::span<const Joint> joints = in.character.joints();
-  for (int frame = 2; frame < in.motion.frame_count; ++frame) {
-    if (is_struck(in.motion, frame) || in.may_jump_into(frame) || in.may_jump_into(frame - 1)) continue;
-    for (std::size_t j = 1; j < joints.size(); ++j)
-      if (const double change = change_of_speed(in.motion, joints[j], frame); change >= 0.0)
+  const Motion& motion = in.motion;
+  std::vector<Vec3> speeds(joints.size());  // of the step to the frame before
+  for (int frame = 1; frame < motion.frame_count; ++frame) {
+    const bool is_judged = frame > 1 && !is_struck(motion, frame) && !in.may_jump_into(frame) &&
+                           !in.may_jump_into(frame - 1);
+    const double* before = motion.row(frame - 1).data();
+    const double* now = motion.row(frame).data();
+    const double into_hz = motion.rate_into_hz(frame), around_hz = is_judged ? rate_around_hz(motion, frame - 1) : 0.0;
+    for (std::size_t j = 1; j < joints.size(); ++j) {
+      const Vec3 first = std::exchange(speeds[j], joint_step_vector(joints[j], before, now) * into_hz);
+      if (!is_judged) continue;
+      if (const double change = change_of_speed(joints[j], first, speeds[j], around_hz); change >= 0.0)
         fold.report(static_cast<int>(j) - 1, frame, joints[j].max_speed / kShortestRise_s - change);
+    }
   }
 }
 

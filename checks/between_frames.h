@@ -39,21 +39,22 @@ class BetweenFrames {
  private:
   struct Link {
     int joint;
-    double reach_m;  // from its origin to the farthest point of the body that it moves, but for travels in between
+    double reach_m;  // from its origin to the farthest point of the body that it moves, without travels in between
     bool slides;
-    double path_m(double farthest_out_m) const { return slides ? 1.0 : reach_m + farthest_out_m; }  // of a step of 1
+    double path_m(double farthest_out_m) const { return slides ? 1.0 : reach_m + farthest_out_m; }  // for a step of 1
+                                                                                                    // rad or 1 m
   };
   // The chain between a judged pair's bodies: the joint that carries both, and the links below it.
   struct Chains {
     int trunk;
-    std::size_t a, b;  // of paths_m_: what the links up to the trunk add up to
+    std::size_t a, b;  // indices into paths_m_: the sums over the links up to the trunk
   };
   // Bounds on the movement of a body's points relative to a joint that carries the body, between the two frames.
   struct Travel {
     double path_m = 0.0;   // upper bound of the path
     double curve_m = 0.0;  // upper bound of the second derivative
   };
-  struct Places {  // of two bodies, as seen from the joint that carries both
+  struct Places {  // places of two bodies, in the frame of the joint that carries both
     Rigid a, b;
   };
   // The figure at a moment between the frames; transforms are computed on demand.
@@ -65,17 +66,17 @@ class BetweenFrames {
   };
   struct Moment {
     double time;  // 0 to 1
-    Solid a, b;   // as seen from the joint that carries both
+    Solid a, b; // in the frame of the joint that carries both
     double distance_m;
-    Vec3 way;  // as of signed_distance
+    Vec3 way;  // the way_out of signed_distance
   };
   struct Search {
     JudgedPair pair;
     int trunk;  // the joint that carries both
     Travel a, b;
     Places before, now;
-    double least_m;            // that was found so far
-    ColliderPair colliders{};  // that are looked at
+    double least_m;            // the least distance that was found so far
+    ColliderPair colliders{};  // the colliders that are being examined
     void measure(Moment& moment) const;
     double enough_m() const;
     double sag_m(const Moment& from, const Moment& to) const;
@@ -101,16 +102,18 @@ class BetweenFrames {
   void halve(Search& search, const Moment& from, const Moment& to, int level);
 
   const Character& character_;
-  std::vector<Solid> own_;                // of colliders, in their joints' frames
-  std::vector<Link> links_;               // of body after body, each from its own joint down to the root's first
-  std::vector<std::size_t> first_links_;  // of bodies, and the end
-  std::vector<Chains> chains_;            // of judged pairs
+  std::vector<Solid> own_;                // the colliders in their joints' frames
+  std::vector<Link> links_;               // body after body; each body's links go from its own joint to the joint next
+                                          // to the root
+  std::vector<std::size_t> first_links_;  // each body's first index into links_, and the end
+  std::vector<Chains> chains_;            // for each judged pair
   Frame before_, now_;
-  int interval_ = 0;           // counts them
-  std::vector<Pose> poses_;    // by the moment
-  std::vector<double> steps_;  // of joints, between the frames: rad or m
+  int interval_ = 0;           // counts the intervals
+  std::vector<Pose> poses_;    // by moment in the interval
+  std::vector<double> steps_;  // each joint's step between the frames, rad or m
   double farthest_out_m_ = 0.0;
-  std::vector<Vec3> directions_;  // of judged colliders, as seen from a's body: what parted b from a when last measured
+  std::vector<Vec3> directions_;  // for each judged pair of colliders, in the frame of a's body: the direction that
+                                  // separated b from a at their last measurement
   // For each body in turn: bounds on the path of its points relative to the joint that carries its first 0, 1, 2 …
   // links.
   std::vector<double> paths_m_;

@@ -74,8 +74,9 @@ std::string_view reason_not_to_judge(const CheckDef& check, const CheckInput& in
       if (input.intent == nullptr) return kNoIntent;
       return has_response ? "dynamics moves the figure, so that tracking_error judges" : "";
     case Needs::response: return has_response ? "" : "the motion has no dynamics";
-    case Needs::clip: return "the motion is no clip of an animation file";
-    case Needs::foreign: return input.foreign != nullptr ? "" : "the generator is no program of its own";
+    case Needs::clip: return "the motion is not a clip of an animation file";
+    case Needs::couplings: return input.couplings.empty() ? "no joint has to follow another one" : "";
+    case Needs::foreign: return input.foreign != nullptr ? "" : "the generator is not a program of its own";
   }
   return {};
 }

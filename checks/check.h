@@ -26,22 +26,23 @@ enum class Needs : std::uint8_t {
   height,            // the height of the root above the ground
   path,              // the path of the root in the world
   intent,            // the generator's intent
-  kinematic_intent,  // the same, and that dynamics did not move the figure away from it
+  kinematic_intent,  // the generator's intent, for a motion that dynamics did not change
   response,          // the data that dynamics recorded
-  clip,              // instead of all that, a clip as it is in its file
+  clip,              // a clip as it is in its file, instead of a motion
+  couplings,         // joints that must follow others
   foreign,           // the data of a generator that is a program of its own
 };
 
-// The kind of what is wrong, for grouping failures (docs/reference/causes.md).
+// The kind of a failure, for grouping (docs/reference/causes.md).
 enum class CheckKind : std::uint8_t {
   broken,    // no motion, or NaN and infinite values
   speed,     // too fast, too abrupt
   range,     // a joint or point beyond its limits
   contact,   // the figure touches itself
-  ground,    // it sinks, or slides
-  obstacle,  // it passes through something
+  ground,    // the figure sinks into the ground, or slides on it
+  obstacle,  // the figure passes through an obstacle
   goal,      // a target is missed
-  queue,     // sequences, or what they leave behind
+  queue,     // sequences do not follow each other as they should, or leave an offset behind
   dynamics,  // effort, balance, recovery
 };
 std::span<const std::string_view> check_kind_names();  // in the order of the enum
@@ -61,9 +62,11 @@ struct CheckInput {
   const Environment& environment;
   const Intent* intent = nullptr;  // the generator's intent; null if it gives none
   RootPath path = RootPath::told;
-  const ForeignFacts* foreign = nullptr;  // of a generator that is a program of its own
+  const ForeignFacts* foreign = nullptr;  // only from a generator that is a program of its own
+  std::span<const Coupling> couplings{};  // joints that must follow others
 
   bool may_jump_into(int frame) const { return foreign != nullptr && foreign->may_jump_into(frame); }
+  bool may_root_jump_into(int frame) const { return foreign != nullptr && foreign->may_root_jump_into(frame); }
 
   std::span<const Rigid> world_at(int frame) const {
     const std::size_t joints = character.joints().size();
@@ -73,7 +76,7 @@ struct CheckInput {
 
 struct Subject {
   std::string name;       // "arm_left/elbow max"
-  std::string_view unit;  // of its margins
+  std::string_view unit;  // unit of its margins
 };
 
 struct CheckDef {
@@ -81,7 +84,7 @@ struct CheckDef {
   CheckKind kind;
   double scale;           // margin / scale compares checks: 0.1 rad out of range is "as bad as" 2 cm deep
   double resolution;      // margins down to -resolution are rounding, not violations
-  bool needs_world;       // reads CheckInput::world; where no check does, nobody computes it
+  bool needs_world;       // reads CheckInput::world, which is computed only if some check needs it
   Needs needs;
   std::string_view nothing;  // the reason if its needs are met and it still judged nothing
   std::string_view help;
@@ -91,10 +94,11 @@ struct CheckDef {
   // Reports the margin of every subject in every frame that the check judges. It may leave out margins that change no
   // result (fold.h).
   void (*measure)(const CheckInput&, MarginFold&);
-  ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // of checks that judge clips as they are in their files
+  ClipCheckResult (*in_clip)(const ClipInput&) = nullptr;  // only for checks that judge clips as they are in their
+                                                           // files
 };
 
-// A check that judged, with its number of subjects. The text is that of the manifest.
+// A check that judged, with its number of subjects. The name refers to the manifest's text.
 struct JudgedCheck {
   std::string_view check;
   int subjects = 0;

@@ -19,8 +19,8 @@ namespace contort {
 // A judged pair that is to be measured.
 struct DuePair {
   std::size_t judged = 0;
-  double matters_m = 0.0;  // exactly where it is nearer than this
-  double reach_m = 0.0;    // >= matters_m; beyond this, not at all
+  double matters_m = 0.0;  // the distance must be exact if it is below this
+  double reach_m = 0.0;    // >= matters_m; a pair that is farther apart need not be measured
 };
 
 class Clearances {
@@ -47,14 +47,15 @@ class Clearances {
   };
   struct Pair {
     std::size_t body_a, body_b;
-    double radii_m;                                   // of their balls, the sum
-    std::size_t first_round, first_other, end_other;  // of colliders_: spheres and capsules, then with a box or a hull
+    double radii_m;                                   // sum of the radii of their bounding spheres
+    std::size_t first_round, first_other, end_other;  // indices into colliders_: pairs of spheres and capsules, then
+                                                      // pairs with a box or a hull
     // The state of the last measurement:
     bool is_near = false;
-    double apart_m = 0.0;                                // its balls, or the reach
-    std::size_t first_measured = 0, end_measured = 0;    // of round_m_
-    Vec3 way{std::numeric_limits<double>::quiet_NaN()};  // out, of b, as seen from a
-    double way_extent_m = 0.0;                           // of a along it
+    double apart_m = 0.0;                                // distance of its bounding spheres, or the reach
+    std::size_t first_measured = 0, end_measured = 0;    // indices into round_m_
+    Vec3 way{std::numeric_limits<double>::quiet_NaN()};  // the direction out of a for b, in a's frame
+    double way_extent_m = 0.0;                           // extent of a along this direction
   };
 
   Pair parted(const JudgedPair& pair);
@@ -70,11 +71,13 @@ class Clearances {
   double distance_of_other(std::size_t i, const Pair& pair, double enough_m, double band_m);
 
   const Character& character_;
-  std::vector<ColliderPair> colliders_;  // pair after pair, as the character's, but round ones first
-  std::vector<Vec3> ways_;               // of colliders_ that were measured alone: the way out, as seen from a's body
-  std::vector<Pair> pairs_;              // as judged_pairs()
+  std::vector<ColliderPair> colliders_;  // pair after pair, in the character's order, but pairs of round colliders
+                                         // first
+  std::vector<Vec3> ways_;               // for colliders_ that were measured alone: the way out, in the frame of a's
+                                         // body
+  std::vector<Pair> pairs_;              // in the order of judged_pairs()
   std::vector<Solid> own_;               // colliders in their joints' frames
-  std::vector<Ball> own_balls_;          // of bodies
+  std::vector<Ball> own_balls_;          // bounding spheres of bodies
   std::span<const Rigid> placed_at_;
   std::vector<Solid> world_;  // colliders of the bodies that were needed in this frame
   std::vector<char> placed_;

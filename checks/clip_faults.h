@@ -1,4 +1,4 @@
-// The faults of a clip in its file that its reader went around.
+// The faults in a clip's file that the reader skipped.
 #pragma once
 
 #include <vector>

@@ -19,14 +19,21 @@ Mat4 matrix_of(const Trs& trs) {
 
 }  // namespace
 
+std::vector<Mat4> world_from_nodes(const Asset& asset, const std::vector<Trs>& local) {
+  std::vector<Mat4> out(asset.nodes.size(), Mat4(1.0));
+  for (const int node : asset.order) {
+    const Mat4 own = matrix_of(local[at(node)]);
+    const int parent = asset.nodes[at(node)].parent;
+    out[at(node)] = parent < 0 ? own : out[at(parent)] * own;
+  }
+  return out;
+}
+
 ClipFigure clip_figure(const Asset& asset) {
   ClipFigure out;
-  out.world_from_node.resize(asset.nodes.size(), Mat4(1.0));
-  for (const int node : asset.order) {
-    const AssetNode& n = asset.nodes[at(node)];
-    const Mat4 own = matrix_of(n.rest);
-    out.world_from_node[at(node)] = n.parent < 0 ? own : out.world_from_node[at(n.parent)] * own;
-  }
+  std::vector<Trs> rest;
+  for (const AssetNode& node : asset.nodes) rest.push_back(node.rest);
+  out.world_from_node = world_from_nodes(asset, rest);
   const bool has_joints = std::ranges::any_of(asset.nodes, &AssetNode::is_joint);
   Vec3 low(1e300), high(-1e300);
   for (std::size_t i = 0; i < asset.nodes.size(); ++i) {

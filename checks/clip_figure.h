@@ -1,4 +1,4 @@
-// The figure of a clip at rest, in the world: how large it is, and how long a movement of a node is there.
+// The figure of a clip at rest: its size, and the length of a node's movement, both in the world.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,9 @@ struct ClipFigure {
 };
 
 ClipFigure clip_figure(const Asset& asset);
+
+// The same for another pose: parent_from_node of every node, as model/asset/sample.h gives it.
+std::vector<Mat4> world_from_nodes(const Asset& asset, const std::vector<Trs>& local);
 
 // A change of a node's translation, as the model at rest has it in the world.
 Vec3 in_world(const Asset& asset, const ClipFigure& figure, int node, const Vec3& change);

@@ -18,7 +18,8 @@ namespace contort {
 struct SpeedLimits {
   double max_rad_s = 0.0;                 // for every node without its own limit, > 0
   std::map<std::string, double> of_node;  // rad/s, by node label or name
-  CheckSettings settings{};               // its rules for angular_velocity and pop, by node label; clips have no phases
+  CheckSettings settings{};               // rules for angular_velocity and pop apply by node label; clips have no
+                                          // phases
 };
 
 // A finding of one clip. Frames of the finding are key intervals: interval i is between keys i and i + 1.
@@ -31,7 +32,7 @@ struct ClipFinding {
 
 struct ClipSpeeds {
   std::string clip;
-  std::string peak_node;  // "" where nothing turns
+  std::string peak_node;  // "" if nothing turns
   double peak_rad_s = 0.0;
   double peak_t0_s = 0.0;
   double peak_t1_s = 0.0;

@@ -54,7 +54,39 @@ Finding to_finding(const MarginFold::Episode& e, const std::vector<LimitedDof>& 
           -e.worst_margin / scale};
 }
 
+// As an import writes it: +-360 degrees are where a character's ranges end, and 0 is the rest pose.
+bool is_declared_end(double end_rad, double declared_rad, double at_rest_rad) {
+  constexpr double kRounding_rad = 1e-6;
+  const double written_rad = std::clamp(declared_rad, -2.0 * kPi, 2.0 * kPi);
+  return std::fabs(end_rad + at_rest_rad - written_rad) < kRounding_rad;
+}
+
+bool has_declared_travel(const Joint& joint, const AsfDof& dof, double at_rest_m) {
+  constexpr double kRounding = 1e-6;  // in parts of the range
+  const double metres = (joint.high - joint.low) / (dof.high - dof.low);
+  const double off = (joint.low + at_rest_m - dof.low * metres) / (joint.high - joint.low);
+  return joint.kind == JointKind::prismatic && metres > 0.0 && std::fabs(off) < kRounding;
+}
+
 }  // namespace
+
+std::set<std::string> subjects_with_declared_range(const AsfSkeleton& skeleton, const Character& character,
+                                                   const FileJoints& joints) {
+  std::set<std::string> out;
+  for (const LimitedDof& limited : limited_dofs(skeleton)) {
+    const AsfDof& dof = limited.dof;
+    const auto found = joints.find(limited.bone->name + "_" + std::string(dof_name(dof.kind)));
+    const int index = found == joints.end() ? -1 : character.find_joint(found->second.joint);
+    if (index < 0) continue;
+    const Joint& joint = character.joint(index);
+    const double at_rest = found->second.at_rest;
+    const bool turns = is_rotation(dof.kind) && joint.kind == JointKind::hinge;
+    const bool travels = !is_rotation(dof.kind) && has_declared_travel(joint, dof, at_rest);
+    if (travels || (turns && is_declared_end(joint.low, dof.low, at_rest))) out.insert(joint.name + " min");
+    if (travels || (turns && is_declared_end(joint.high, dof.high, at_rest))) out.insert(joint.name + " max");
+  }
+  return out;
+}
 
 std::vector<std::string> dof_subjects(const AsfSkeleton& skeleton) {
   const std::vector<LimitedDof> dofs = limited_dofs(skeleton);

@@ -9,9 +9,9 @@
 namespace contort {
 
 struct Family {
-  std::string check;      // "joint_range", or how a process ended: "crash"
+  std::string check;      // "joint_range", or the way in which a process ended: "crash"
   std::string character;  // "human"
-  std::string subject;    // "arm_left/elbow max"; of a crash the signal
+  std::string subject;    // "arm_left/elbow max"; for a crash the signal
 
   bool operator==(const Family&) const = default;
   std::strong_ordering operator<=>(const Family& other) const;  // the order of their texts

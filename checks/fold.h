@@ -15,7 +15,7 @@ namespace contort {
 struct Finding {
   std::string check;    // "joint_range"
   std::string subject;  // "arm_left/elbow max", "arm_left/forearm ~ torso/chest"
-  std::string unit;     // of worst_margin
+  std::string unit;     // unit of worst_margin
   int first_frame = 0;
   int worst_frame = 0;
   int last_frame = 0;
@@ -91,7 +91,7 @@ class MarginFold {
   bool is_ignored(std::size_t subject) const;
 
   int merge_gap_frames_;
-  double least_;  // that is not violated: -resolution
+  double least_;  // least margin that is not violated: -resolution
   std::vector<double> smallest_;
   std::vector<int> open_;  // per subject: index of its last episode, or -1
   std::vector<Episode> episodes_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "checks/check.h"
+#include "checks/feet_findings.h"
 #include "checks/fixed_limits.h"
 #include "model/geometry/distance.h"
 #include "model/geometry/solid_points.h"
@@ -66,8 +67,9 @@ std::vector<SolePoint> points_of_feet(const Character& character) {
 
 // The distance that the point has slid, or a negative number while it does not touch.
 double slide_m(SolePoint& p, const Rigid& world_from_joint, const Environment& ground) {
-  const Vec3 core = world_from_joint * p.core_m;
   if (!p.touches) {
+    const Vec3 core = world_from_joint * p.core_m;
+    if (ground.is_surely_over_ground(core, p.radius_m, kContact_m)) return -1.0;
     const Surface beneath = ground.nearest_ground(core);
     if (!(beneath.distance_m - p.radius_m <= kContact_m)) return -1.0;
     p.touches = true;
@@ -112,5 +114,7 @@ void foot_slide_measure(const CheckInput& in, MarginFold& fold) {
       if (most[b] >= 0.0) fold.report(static_cast<int>(b), frame, kSlide_m - most[b]);
   }
 }
+
+ClipCheckResult foot_slide_in_clip(const ClipInput& in) { return judge_feet_in_clip(in, FootCheck::slide); }
 
 }  // namespace contort

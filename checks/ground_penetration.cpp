@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "checks/check.h"
+#include "checks/feet_findings.h"
 #include "checks/fixed_limits.h"
 #include "model/geometry/solid_points.h"
 
@@ -31,9 +33,10 @@ double lowest_m(const Rigid& world_from_body, const Vec3& up, const Solid& own, 
   return placed.center_m.y - extent_along(placed, Vec3(0.0, -1.0, 0.0));
 }
 
-double height_above(const Environment& environment, const Solid& solid) {
-  double least_m = std::numeric_limits<double>::infinity();
+// At least `least_m` where no point is nearer than that.
+double height_above(const Environment& environment, const Solid& solid, double least_m) {
   for (const Vec3& point : core_points(solid)) {
+    if (environment.is_surely_over_ground(point, solid.radius_m, least_m)) continue;
     const double distance_m = environment.nearest_ground(point).distance_m - solid.radius_m;
     if (!(distance_m >= least_m)) least_m = distance_m;  // NaN stays
   }
@@ -48,28 +51,57 @@ Subject ground_penetration_subject(const Character& character, int subject) {
   return {character.bodies()[static_cast<std::size_t>(subject)].name, "m"};
 }
 
+namespace {
+
+// Bodies over the ground, from frame to frame.
+class Heights {
+ public:
+  explicit Heights(const CheckInput& in) : in_(in), level_m_(in.environment.height_at(0.0, 0.0)) {
+    for (const Collider& collider : in.character.colliders()) own_.push_back(solid_of(collider));
+    placed_ = own_;
+  }
+
+  double of(const Body& body, const Rigid& world_from_body) {
+    const Mat3 axes = glm::mat3_cast(world_from_body.q);
+    const Vec3 up(axes[0].y, axes[1].y, axes[2].y);
+    double least_m = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < body.collider_count; ++c) {
+      const auto i = static_cast<std::size_t>(body.first_collider + c);
+      const double height_m = of_collider(i, world_from_body, up, least_m);
+      if (!(height_m >= least_m)) least_m = height_m;
+    }
+    return least_m;
+  }
+
+ private:
+  double of_collider(std::size_t i, const Rigid& world_from_body, const Vec3& up, double least_m) {
+    if (in_.environment.is_level()) return lowest_m(world_from_body, up, own_[i], placed_[i]) - level_m_;
+    place(world_from_body, own_[i], placed_[i]);
+    return height_above(in_.environment, placed_[i], least_m);
+  }
+
+  const CheckInput& in_;
+  double level_m_;
+  std::vector<Solid> own_;
+  std::vector<Solid> placed_;
+};
+
+}  // namespace
+
 void ground_penetration_measure(const CheckInput& in, MarginFold& fold) {
-  std::vector<Solid> own;
-  for (const Collider& collider : in.character.colliders()) own.push_back(solid_of(collider));
-  std::vector<Solid> placed = own;
+  Heights heights(in);
   const std::span<const Body> bodies = in.character.bodies();
-  const bool is_level = in.environment.is_level();
-  const double level_m = in.environment.height_at(0.0, 0.0);
+  std::vector<double> margins(bodies.size());
   for (int frame = 0; frame < in.motion.frame_count; ++frame)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const Rigid& world_from_body = in.world_at(frame)[static_cast<std::size_t>(bodies[b].joint)];
-      const Mat3 axes = glm::mat3_cast(world_from_body.q);
-      const Vec3 up(axes[0].y, axes[1].y, axes[2].y);
-      double least_m = std::numeric_limits<double>::infinity();
-      for (int c = 0; c < bodies[b].collider_count; ++c) {
-        const auto i = static_cast<std::size_t>(bodies[b].first_collider + c);
-        if (!is_level) place(world_from_body, own[i], placed[i]);
-        const double height_m = is_level ? lowest_m(world_from_body, up, own[i], placed[i]) - level_m
-                                         : height_above(in.environment, placed[i]);
-        if (!(height_m >= least_m)) least_m = height_m;
-      }
-      fold.report(static_cast<int>(b), frame, least_m + kSink_m);
+      const auto joint = static_cast<std::size_t>(bodies[b].joint);
+      const Rigid& now = in.world_at(frame)[joint];
+      const bool rests = frame > 0 && now == in.world_at(frame - 1)[joint];
+      if (!rests) margins[b] = heights.of(bodies[b], now) + kSink_m;
+      fold.report(static_cast<int>(b), frame, margins[b]);
     }
 }
+
+ClipCheckResult ground_penetration_in_clip(const ClipInput& in) { return judge_feet_in_clip(in, FootCheck::sink); }
 
 }  // namespace contort

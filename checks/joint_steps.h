@@ -19,7 +19,7 @@ Vec3 joint_step_vector(const Joint& joint, const double* before, const double* n
 // about as visible as 0.1 rad.
 double likeness_rad(const Joint& joint, const double* before, const double* now);
 
-// "rad/s" or "m/s", and so on: the unit of a joint's coordinate with this ending.
+// Returns the unit of a joint's coordinate, "rad" or "m", followed by `ending`: "rad/s".
 std::string_view unit_of(const Joint& joint, std::string_view angular, std::string_view linear);
 
 // The subjects of checks that judge every joint but the root: subject i is joint i + 1.

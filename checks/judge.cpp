@@ -47,7 +47,7 @@ Evaluation Judge::evaluate(const Execution& execution, std::string_view only_che
   evaluation.motion_hash = motion_hash(execution.motion);
   evaluation.frame_count = execution.motion.frame_count - execution.motion.first_frame;
   judge({*execution.character, execution.motion, {}, settings_, execution.environment, execution.said(),
-         execution.path, execution.foreign ? &*execution.foreign : nullptr},
+         execution.path, execution.foreign ? &*execution.foreign : nullptr, execution.couplings},
         only_check, evaluation);
   if (!settings_.waivers.empty()) set_waived_apart(execution, evaluation);
   return evaluation;

@@ -23,7 +23,7 @@ struct Evaluation {
   int frame_count = 0;
   std::vector<Finding> findings;  // by first frame, then check in the manifest's order, then subject
   std::vector<JudgedCheck> judged;    // in the manifest's order, like the next
-  std::vector<NotJudged> not_judged;  // with `only_check`, both tell of it alone
+  std::vector<NotJudged> not_judged;  // with `only_check`, both lists contain only that check
   std::vector<WaivedFinding> waived;
   std::vector<WaiverUse> waivers;  // for each waiver of the settings
   bool operator==(const Evaluation&) const = default;

@@ -43,11 +43,12 @@ bool is_judged_in_clip(std::string_view check, const std::vector<JudgedCheck>& j
   return find_check(check).in_clip != nullptr && subjects_of(judged, check) > 0;
 }
 
-// The joints of the motion whose speeds or accelerations the check is not to judge.
-std::set<std::string> left_to_others(std::string_view check, const SpeedsElsewhere& elsewhere) {
+// The subjects that the check is not to judge in the motion.
+std::set<std::string> left_to_others(std::string_view check, const JudgedElsewhere& elsewhere) {
   std::set<std::string> joints;
   if (is_speed(check) || check == "angular_acceleration") joints = elsewhere.not_followed;
   if (is_speed(check)) joints.insert(elsewhere.in_channels.begin(), elsewhere.in_channels.end());
+  if (check == "joint_range") joints = elsewhere.in_file;
   return joints;
 }
 
@@ -80,7 +81,7 @@ ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const 
   return out;
 }
 
-void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, ClipEvaluation& into) {
+void add_motion(const Evaluation& motion, const JudgedElsewhere& elsewhere, ClipEvaluation& into) {
   const ClipEvaluation before = into;
   into.judged.clear(), into.not_judged.clear();
   const auto is_done = [&](std::string_view check) { return is_judged_in_clip(check, before.judged); };
@@ -94,8 +95,8 @@ void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, Clip
     }
     const int left_out = static_cast<int>(left_to_others(check.name, elsewhere).size());
     const int joints = std::max(0, subjects_of(motion.judged, check.name) - left_out);
-    const std::string_view reason =
-        check.in_clip != nullptr ? reason_of(before.not_judged, check.name) : reason_of(motion.not_judged, check.name);
+    const std::string_view in_clip = check.in_clip != nullptr ? reason_of(before.not_judged, check.name) : "";
+    const std::string_view reason = in_clip.empty() ? reason_of(motion.not_judged, check.name) : in_clip;
     const int subjects = subjects_of(before.judged, check.name) + joints;
     note_verdict(check, {subjects, reason.empty() ? kNotFollowed : reason}, into);
   }

@@ -23,25 +23,29 @@ struct Capture {
 
 struct ClipEvaluation {
   ClipSpeeds speeds;                     // angular_velocity and pop of channels
-  std::optional<DofLimits> limits;       // joint_range of a capture
-  std::vector<KeyFinding> clip_findings;  // of the manifest's checks of clips; frames are keys
-  std::vector<Finding> motion_findings;  // of the character's motion
-  int channels = 0;                      // that some check judged: those with two keys or more
-  int channel_count = 0;                 // of the clip, with those that are not read
-  std::map<std::string, int> not_read;   // of these, by their kind
-  std::vector<JudgedCheck> judged;       // of all of them, in the manifest's order, like the next
+  std::optional<DofLimits> limits;       // joint_range of a motion capture
+  std::vector<KeyFinding> clip_findings;  // findings of the manifest's checks of clips; frames are keys
+  std::vector<Finding> motion_findings;  // findings in the character's motion
+  int channels = 0;                      // channels that some check judged: those with two keys or more
+  int channel_count = 0;                 // channels of the clip, including those that were not read
+  std::map<std::string, int> not_read;   // the number of channels that were not read, by their kind
+  std::vector<JudgedCheck> judged;       // checks that judged, in the manifest's order, like the next
   std::vector<NotJudged> not_judged;
 };
 
 ClipEvaluation judge_clip(const ClipInput& in, const SpeedLimits& limits, const Capture* capture);
 
-// Joints whose speed in the motion is not to be judged.
-struct SpeedsElsewhere {
-  std::set<std::string> in_channels;   // their node's own channel is, exactly between its keys: a speed is judged once
-  std::set<std::string> not_followed;  // their coordinates say nothing of how their nodes turn; nor of accelerations
+// Joints, and limits of joints, that some checks are not to judge in the motion.
+struct JudgedElsewhere {
+  // Their node's own channel is judged, exactly between its keys: a speed is judged once.
+  std::set<std::string> in_channels{};
+  // Their coordinates say nothing of how their nodes turn; nor of accelerations.
+  std::set<std::string> not_followed{};
+  // "arm/wrist max": limits that the file declares itself, and that are judged on its own numbers.
+  std::set<std::string> in_file{};
 };
 
 // Adds the findings of the clip's motion of a character.
-void add_motion(const Evaluation& motion, const SpeedsElsewhere& elsewhere, ClipEvaluation& into);
+void add_motion(const Evaluation& motion, const JudgedElsewhere& elsewhere, ClipEvaluation& into);
 
 }  // namespace contort

@@ -1,7 +1,7 @@
-// Steps between keys that stand alone: the joint is somewhere else at one key and back at the next (a blip), or it is
-// somewhere else from then on (a jump), while for half a second before and after it hardly moves by comparison. Style
-// does not look like that: a blow, a run or a stop at a pose is fast over several keys, and comes again. Of 235 clips
-// that people ship, one has such a step that is no fault of the data, a jump of five keys.
+// Steps between keys that stand alone: the joint leaves its place for a key or two and comes back (a blip), or it
+// changes its place for good (a jump), while for half a second before and after it hardly moves by comparison. Intended
+// style looks different: a blow, a run or a stop at a pose is fast over several keys, or repeats. In 235 published
+// clips these rules flag one intended movement, a jump of five keys.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,17 @@
 
 namespace contort {
 
-// Blips and jumps smaller than these are no findings, in the unit of the steps: rad, m, or a logarithm.
+// Smaller blips and jumps are not findings. In the unit of the steps: rad, m, or a logarithm.
 struct LoneLimits {
   double blip = 0.0;
   double jump = 0.0;
 };
 
-inline constexpr double kLoneAround_s = 0.5;   // of motion on either side is what a step is compared with
+inline constexpr double kLoneAround_s = 0.5;   // a step is compared with the motion up to this time before and after it
 inline constexpr double kLongestBlip_s = 0.13;  // three frames at 24 Hz: two keys that are off
-inline constexpr double kBlipFactor = 4.0;      // times every other step
-inline constexpr double kJumpFactor = 8.0;      // times every other step, and kBlipFactor times the two beside it
+inline constexpr double kBlipFactor = 4.0;      // a blip is at least this many times every other step
+inline constexpr double kJumpFactor = 8.0;      // a jump is at least this many times every other step, and kBlipFactor
+                                                // times the two beside it
 
 // Returns the limits for a channel of this interpolation. A STEP channel consists of jumps, so only its blips are judged.
 LoneLimits lone_limits(Interpolation interpolation, const LoneLimits& limits);

@@ -1,6 +1,7 @@
 // loop_seam: a clip that is played in a loop must end as it begins. Per rotation channel, the angle between its last
-// and its first key is judged. Authors close loops in two ways: the last key repeats the first one, or it is the one
-// before it; so the seam may be as wide as the steps next to it explain, twice the wider one, and 1 degree at least.
+// and its first key is judged. Authors close loops in two ways: the last key repeats the first one, or is the key
+// before it. The seam may therefore be twice as wide as the larger of the neighbouring steps, and is always allowed 1
+// degree.
 #pragma once
 
 #include <vector>

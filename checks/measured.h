@@ -1,5 +1,5 @@
-// The value behind a margin: a check reports how far from its limit something is, and people want to read how much it is
-// and how much is allowed.
+// The measured value behind a margin. A check reports the distance from a limit, but people want to read the value and
+// the limit.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 namespace contort {
 
 struct Measured {
-  double value = 0.0;  // in the unit of the check's margins; for effort, in shares of the joint's strength
-  double limit = 0.0;  // the same, with the tolerance of the settings
+  double value = 0.0;  // in the unit of the check's margins; torques are fractions of the joint's strength
+  double limit = 0.0;  // in the same unit, with the tolerance of the settings
   bool operator==(const Measured&) const = default;
 };
 

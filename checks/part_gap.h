@@ -1,6 +1,6 @@
-// part_gap: a joint of a clip that is pulled out of its place. Bones keep their length and sockets their place, so a
-// translation channel of a joint should say what the joint has at rest; rigs that stretch on purpose do not, which is
-// why nothing is judged unless somebody asks for it.
+// part_gap: a joint of a clip that is pulled out of its place. Bones keep their length and sockets their place, so the
+// translation channel of a joint should have the joint's rest value. Rigs that stretch on purpose differ, so nothing is
+// judged unless the user asks for it.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,10 @@
 
 namespace contort {
 
-// One finding for each joint that is farther from its place at rest in its parent than `most_m` (metres, as glTF
-// says; lengths are in the unit of the file)
-// at some key, splines also at eighths between keys; in the order of channels. Frames are numbers of keys. Joints that
-// hang on the root of a skeleton are not judged: hips, and what inverse kinematics is aimed at, are moved there. Rules
-// of the settings for part_gap apply by node label.
+// Returns one finding, in the order of channels, for each joint that is farther from its rest place in its parent than
+// `most_m` at some key; splines are also examined at eighths between keys. `most_m` is in the file's unit of length,
+// which is metres in glTF. Frames are numbers of keys. Children of a skeleton's root are not judged: hips and targets
+// of inverse kinematics move there. Rules of the settings for part_gap apply by node label.
 std::vector<Finding> check_part_gap(const Asset& asset, const AssetClip& clip, double most_m,
                                     const CheckSettings& settings = {});
 

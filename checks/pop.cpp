@@ -31,7 +31,7 @@ double explained_rad_s(std::span<const SpeedInterval> between_keys, std::size_t 
 }
 
 double speed_into(const Motion& motion, const Joint& joint, int frame) {
-  return joint_step(joint, motion.row(frame - 1).data(), motion.row(frame).data()) * motion.rate_hz;
+  return joint_step(joint, motion.row(frame - 1).data(), motion.row(frame).data()) * motion.rate_into_hz(frame);
 }
 
 // Two steps on either side are all that counts.
@@ -39,7 +39,7 @@ double explained_speed(const Motion& motion, const Joint& joint, int frame) {
   const int first = std::max(1, frame - 2), last = std::min(motion.frame_count - 1, frame + 2);
   std::array<SpeedInterval, 5> around;
   for (int f = first; f <= last; ++f)
-    around[static_cast<std::size_t>(f - first)] = {(f - 1) / motion.rate_hz, f / motion.rate_hz,
+    around[static_cast<std::size_t>(f - first)] = {motion.time_s(f - 1), motion.time_s(f),
                                                    speed_into(motion, joint, f)};
   return explained_rad_s(std::span(around).first(static_cast<std::size_t>(last - first + 1)),
                          static_cast<std::size_t>(frame - first));

@@ -1,15 +1,15 @@
 // pop: a jump of a joint that the motion around it does not explain, in characters' motions as in animations made
-// elsewhere. Solvers that flip, markers that are swapped and reference poses left in frame 0 make them: within one or
-// two keys a joint is somewhere else, and before and after it is slow. A joint that really is too fast has to get fast
-// first: its speed grows and falls over several keys. Both break the speed limit; they are reported apart because their
-// cures differ.
+// elsewhere. Flipping solvers, swapped markers and reference poses left in frame 0 cause pops: within one or two keys a
+// joint is in another place, and it is slow before and after. A real movement that is too fast must accelerate first:
+// its speed grows and falls over several keys. Both break the speed limit; they are reported separately because they
+// are repaired differently.
 //
-// The explanation of a speed by the motion around it: with v the speeds of a channel's key intervals, a window of one
-// or two intervals around i has neighbours on both sides; the faster of these is what the window stands out from. Of
-// the three windows that hold i, the calmest neighbours count. Interval i is a pop where v[i] is above its limit and
-// above kPopFactor times that. At the first or last key there are neighbours on one side only, and with none (a clip of
-// two or three keys) nothing is a pop. Nor is a window longer than kPopLongest_s: sparse keys that an animator set are
-// fast moves, not jumps.
+// The surrounding motion explains a speed as follows. Let v be the speeds of a channel's key intervals. For each of the
+// three windows of one or two intervals that contain interval i, take the faster of the intervals just before and just
+// after the window; let s be the smallest of these values. Interval i is a pop if v[i] is above its limit and above
+// kPopFactor * s. At the first or last key there is a neighbour on one side only, and without any neighbour (a clip of
+// two or three keys) nothing is a pop. Neither is a window longer than kPopLongest_s: sparse keys that an animator set
+// are fast moves, not jumps.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ inline constexpr double kPopLongest_s = 0.1;
 
 // Below the limit, in clips as they are in their files: a step that stands alone (lone_steps.h), and a leap that the
 // motion around it does not explain. 90 degrees in a frame of 30 Hz are 2,700 deg/s, less than the fastest real moves.
-inline constexpr double kBlip_rad = 5.0 * kRadPerDeg;   // people see less; no shipped clip has such a blip
+inline constexpr double kBlip_rad = 5.0 * kRadPerDeg;   // people notice smaller blips; no published clip has one of 5°
 inline constexpr double kJump_rad = 20.0 * kRadPerDeg;
 inline constexpr double kLeap_rad = 85.0 * kRadPerDeg;
 

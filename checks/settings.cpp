@@ -116,7 +116,7 @@ Result<CheckSettings> parse_settings(std::string_view text) {
     if (const Result<Done> known = check_names(settings->waivers[i], pointer); !known) return known.issue();
     if (!is_day(settings->waivers[i].expires))
       return Issue{"settings.no_day", pointer + "/expires",
-                   json_fields::quoted(settings->waivers[i].expires) + " is no day; write YYYY-MM-DD"};
+                   json_fields::quoted(settings->waivers[i].expires) + " is not a date; write YYYY-MM-DD"};
   }
   return settings;
 }

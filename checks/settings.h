@@ -19,7 +19,8 @@ namespace contort {
 
 enum class LimitUse { change, ignore };
 
-// Changes or ignores the limits of the matching subjects. If several rules match a subject, the last one counts.
+// A rule that changes or ignores the limits of the matching subjects. If several rules match a subject, the last one
+// counts.
 struct LimitRule {
   std::string check;          // "joint_range"
   std::string subject = "*";  // "*" is any run of characters
@@ -33,8 +34,8 @@ struct LimitRule {
 struct Waiver {
   std::string check;
   std::string subject = "*";
-  std::string phase;     // of the worst frame; empty: any
-  double deepest = 0.0;  // hides margins down to minus this, in their unit; 0: however deep
+  std::string phase;     // phase of the worst frame; empty: any
+  double deepest = 0.0;  // the depth up to which findings are hidden, in the unit of their margins; 0: any depth
   std::string reason;
   std::string owner;
   std::string expires;  // "2027-03-01": the last day

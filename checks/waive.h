@@ -12,7 +12,7 @@ namespace contort {
 
 struct WaiverUse {
   int hidden = 0;        // findings
-  bool expired = false;  // then it hides nothing; `hidden` says what it would have
+  bool expired = false;  // an expired waiver hides nothing; `hidden` counts the findings that it would have hidden
   bool operator==(const WaiverUse&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// The push that a figure shall withstand: falls after a harder one are notes, and no findings
+// The push that a figure must withstand. A fall after a harder push is a note, not a finding
 // (docs/internals/dynamics.md).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// A blow, and the greatest horizontal impulse that need not fell the figure.
+// A blow, and the greatest horizontal impulse that the figure must withstand.
 struct Blow {
   int frame = 0;
   double impulse_N_s = 0.0;  // horizontal
@@ -28,10 +28,10 @@ struct Blow {
 // Loads that it carries do not count.
 double withstands_N_s(const Character& character, const Motion& motion, int frame, const Vec3& direction);
 
-// The first blow of the motion that is harder.
+// Returns the first blow of the motion that is harder than the figure must withstand.
 std::optional<Blow> overpowering_blow(const Character& character, const Motion& motion);
 
-// The first frame that such a blow changes; the number of frames without one.
+// Returns the first frame that such a blow changes; the number of frames if there is none.
 int first_overpowered_frame(const Character& character, const Motion& motion);
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// Findings of a library of animations that somebody knows and accepts, one by one: by file, clip, check and joint. They
-// do not fail a run, and an entry that no finding matches is told, so that the list shrinks as faults are mended.
+// Accepted findings of a library of animations, by file, clip, check and joint. They do not fail a run. Entries that no
+// finding matches are reported, so that the list shrinks as faults are repaired.
 //
 //   {"format": "contort.accept/1",
 //    "accepted": [{"file": "idle/look.glb", "clip": "look", "check": "pop", "joint": "LeftArm", "reason": "a glitch"}]}
@@ -15,13 +15,13 @@
 namespace contort::cli {
 
 struct AcceptedFinding {
-  std::string file;   // below the folder that is checked; of a file that is named, its name alone
+  std::string file;   // path below the folder that is checked; for a file on the command line, only its name
   std::string clip;   // label
   std::string check;
   std::string joint;  // the finding's subject
   std::string reason;
 
-  // By what findings are found again: all but the reason.
+  // The key by which findings are recognised: all fields except for the reason.
   bool is_same(const AcceptedFinding& other) const {
     return file == other.file && clip == other.clip && check == other.check && joint == other.joint;
   }
@@ -38,7 +38,7 @@ Result<AcceptList> parse_accept_list(std::string_view text);
 std::string print_accept_list(const AcceptList& list);
 std::string accept_list_schema();
 
-// The list in a file; empty without one ("").
+// Reads the list in a file; empty for the path "".
 Result<AcceptList> read_accept_list(const std::string& path);
 
 // The name of a file in accept lists, if these folders and files were named on the command line.

@@ -39,7 +39,7 @@ Result<Done> check_pair(const Corpus& corpus, const std::optional<AgainstConfig>
 // against.other_corpus.
 Result<Done> check_same_pair(std::span<const Corpus> corpora);
 
-// Rows, counts and what was not compared, for people.
+// Prints rows, counts and the names of checks that were not compared, for people.
 void print_comparison(const RunResult& result, const AgainstConfig& against,
                       const Sources& sources);
 
@@ -50,7 +50,7 @@ std::string comparison_json(const RunResult& result, const AgainstConfig& agains
 // " broke=1 worse=0 mended=2 moved=3 refused=0 same=250", for the last line; "" without a comparison.
 std::string comparison_counts(const RunResult& result);
 
-// Whether something broke or got worse, or moved where that counts.
+// Returns true if a family broke or got worse, or if a motion differs and --moved is given.
 bool comparison_gates(const RunResult& result, const AgainstOptions& options);
 
 // A sentence about a minimal case of such a corpus: "new since the base; the base passes this case by 0.84"; "" of

@@ -53,9 +53,20 @@ Result<Asset> read_bvh_as_said(const std::string& path, const AnimationOptions& 
   Result<Asset> read = read_bvh(path, options.bvh_rate_hz);
   if (!read) return read;
   Asset asset = std::move(read).value();
-  if (options.bvh_unit_m > 0.0) scale_lengths(options.bvh_unit_m, asset);
-  if (options.bvh_z_up) turn_z_up(asset);
+  if (const double unit_m = metres_in(options.unit); unit_m > 0.0) scale_lengths(unit_m, asset);
+  if (options.up == "z") turn_z_up(asset);
   return asset;
+}
+
+Result<Animation> read_table(const std::string& path, const AnimationOptions& options) {
+  Result<JointTable> table = read_joint_table(path, options.table_rate_hz);
+  if (!table) return table.issue();
+  Animation out;
+  const std::string name = fs::path(path).stem().string();
+  out.asset.clips.push_back({name, name, {}, table->times_s.front(), table->times_s.back()});
+  out.asset.remarks = table->remarks;
+  out.table = std::move(table).value();
+  return out;
 }
 
 Result<Animation> with_asset(Result<Asset> asset) {
@@ -65,10 +76,20 @@ Result<Animation> with_asset(Result<Asset> asset) {
 
 }  // namespace
 
+double metres_in(const std::string& unit) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+  for (const auto& [name, metres] : kUnits)
+    if (unit == name) return metres;
+  return 0.0;
+}
+
 bool is_animation(const std::string& path) {
   const FileFormat format = format_of_file(path);
-  return format != FileFormat::none && format != FileFormat::asf;
+  return format != FileFormat::none && format != FileFormat::asf && format != FileFormat::joint_table;
 }
+
+bool is_table(const std::string& path) { return format_of_file(path) == FileFormat::joint_table; }
 
 std::optional<Issue> other_than_animation(const std::string& path, const std::string& expected) {
   std::error_code error;
@@ -82,6 +103,7 @@ Result<Animation> read_animation(const std::string& path, const AnimationOptions
   switch (format_of_file(path)) {
     case FileFormat::amc: return read_take(path, options);
     case FileFormat::bvh: return with_asset(read_bvh_as_said(path, options));
+    case FileFormat::joint_table: return read_table(path, options);
     case FileFormat::gltf: return with_asset(read_gltf_around_faults(path));
     default: break;
   }
@@ -119,7 +141,7 @@ bool may_be_taken_for_motion(const fs::path& path) {
 }
 
 // Lists the files in a folder and in those below it. Links to folders are not followed, as they may lead in a circle.
-void look_into(const std::string& folder, Expanded& out) {
+void look_into(const std::string& folder, bool has_character, Expanded& out) {
   std::error_code error;
   std::vector<std::string> folders;
   fs::directory_iterator entry(folder, error);
@@ -129,24 +151,24 @@ void look_into(const std::string& folder, Expanded& out) {
     if (is_folder && !entry->is_symlink(ignored)) folders.push_back(entry->path().string());
     if (is_folder) continue;
     const std::string path = entry->path().string();
-    if (is_animation(path))
+    if (is_animation(path) || (has_character && is_joint_table(beginning_of(path, kKindBytes))))
       out.files.push_back(path);
     else if (may_be_taken_for_motion(path))
       out.skipped.push_back({path, *other_than_animation(path, kAnimationFiles)});
   }
   if (error) out.unreadable.push_back({folder, {"file.unreadable", "", folder + ": " + error.message()}});
-  for (const std::string& below : folders) look_into(below, out);
+  for (const std::string& below : folders) look_into(below, has_character, out);
 }
 
 }  // namespace
 
-Expanded expand_animations(const std::vector<std::string>& paths) {
+Expanded expand_animations(const std::vector<std::string>& paths, bool has_character) {
   Expanded out;
   for (const std::string& path : paths) {
     std::error_code error;
     const auto first = static_cast<std::ptrdiff_t>(out.files.size());
     if (fs::is_directory(path, error))
-      look_into(path, out);
+      look_into(path, has_character, out);
     else
       out.files.push_back(path);
     std::sort(out.files.begin() + first, out.files.end());

@@ -1,5 +1,5 @@
 // Animations made elsewhere that a user names on the command line: glTF (.glb, .gltf, .vrm, .vrma), BVH, and AMC with
-// its ASF. What a file holds tells its format, whatever its name.
+// its ASF; and tables of joint values (CSV). A file's contents decide its format, not its name.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/mocap/amc.h"
+#include "formats/table/joint_table.h"
 #include "model/asset/asset.h"
 #include "model/core/result.h"
 
@@ -20,28 +21,35 @@ struct Take {
 
 struct Animation {
   Asset asset;
-  std::optional<Take> take;
+  std::optional<Take> take{};
+  std::optional<JointTable> table{};  // whose clip in the asset has no channels
 };
 
 struct AnimationOptions {
   std::string skeleton;    // The .asf of an .amc; "": find_skeleton.
-  double rate_hz = 120.0;  // The frame rate of an .amc, which does not say it.
+  double rate_hz = 120.0;  // The frame rate of an .amc, which does not state it.
+  double table_rate_hz = 0.0;  // Rows per second of a table without times; 0: it has times.
   double bvh_rate_hz = 0.0;  // The frame rate of a .bvh, instead of its own; 0: its own.
-  double bvh_unit_m = 0.0;   // The unit of a .bvh in metres; 0: nobody says it, and lengths stay in that unit.
-  bool bvh_z_up = false;     // Else +Y is up in a .bvh.
+  std::string unit;          // The unit of lengths of a .bvh ("cm") or of angles of a table ("deg"); "": not given.
+  std::string up;            // Axis that points up: "y" or "z"; "": +Y in a .bvh, +Z for the root of a table.
 };
 
-inline constexpr char kAnimationFiles[] = "an animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc)";
+inline constexpr char kAnimationFiles[] = "an animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc, .csv)";
 
-bool is_animation(const std::string& path);  // by what it holds, else by its ending
+// Metres in a unit of length; 0 if the name is not a unit of length.
+double metres_in(const std::string& unit);
 
-// Says what a plain file is that is no animation; nothing for what is no plain file.
+bool is_animation(const std::string& path);  // by its contents, else by its ending
+bool is_table(const std::string& path);      // true for a table of joint values, which are a motion of a character; by
+                                             // its contents, too
+
+// Returns an issue that names the kind of a plain file that is not an animation; nothing for other files.
 std::optional<Issue> other_than_animation(const std::string& path, const std::string& expected);
 
 Result<Animation> read_animation(const std::string& path, const AnimationOptions& options);
 
 // The only .asf in the folder of an .amc; of several, the one whose name begins most like the .amc's. Code
-// check.no_skeleton where there is none or no single one.
+// check.no_skeleton if there is none, or if several have equally similar names.
 Result<std::string> find_skeleton(const std::string& amc_path);
 
 struct Unreadable {
@@ -51,12 +59,12 @@ struct Unreadable {
 
 struct Expanded {
   std::vector<std::string> files;
-  std::vector<Unreadable> unreadable;  // folders that cannot be looked into
+  std::vector<Unreadable> unreadable;  // folders that cannot be listed
   std::vector<Unreadable> skipped;     // files in folders that are no animation, but of a kind that people take for one
 };
 
 // Files as they are named, and folders as all animations in them and below, sorted by path, whatever kind of file these
-// are.
-Expanded expand_animations(const std::vector<std::string>& paths);
+// are; with a character also tables that have a column of times.
+Expanded expand_animations(const std::vector<std::string>& paths, bool has_character);
 
 }  // namespace contort::cli

@@ -7,9 +7,12 @@
 #include "cli/audit_page.h"
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/limits.h"
+#include "cli/print.h"
 #include "cli/progress_line.h"
 #include "fuzz/audit.h"
 #include "model/core/json_fields.h"
+#include "model/core/number_text.h"
 
 namespace contort::cli {
 
@@ -19,6 +22,7 @@ using json_fields::Json;
 
 struct AuditCommand {
   AuditOptions audit;
+  LimitOptions limits;
   bool json = false;
   std::string dynamics = "kinematic";  // a name of mode_names()
   std::string folder;  // for the worst spec of each row; "": none
@@ -40,7 +44,13 @@ void print_table(const std::vector<AuditRow>& rows) {
   for (const AuditRow& row : rows)
     std::printf("%-48s %-14s %-9s %7d %6.1f%% %6.1f%% %6.1f%%  %s\n", place_of(row).c_str(),
                 row.action.c_str(), row.point.c_str(), row.draws, percent(row.clean, row.draws),
-                percent(row.unmet, row.draws), percent(row.still, row.draws), details_of(row).c_str());
+                percent(row.unmet, row.draws), percent(row.still, row.draws), printable(details_of(row)).c_str());
+}
+
+Json refusals_json(const AuditRow& row) {
+  Json counts = Json::object();
+  for (const RefusalCount& count : by_frequency(row.refusals)) counts[count.text] = count.cases;
+  return counts;
 }
 
 Json row_json(const AuditRow& row) {
@@ -55,7 +65,10 @@ Json row_json(const AuditRow& row) {
           {"clean", row.clean},
           {"unmet", row.unmet},
           {"still", row.still},
+          {"refused", row.refused},
           {"findings", row.findings},
+          {"endings", row.endings},
+          {"refusals", refusals_json(row)},
           {"reasons", row.reasons},
           {"depth", row.depth},
           {"worst", row.worst == Spec{} ? Json() : Json::parse(print_spec(row.worst))}};
@@ -77,7 +90,15 @@ std::string command_of(const AuditCommand& options, const Context& context) {
   add("--character", options.audit.characters);
   add("--action", options.audit.actions), add("--slot", options.audit.slots);
   if (options.audit.dynamics != Mode::kinematic) command += " --dynamics " + options.dynamics;
+  if (options.limits.case_timeout_s != LimitOptions{}.case_timeout_s)
+    command += " --case-timeout " + number_text(options.limits.case_timeout_s);
   return command + " --page " + shell_quoted(options.page);
+}
+
+// Findings say more than motions that were not judged.
+Exit exit_code_of(const std::vector<AuditRow>& rows) {
+  if (std::ranges::any_of(rows, [](const AuditRow& row) { return !row.findings.empty(); })) return kFindings;
+  return std::ranges::any_of(rows, [](const AuditRow& row) { return row.refused > 0; }) ? kInconclusive : kClean;
 }
 
 int clean_rows(const std::vector<AuditRow>& rows) {
@@ -85,6 +106,7 @@ int clean_rows(const std::vector<AuditRow>& rows) {
 }
 
 void run(const AuditCommand& options, Context& context) {
+  take_limits(options.limits, context.sources);
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings();
@@ -104,12 +126,15 @@ void run(const AuditCommand& options, Context& context) {
     if (const Result<Done> written = write_worst(options.folder, rows); !written)
       return context.fail(written.issue(), kInternal);
   const int clean = clean_rows(rows);
-  context.exit_code = clean == static_cast<int>(rows.size()) ? kClean : kFindings;
+  context.exit_code = exit_code_of(rows);
   if (!options.page.empty()) {
     const Result<Done> written = write_audit_page(options.page, command_of(options, context), rows, context);
     if (!written) return context.fail(written.issue(), kInternal);
   }
-  if (options.json) return void(std::printf("%s\n", rows_json(rows).dump(2).c_str()));
+  if (options.json) {
+    const std::string json = rows_json(rows).dump(2, ' ', false, Json::error_handler_t::replace);
+    return void(std::printf("%s\n", json.c_str()));
+  }
   print_table(rows);
   if (!options.page.empty()) std::printf("page: %s/index.html\n", options.page.c_str());
   std::printf("RESULT rows=%zu clean=%d\n", rows.size(), clean);
@@ -137,10 +162,11 @@ void add_audit(CLI::App& app, Context& context) {
       ->check(CLI::IsMember(std::vector<std::string>(mode_names().begin(), mode_names().end())))
       ->type_name("MODE")
       ->capture_default_str();
+  add_program_limit_options(*command, options->limits);
   command->add_option("--worst", options->folder, "Folder for the spec of each row's worst motion");
   command->add_option("--page", options->page, "Folder for a page with a picture of each row's worst motion")
       ->type_name("DIR");
-  command->add_flag("--json", options->json, "JSON on standard output");
+  command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer("Example: contort audit --character human --action reach");
   command->callback([options, &context] {
     const auto mode = std::ranges::find(mode_names(), options->dynamics);

@@ -1,15 +1,19 @@
 #include "cli/audit_page.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "cli/render.h"
 #include "model/core/files.h"
 #include "renders/audit_html.h"
+#include "renders/wording.h"
 
 namespace contort::cli {
 
 namespace {
+
+constexpr std::size_t kMostReasonsOfRow = 3;  // of refusals
 
 std::string counts_text(const std::map<std::string, int>& counts) {
   std::string text;
@@ -18,6 +22,7 @@ std::string counts_text(const std::map<std::string, int>& counts) {
 }
 
 bool has_worst(const AuditRow& row) { return !(row.worst == Spec{}); }
+bool can_be_drawn(const AuditRow& row) { return has_worst(row) && !row.worst_ends; }
 
 AuditPageRow page_row(const AuditRow& row, bool has_picture) {
   const std::string object = object_of(row), name = file_name_of(row);
@@ -28,7 +33,7 @@ AuditPageRow page_row(const AuditRow& row, bool has_picture) {
   out.draws = row.draws, out.clean = row.clean, out.unmet = row.unmet, out.still = row.still;
   out.details = details_of(row);
   if (has_worst(row)) out.spec = "motions/" + name + ".json";
-  if (has_worst(row) && has_picture) out.picture = "pictures/" + name + ".png";
+  if (can_be_drawn(row) && has_picture) out.picture = "pictures/" + name + ".png";
   return out;
 }
 
@@ -37,7 +42,7 @@ bool draw_pictures(const std::string& folder, const std::vector<AuditRow>& rows,
   if (context.gl == "none") return false;
   std::vector<StripFile> strips;
   for (const AuditRow& row : rows)
-    if (has_worst(row))
+    if (can_be_drawn(row))
       strips.push_back({folder + "/motions/" + file_name_of(row) + ".json", folder + "/pictures/" + file_name_of(row) + ".png"});
   if (draw_strips(strips, {"--tiles", "4"}, context, [] {}) == 0) return true;
   std::fprintf(stderr, "contort: some pictures are missing; the page is complete without them\n");
@@ -63,9 +68,31 @@ std::string file_name_of(const AuditRow& row) {
   return name;
 }
 
+namespace {
+
+// "refused: the angle is too large 12, there are too many swings 3"
+std::string refusals_text(const AuditRow& row) {
+  if (row.refused == 0) return "";
+  std::string text;
+  std::vector<RefusalCount> counts = by_frequency(row.refusals);
+  counts.resize(std::min(counts.size(), kMostReasonsOfRow));
+  for (const RefusalCount& count : counts)
+    text += (text.empty() ? "refused: " : ", ") + one_line(count.text) + " " + std::to_string(count.cases);
+  return text;
+}
+
+}  // namespace
+
 std::string details_of(const AuditRow& row) {
   const std::string findings = counts_text(row.findings), reasons = counts_text(row.reasons);
-  return findings + (findings.empty() || reasons.empty() ? "" : "; ") + (reasons.empty() ? "" : "unmet: " + reasons);
+  std::vector<std::string> details = {findings, reasons.empty() ? "" : "unmet: " + reasons, refusals_text(row)};
+  for (const auto& [check, sentence] : row.endings) details.push_back(check + ": " + one_line(sentence));
+  if (row.is_cut)
+    details.push_back("no further motions were made after " + std::to_string(kMostTimeouts) + " that took too long");
+  std::string text;
+  for (const std::string& detail : details)
+    if (!detail.empty()) text += (text.empty() ? "" : "; ") + detail;
+  return text;
 }
 
 Result<Done> write_worst(const std::string& folder, const std::vector<AuditRow>& rows) {

@@ -15,7 +15,7 @@ std::string object_of(const AuditRow& row);
 // "human-arm_left-reach", "human-arm_right-aim-muzzle-rifle-hand_right-grip": no two rows have the same.
 std::string file_name_of(const AuditRow& row);
 
-// "self_collision 2; unmet: joint_speed 5".
+// "self_collision 2; unmet: joint_speed 5; refused: the angle is too large 3; crash: the program ended: exit 1".
 std::string details_of(const AuditRow& row);
 
 // The specs of the worst motions, NAME.json. Code file.unwritable.

@@ -17,7 +17,7 @@ class CaseLog {
   // The listener that writes them; empty where nothing is kept. The log has to stay where it is.
   std::function<void(const FailingCase&)> listener();
 
-  // Whether all of it was written.
+  // Returns true if every line was written.
   Result<Done> close();
 
  private:

@@ -7,12 +7,14 @@
 #include <thread>
 
 #include "process/children.h"
+#include "cli/engine_files.h"
 #include "cli/program_files.h"
 #include "cli/progress_line.h"
 #include "cli/report_folder.h"
 #include "cli/surroundings.h"
 #include "corpus/corpus.h"
 #include "model/core/files.h"
+#include "process/ended.h"
 #include "model/core/hash.h"
 #include "model/core/inside_folder.h"
 #include "model/core/json_fields.h"
@@ -87,7 +89,7 @@ struct Stamped {
 
 void write_one(const Stamped& one, const std::string& folder, Generator& generator, const CheckSettings& settings) {
   const CasePage& page = one.page;
-  const Result<std::string> data = data_of(page, generator, settings);
+  const Result<std::string> data = unless_it_ends([&] { return data_of(page, generator, settings); });
   const Result<Done> written = data ? write_case(folder, page.key, *data, one.stamp) : Done{};
   if (!data) write_problem(folder, page.key, data.issue());
   if (!written) warn(page.key, written.issue());
@@ -96,12 +98,19 @@ void write_one(const Stamped& one, const std::string& folder, Generator& generat
 Result<Done> copy_viewer(const std::string& folder) {
   const std::string from = pages_path();
   if (const Result<Done> made = make_folder(folder); !made) return made;
-  for (const char* name : {"viewer.js", "viewer.css"}) {
+  for (const char* name : {"viewer.js", "viewer.css", "engine.js"}) {
+    if (name == std::string_view("engine.js") && !has_engine()) continue;
     const Result<std::string> text = read_file(from + "/" + name, std::size_t{1} << 26);
     if (!text) return text.issue();
     if (const Result<Done> written = write_file(folder + "/" + name, *text); !written) return written;
   }
   return Done{};
+}
+
+Result<Done> write_library(const std::string& path, const Generator& generator, const Context& context) {
+  if (!has_engine()) return Done{};
+  const Result<std::string> script = library_script(*generator.manifest().library, context);
+  return script ? write_file(path, *script) : script.issue();
 }
 
 // In processes: a case that crashes this build, or never ends in it, is not worth the report.
@@ -116,7 +125,7 @@ void write_all(const std::vector<Stamped>& pages, const std::string& folder, Gen
   const int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   for (const int i : in_children(jobs, count, kMostSeconds, write, show))
     write_problem(folder, pages[static_cast<std::size_t>(i)].page.key,
-                  {"report.case_lost", "", "playing it ended the program, or took more than a minute"});
+                  {"report.case_lost", "", "generating it ended the program, or took more than a minute"});
   line.clear();
 }
 
@@ -128,6 +137,8 @@ void write_case_pages(const std::vector<CasePage>& pages, const std::string& fol
   if (!settings) return context.fail(settings.issue());
   if (const Result<Done> copied = copy_viewer(folder + "/viewer"); !copied)
     warn("the report has no viewer", copied.issue());
+  if (const Result<Done> written = write_library(folder + "/viewer/library.js", generator, context); !written)
+    warn("the report cannot play specs", written.issue());
   if (const Result<Done> made = make_folder(folder + "/cases"); !made) return context.fail(made.issue(), kInternal);
   const std::string surroundings = surroundings_id(context, generator.manifest());
   std::set<std::string> wanted;

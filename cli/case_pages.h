@@ -11,13 +11,13 @@ namespace contort::cli {
 // A bucket whose motions can be looked at.
 struct CasePage {
   std::string key;     // file name without its end
-  std::string folder;  // of the bucket
-  std::string minimal, original, worst;  // file names in it; "" where there is none
-  std::string strip{};                   // path of the film strip from the page; "" where there is none
+  std::string folder;  // the bucket's folder
+  std::string minimal, original, worst;  // file names in the folder; "" without a file
+  std::string strip{};                   // path of the film strip relative to the page; "" without a strip
 };
 
-// Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that was made of the same by the same
-// program stays. What cannot be made is a warning: the page says so where somebody looks for it.
+// Writes DIR/cases/<key>.js for each, on all cores, and DIR/viewer. A file that the same program made from the same
+// inputs is kept. If a file cannot be made, that is a warning, and the page says so in its place.
 void write_case_pages(const std::vector<CasePage>& pages, const std::string& folder, Generator& generator,
                       Context& context);
 

@@ -1,4 +1,4 @@
-// Lists of what the manifests have, as JSON. Included from .cpp files only.
+// The contents of the manifests as JSON lists. Included from .cpp files only.
 #pragma once
 
 #include "model/generator.h"

@@ -91,6 +91,23 @@ std::string causes_json(std::span<const CauseRow> rows, const CausesText& about)
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+std::set<std::string> causes_named(std::span<const CauseMember> members, const std::string& prefix) {
+  std::set<std::string> causes, of_failures;
+  for (const CauseMember& member : members) {
+    const std::string id = cause_id_of(member.minimal);
+    if (prefix.empty()) continue;
+    if (id.starts_with(prefix)) causes.insert(id);
+    if (member.bucket.id.starts_with(prefix) || folder_name(member.bucket).starts_with(prefix)) of_failures.insert(id);
+  }
+  return causes.empty() ? of_failures : causes;
+}
+
+Issue no_such_cause(const std::string& prefix) {
+  return {"corpus.no_cause", "",
+          "the id of no cause begins with " + json_fields::quoted(prefix) +
+              ", and that of no failure of one; contort causes shows them"};
+}
+
 std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context) {
   std::vector<Issue> damaged;
   std::vector<Bucket> buckets = corpus.buckets(damaged);

@@ -15,13 +15,20 @@ namespace contort::cli {
 
 struct Context;
 
-// The members of the causes of a corpus: of all buckets that are not fixed. What cannot be read is told, and sets the
-// exit code to that of bad input.
+// The members of the causes of a corpus: of all buckets that are not fixed. Buckets that cannot be read are reported,
+// and set the exit code for bad input.
 std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context);
 
+// The ids of the causes that a user means by `prefix`: those whose ids begin like this; if there are none, those of the
+// failures whose ids, or folders' names, do. Users copy both kinds of ids from one list.
+std::set<std::string> causes_named(std::span<const CauseMember> members, const std::string& prefix);
+
+// Code corpus.no_cause.
+Issue no_such_cause(const std::string& prefix);
+
 struct CausesText {
-  std::int64_t cases = 0;       // of the runs
-  std::set<std::string> known{};  // ids of causes that were there before; the others are new
+  std::int64_t cases = 0;       // number of cases of the runs
+  std::set<std::string> known{};  // ids of known causes; all others are new
   std::size_t most = 12;        // rows that are printed
   std::string corpus{};         // for the command that shows the others
   const Sources& sources;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 #include "cli/animation.h"
 #include "cli/check_clips.h"
@@ -13,21 +12,20 @@
 #include "cli/known.h"
 #include "cli/print.h"
 #include "cli/unmet_text.h"
+#include "corpus/ending_case.h"
 #include "corpus/evaluator.h"
 #include "formats/detect/file_format.h"
 #include "model/core/file_kind.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
+#include "process/ended.h"
 
 namespace contort::cli {
 
 namespace {
 
 using json_fields::Json;
-
-const std::map<std::string, double> kUnits_m = {
-    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
 
 struct SpecOptions {
   std::string level;
@@ -55,6 +53,20 @@ void print_judged(const Evaluation& evaluation, const Character& character) {
   for (const std::string& line : judged_lines(summary)) std::printf("%s\n", line.c_str());
 }
 
+// A program under test that ends while it makes the motion is the one finding that there is.
+void tell_ending(const std::string& file, const Spec& spec, const Ending& ending, bool as_json, Context& context) {
+  const Expectation shown = ending_case(spec, ending).expect;
+  context.exit_code = kFindings;
+  if (as_json) {
+    const Json finding = {{"check", shown.check}, {"subject", shown.subject}, {"depth", shown.depth},
+                          {"printed", ending.printed}};
+    const Json out = {{"file", file}, {"character", spec.character.name}, {"findings", Json::array({finding})}};
+    return void(std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str()));
+  }
+  std::printf("%s  %s\nFAILED: the generator made no motion.\nRESULT findings=1\n", shown.check.c_str(),
+              printable(describe(ending)).c_str());
+}
+
 void check_spec(const std::string& file, const std::string& level, bool as_json, Context& context) {
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
@@ -63,7 +75,12 @@ void check_spec(const std::string& file, const std::string& level, bool as_json,
   const Result<SpecInput> input = read_spec_input(file, level);
   if (!input) return context.fail(input.issue());
   Evaluator evaluator(*generator, *settings);
-  const Result<Evaluation> run = evaluator.run(input->spec);
+  Result<Evaluation> run = Issue{};
+  try {
+    run = evaluator.run(input->spec);
+  } catch (const ProgramEnded& ended) {
+    return tell_ending(file, input->spec, ended.ending(), as_json, context);
+  }
   if (!run) return context.fail(about_file(file, run.issue()));
   const Evaluation& evaluation = *run;
   context.exit_code = evaluation.findings.empty() ? kClean : kFindings;
@@ -115,10 +132,20 @@ std::optional<Issue> neither(const std::string& file) {
 Result<Done> options_fit(const ClipCheckOptions& options, const CLI::App& command) {
   if (options.all_clips) return Done{};
   const std::string& file = options.files.front();
-  const bool is_bvh = format_of_file(file) == FileFormat::bvh;
+  const std::string& unit = options.animation.unit;
+  const FileFormat format = format_of_file(file);
+  const bool is_length = metres_in(unit) > 0.0;
+  if (!unit.empty() && !is_length && format != FileFormat::joint_table)
+    return Issue{"usage.for_tables", "", "--unit " + unit + " is for tables of joint values, which " + file + " is not"};
+  if (format == FileFormat::joint_table && is_length)
+    return Issue{"usage.for_bvh", "",
+                 "--unit " + unit + " is for .bvh files; of a table of joint values it is rad or deg"};
   for (const char* option : {"--unit", "--up"})
-    if (command.count(option) > 0 && !is_bvh)
-      return Issue{"usage.for_bvh", "", std::string(option) + " is for .bvh files, and " + file + " is none"};
+    if (command.count(option) > 0 && format != FileFormat::bvh && format != FileFormat::joint_table)
+      return Issue{"usage.for_bvh", "", std::string(option) + " is for .bvh files and tables; " + file + " is another kind of file"};
+  for (const char* option : {"--loops", "--max-gap-m", "--skeleton", "--max-speed-deg-s"})
+    if (command.count(option) > 0 && format == FileFormat::joint_table)
+      return Issue{"usage.for_clips", "", std::string(option) + " has no effect on a table of joint values, as " + file};
   return Done{};
 }
 
@@ -134,7 +161,8 @@ void run(const ClipCheckOptions& options, const SpecOptions& of_spec, const CLI:
   const auto& [level, known] = of_spec;
   if (options.allow_unreadable && !options.all_clips)
     return context.fail({"usage.for_folders", "", "--allow-unreadable is for folders and --all-clips"});
-  const bool of_clips = options.all_clips || is_animation(options.files.front());
+  const std::string& first = options.files.front();
+  const bool of_clips = options.all_clips || is_animation(first) || is_table(first);
   if (!known.empty() && of_clips) return context.fail({"usage.for_specs", "", "--known is for specs and cases"});
   if (!level.empty() && of_clips) return context.fail({"usage.for_specs", "", "--level is for specs and cases"});
   if (!options.all_clips && options.files.size() > 1)
@@ -156,11 +184,11 @@ void add_check(CLI::App& app, Context& context) {
   auto options = std::make_shared<ClipCheckOptions>();
   auto of_spec = std::make_shared<SpecOptions>();
   CLI::App* command =
-      app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .vrm, .vrma, .bvh, .amc)");
+      app.add_subcommand("check", "Check a spec, or an animation made elsewhere (.glb, .vrm, .vrma, .bvh, .amc, .csv)");
   command
       ->add_option("FILE", options->files,
-                   "Spec or case (.json), or animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc), by what the file holds, or "
-                   "a folder of them; with --all-clips, any number of animations and folders")
+                   "Spec or case (.json), or animation (.glb, .gltf, .vrm, .vrma, .bvh, .amc, .csv), recognised by "
+                   "its contents, or a folder of them; with --all-clips, any number of animations and folders")
       ->required();
   CLI::Option* character = command->add_option(
       "--character", options->character, "Judge the clips as motions of this character, by every check that applies");
@@ -168,52 +196,57 @@ void add_check(CLI::App& app, Context& context) {
       ->add_option("--map", options->map, "File that says which node of the animation is which joint of the character")
       ->needs(character);
   command->add_option("--skeleton", options->animation.skeleton,
-                      "Skeleton (.asf) of an .amc; else the only one in its folder, or the one named most alike");
+                      "Skeleton (.asf) of an .amc (default: the only one in its folder, or the one with the most similar name)");
   CLI::Option* rate = command->add_option(
       "--rate-hz", options->animation.rate_hz,
-      "Frames per second of an .amc, which does not say it, and of a .bvh, instead of its own; with --character, those "
-      "of the character's motion");
+      "Frames per second: of an .amc, which does not state them; of a .bvh, instead of its own; with --character, of "
+      "the character's motion");
   rate->check(CLI::Range(1.0, 1e5))
       ->check(refuse_nan)
       ->capture_default_str();
   command
-      ->add_option("--unit", options->animation.bvh_unit_m,
-                   "Unit of length of a .bvh, whose lengths are then judged in metres")
-      ->transform(CLI::CheckedTransformer(kUnits_m))
-      ->type_name("m|cm|mm|in|ft");
+      ->add_option("--unit", options->animation.unit,
+                   "Unit of length of a .bvh, whose lengths are then judged in metres; unit of angles of a .csv (rad)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft", "rad", "deg"}))
+      ->type_name("m|cm|mm|in|ft|rad|deg");
   command
-      ->add_option("--up", options->animation.bvh_z_up, "Axis that points up in a .bvh; y if nobody says it")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"y", false}, {"z", true}}))
+      ->add_option("--up", options->animation.up,
+                   "Axis that points up in a .bvh (default: y), or for the root in a .csv (default: z)")
+      ->check(CLI::IsMember({"y", "z"}))
       ->type_name("y|z");
   CLI::Option* clip = command->add_option("--clip", options->clip, "Only this clip of the file");
   command
       ->add_option("--loops", options->loops,
-                   "Clips whose names match are loops: judge their seams; * is anything; may be given more than once")
+                   "Judge the seams of clips whose names match, because they are loops; * is any text; may be repeated")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
   command
       ->add_option(
           "--max-gap-m", options->max_gap_m,
-          "Judge joints that are farther than this from their place in the joint above (0.01); a file that is not "
-          "in metres, as many .bvh, is meant in its own unit")
+          "Report joints that are farther than this from their rest place in their parent, such as 0.01; in the "
+          "file's unit, if that is not metres, as in many .bvh")
       ->check(CLI::Range(0.0, 1e6))
       ->check(refuse_nan);
   command
       ->add_flag("--all-clips", options->all_clips,
-                 "Every clip of every file, in folders and below: one line for each, worst first; a folder means it")
+                 "Check every clip of every file and of all subfolders: one line for each clip, the worst first; implied by a folder")
       ->excludes(clip);
   command
       ->add_flag("--allow-unreadable", options->allow_unreadable,
-                 "With --all-clips or a folder: files that cannot be read are listed, and the others decide");
+                 "With --all-clips or a folder: list files that cannot be read; only the others decide the exit code");
   command
       ->add_option("--accept-list", options->accept_list,
-                   "Findings that are known, by file, clip, check and joint: they fail no run "
+                   "Known findings, by file, clip, check and joint, for which the check does not fail "
                    "(docs/reference/checking_files.md)")
       ->type_name("FILE");
   command
       ->add_option("--write-accept-list", options->write_accept_list,
                    "Write all findings of this run as such a list, with the reasons of --accept-list")
       ->type_name("FILE");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page of the clips, the worst first, each with the pose of its worst moment")
+      ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "Threads for many files (default: one per core)")
       ->check(CLI::Range(1, 1024));
   command
@@ -224,20 +257,21 @@ void add_check(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
-      "Exit code 1 when something was found. With --all-clips, files that cannot be read are listed and counted, and "
-      "the\n"
-      "exit code is 2; --allow-unreadable makes that no error as long as one file could be read.\n"
+      "The exit code is 1 if something was found. With --all-clips, files that cannot be read are listed and counted,\n"
+      "and the exit code is 2; with --allow-unreadable that is no error as long as one file could be read.\n"
       "Example: contort check robot.glb --max-speed-deg-s 1500\n"
       "         contort check walk.bvh --character human --map bones.json\n"
-      "         contort check captures --all-clips");
+      "         contort check log.csv --character panda\n"
+      "         contort check captures --character hero --report clips");
   add_level_option(*command, of_spec->level);
   command
       ->add_option("--known", of_spec->known,
-                   "Make no motion: say whether the rules of this corpus (contort explain) tell that the spec fails")
+                   "Make no motion: say whether the rules of this corpus (contort explain) predict that the spec fails")
       ->type_name("CORPUS");
   command->callback([options, of_spec, command, rate, &context] {
     if (rate->count() > 0) options->rate_hz = options->animation.rate_hz;
     options->all_clips |= std::ranges::any_of(options->files, is_a_folder);
+    if (rate->count() > 0 && !options->all_clips) options->animation.table_rate_hz = options->animation.rate_hz;
     if (rate->count() > 0 && options->character.empty()) options->animation.bvh_rate_hz = options->animation.rate_hz;
     run(*options, *of_spec, *command, context);
   });

@@ -10,11 +10,15 @@
 #include "checks/judge_clip.h"
 #include "checks/waive.h"
 #include "cli/accept_list.h"
+#include "cli/check_table.h"
 #include "cli/clip_character.h"
+#include "cli/clip_feet_names.h"
 #include "cli/clip_report.h"
+#include "cli/clips_page.h"
 #include "cli/no_effect.h"
 #include "cli/print.h"
 #include "cli/similar_names.h"
+#include "cli/worst_moment.h"
 #include "formats/detect/file_format.h"
 #include "guest/finished_file.h"
 #include "model/core/files.h"
@@ -66,6 +70,12 @@ void forget_matched(const Asset& asset, std::set<std::string>& unmatched) {
   }
 }
 
+// Bodies of a robot's file are no columns: where the map says joints of the file, they need not be there.
+void forget_columns(const JointTable& table, const JointMap& map, std::set<std::string>& unmatched) {
+  if (!map.values.empty()) unmatched.clear();
+  for (const TableColumn& column : table.columns) unmatched.erase(column.name);
+}
+
 // Leaves those findings that no waiver hides.
 template <class Item, class FindingOf>
 void keep_open(const CheckSettings& settings, std::vector<Item>& items, FindingOf finding_of, Checked& out) {
@@ -114,40 +124,28 @@ void set_waived_apart(const CheckSettings& settings, ClipReport& report, Checked
   if (report.judged.limits) keep_open(settings, report.judged.limits->findings, itself, out);
 }
 
-// A joint that left out so much of its node's turn has coordinates that jump where the node does not.
-constexpr double kNotFollowed_rad = 30.0 * kRadPerDeg;
-
-// A joint goes with those that share its node's turn.
-SpeedsElsewhere speeds_elsewhere(const Character& character, const Conversion& made, const AssetClip& clip) {
-  SpeedsElsewhere out;
-  for (const FollowedNode& f : made.followed) {
-    const bool has_channel = std::ranges::any_of(clip.channels, [&](const AssetChannel& channel) {
-      return channel.node == f.node && channel.path == ChannelPath::rotation;
-    });
-    for (int joint = std::max(f.joint, 1); joint < f.joint + f.hinges; ++joint) {
-      const std::string& name = character.joint(joint).name;
-      if (has_channel) out.in_channels.insert(name);
-      if (f.missed_rad > kNotFollowed_rad) out.not_followed.insert(name);
-    }
-  }
-  return out;
-}
-
-Result<Done> judge_on_character(ClipJudging& with, const Asset& asset, const AssetClip& clip, ClipReport& report) {
+Result<Done> judge_on_character(ClipJudging& with, const Animation& animation, const AssetClip& clip,
+                                ClipReport& report) {
   if (!with.on.character) return Done{};
+  const Asset& asset = animation.asset;
   const Result<Conversion> made =
       convert({asset, clip, with.on.character, with.on.map.joints, with.options.rate_hz.value_or(0.0)});
   if (!made) return made.issue();
-  add_motion(with.judge.evaluate(made->execution), speeds_elsewhere(*with.on.character, *made, clip), report.judged);
+  add_motion(with.judge.evaluate(made->execution), judged_elsewhere(with.on, *made, animation, clip), report.judged);
   report.motion = motion_of_clip(asset, clip, *made);
+  report.made = made->execution;
   return Done{};
 }
 
 Result<ClipReport> check_clip(const std::string& file, const Animation& animation, const AssetClip& clip,
                               ClipJudging& with) {
+  if (animation.table)
+    return check_table({file, animation, with.on, with.limits, with.options.animation}, with.judge);
   const bool is_loop = std::ranges::any_of(with.options.loops,
                                            [&](const std::string& pattern) { return matches(pattern, clip.label); });
-  const ClipInput in{animation.asset, clip, with.limits.settings, is_loop, with.options.max_gap_m};
+  const std::vector<ClipFoot> feet = with.on.character ? std::vector<ClipFoot>() : feet_by_names(animation.asset);
+  const ClipInput in{animation.asset, clip, with.limits.settings, is_loop, with.options.max_gap_m,
+                     with.on.character ? nullptr : &feet};
   ClipReport report{file, {}, {}, with.options.animation.rate_hz, 0};
   if (const std::optional<Take>& take = animation.take; take) {
     const Capture capture{take->skeleton, take->motion};
@@ -156,7 +154,7 @@ Result<ClipReport> check_clip(const std::string& file, const Animation& animatio
   } else {
     report.judged = judge_clip(in, with.limits, nullptr);
   }
-  if (const Result<Done> moved = judge_on_character(with, animation.asset, clip, report); !moved) return moved.issue();
+  if (const Result<Done> moved = judge_on_character(with, animation, clip, report); !moved) return moved.issue();
   return report;
 }
 
@@ -177,6 +175,7 @@ void check_file(const std::string& file, const ClipJudging& for_all, Checked& ou
   const Result<Animation> animation = read_animation(file, with.options.animation);
   if (!animation) return out.unreadable.push_back({file, animation.issue()});
   forget_matched(animation->asset, out.unmatched);
+  if (animation->table) forget_columns(*animation->table, with.on.map, out.unmatched);
   const std::size_t similar = take_similar_names(animation->asset, with, out.unmatched);
   note_clips(*animation, out.touched);
   out.touched.has_bvh |= format_of_file(file) == FileFormat::bvh;
@@ -190,6 +189,8 @@ void check_file(const std::string& file, const ClipJudging& for_all, Checked& ou
     note_judged(clip, *animation, report.judged, with.on, with.options, with.limits.settings, out.touched);
     set_waived_apart(with.limits.settings, report, out);
     set_accepted_apart(with, report, out);
+    if (!with.options.report.empty()) report.worst_pose = worst_pose(with.on, *animation, clip, report);
+    report.made.reset();
     out.clips.push_back(std::move(report));
   }
 }
@@ -350,10 +351,11 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
   Result<ClipJudging> judging = judging_of(options, context);
   if (!judging) return context.fail(judging.issue());
   const ClipJudging with = std::move(judging).value();
+  if (const Result<Done> own = check_clips_page(options.report); !own) return context.fail(own.issue());
   Checked checked;
   std::vector<std::string> files = options.files;
   if (options.all_clips) {
-    Expanded expanded = expand_animations(options.files);
+    Expanded expanded = expand_animations(options.files, !options.character.empty());
     files = std::move(expanded.files);
     checked.unreadable = std::move(expanded.unreadable), checked.skipped = std::move(expanded.skipped);
   }
@@ -368,12 +370,16 @@ void check_clips(const ClipCheckOptions& options, Context& context) {
     return context.fail(effects.issue());
   if (const Result<Done> written = write_accepted(options, checked); !written) return context.fail(written.issue());
   context.exit_code = count_findings(checked.clips) > 0 ? kFindings : checked.clips.empty() ? kBadInput : kClean;
+  std::stable_sort(checked.clips.begin(), options.all_clips ? checked.clips.end() : checked.clips.begin(), is_worse);
+  if (const Result<Done> written =
+          write_clips_page({options, checked.clips, checked.unreadable, with.on.character, with.limits.settings}, context);
+      !written)
+    context.fail(written.issue(), kInternal);
   if (!options.all_clips) return print_one(with, checked);
-  std::stable_sort(checked.clips.begin(), checked.clips.end(), is_worse);
   print_all(with, checked, count);
   if (is_incomplete(options, checked))
     context.fail({"check.unreadable", "",
-                  count_unreadable(checked, count) + ": the list says why; --allow-unreadable lets the others decide"});
+                  count_unreadable(checked, count) + ": see the list; with --allow-unreadable the others decide"});
   print_pace(checked.clips.size(), start);
 }
 

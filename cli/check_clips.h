@@ -12,15 +12,16 @@ namespace contort::cli {
 
 struct ClipCheckOptions {
   std::vector<std::string> files;   // with all_clips, folders too; without, one file
-  std::string character;            // that is judged as the clips move it, "" for none
+  std::string character;            // name of the character that the clips move; "" for none
   std::string map;                  // a file that says which node stands for which joint of the character
   std::string clip;                 // "" for all
   std::vector<std::string> loops;   // clips with names like one of these are loops
-  std::optional<double> max_gap_m;  // joints farther from their places are part_gap; nothing is judged without
+  std::optional<double> max_gap_m;  // greatest distance of a joint from its rest place (part_gap); not judged if empty
   AnimationOptions animation;
-  std::optional<double> rate_hz;  // of motions of the character; each clip's own without
+  std::optional<double> rate_hz;  // frame rate of motions of the character; if empty, that of each clip
   double max_speed_deg_s = 3000.0;
   std::string accept_list;        // a file with findings that fail no run, "" for none
+  std::string report;             // a folder for a page with pictures, "" for none
   std::string write_accept_list;  // to which file all findings are written as such a list, "" for none
   int jobs = 0;                   // threads; 0: one for each core
   bool all_clips = false;
@@ -28,7 +29,7 @@ struct ClipCheckOptions {
   bool json = false;
 };
 
-// Prints what was found and leaves the exit code in the context.
+// Prints the findings and sets the exit code in the context.
 void check_clips(const ClipCheckOptions& options, Context& context);
 
 }  // namespace contort::cli

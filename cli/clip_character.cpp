@@ -1,5 +1,7 @@
 #include "cli/clip_character.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "model/core/file_kind.h"
@@ -38,8 +40,18 @@ Result<Done> check_joints(const ClipCharacter& on) {
       return map_issue(
           node, "unknown_joint",
           "the character " + on.character->name() + " has no joint " + json_fields::quoted(joint));
+  for (const auto& [name, value] : on.map.values)
+    if (!value.joint.empty() && on.character->find_joint(value.joint) < 0)
+      return Issue{"map.unknown_joint", "/values/" + name + "/joint",
+                   "the character " + on.character->name() + " has no joint " + json_fields::quoted(value.joint)};
+  const auto& [x, y, z, w] = on.map.root_rotation;
+  if (std::fabs(x * x + y * y + z * z + w * w - 1.0) > 0.01)
+    return Issue{"map.bad_rotation", "/root_rotation", "found a quaternion x y z w whose length is not 1"};
   return Done{};
 }
+
+// A joint that left out so much of its node's turn has coordinates that jump where the node does not.
+constexpr double kNotFollowed_rad = 30.0 * kRadPerDeg;
 
 bool turns(const Joint& joint) { return joint.kind == JointKind::hinge || joint.kind == JointKind::ball; }
 
@@ -83,6 +95,24 @@ std::map<std::string, double> speed_limits_of(const ClipCharacter& on) {
     if (const Joint& joint = on.character->joint(on.character->find_joint(name)); turns(joint))
       limits[node] = joint.max_speed;
   return limits;
+}
+
+JudgedElsewhere judged_elsewhere(const ClipCharacter& on, const Conversion& made, const Animation& animation,
+                                 const AssetClip& clip) {
+  JudgedElsewhere out;
+  for (const FollowedNode& f : made.followed) {
+    const bool has_channel = std::ranges::any_of(clip.channels, [&](const AssetChannel& channel) {
+      return channel.node == f.node && channel.path == ChannelPath::rotation;
+    });
+    for (int joint = std::max(f.joint, 1); joint < f.joint + f.hinges; ++joint) {
+      const std::string& name = on.character->joint(joint).name;
+      if (has_channel) out.in_channels.insert(name);
+      if (f.missed_rad > kNotFollowed_rad) out.not_followed.insert(name);
+    }
+  }
+  if (animation.take)
+    out.in_file = subjects_with_declared_range(animation.take->skeleton, *on.character, on.map.values);
+  return out;
 }
 
 }  // namespace contort::cli

@@ -6,7 +6,10 @@
 
 #include "checks/clip_speed.h"
 #include "checks/joint_map.h"
+#include "checks/judge_clip.h"
+#include "cli/animation.h"
 #include "cli/commands.h"
+#include "guest/finished_file.h"
 #include "model/character/character.h"
 
 namespace contort::cli {
@@ -23,6 +26,10 @@ Result<ClipCharacter> load_clip_character(const std::string& name, const std::st
 
 // Limits of nodes with the name of a joint that turns, or that are mapped to one.
 std::map<std::string, double> speed_limits_of(const ClipCharacter& on);
+
+// A joint goes with those that share its node's turn.
+JudgedElsewhere judged_elsewhere(const ClipCharacter& on, const Conversion& made, const Animation& animation,
+                                 const AssetClip& clip);
 
 // An issue about a node of the map.
 Issue map_issue(const std::string& node, std::string_view code, std::string text);

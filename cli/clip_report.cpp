@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "cli/columns_report.h"
 #include "cli/judged_text.h"
 #include "cli/print.h"
 #include "model/core/index.h"
@@ -120,7 +121,7 @@ Json motion_json(const ClipMotion& motion, const Finding& f) {
           {"first_frame", f.first_frame},
           {"worst_frame", f.worst_frame},
           {"last_frame", f.last_frame},
-          {"worst_time_s", motion.first_s + f.worst_frame / motion.rate_hz}};
+          {"worst_time_s", motion.time_s(f.worst_frame)}};
 }
 
 const char* path_name(RootPath path) {
@@ -128,6 +129,7 @@ const char* path_name(RootPath path) {
 }
 
 Json conversion_json(const ClipMotion& motion) {
+  if (motion.columns > 0) return Json::parse(columns_json(motion));
   Json left_out = Json::array();
   for (const LeftOut& l : motion.left_out)
     left_out.push_back({{"joint", l.joint},
@@ -233,14 +235,7 @@ void print_motion_findings(const ClipReport& clip) {
   for (const Finding& f : clip.judged.motion_findings)
     std::printf("  %s  %s  %s  frames %d-%d, worst %d (%s s)\n", f.check.c_str(), printable(f.subject).c_str(),
                 margin_text(f.worst_margin, f.unit).c_str(), f.first_frame, f.last_frame, f.worst_frame,
-                decimal(clip.motion->first_s + f.worst_frame / clip.motion->rate_hz, 3).c_str());
-}
-
-std::string names_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
-    text += (i > 0 ? ", " : "") + printable(names[i]);
-  return names.size() <= kMostLines ? text : text + " and " + std::to_string(names.size() - kMostLines) + " more";
+                decimal(clip.motion->time_s(f.worst_frame), 3).c_str());
 }
 
 // Prints what left out more than is plain, the greatest first; at most kMostLines lines, and how many are left.
@@ -255,6 +250,7 @@ void print_left_out(std::vector<LeftOut> left_out, double LeftOut::*amount, doub
 }
 
 void print_conversion(const ClipMotion& motion) {
+  if (motion.columns > 0) return print_columns(motion);
   print_left_out(motion.left_out, &LeftOut::turn_rad, kPlainTurn_rad, [](const LeftOut& l) {
     return decimal(l.turn_rad * kDegPerRad, 1) + " deg of the turn of " + printable(l.node) + ", for which " +
            printable(l.joint) + " has no axis (" + decimal(l.turn_s, 3) + " s)";
@@ -264,13 +260,14 @@ void print_conversion(const ClipMotion& motion) {
            decimal(l.offset_s, 3) + " s)";
   });
   if (!motion.stray_nodes.empty())
-    std::printf("  left out: nodes that move and are no joint: %s\n", names_text(motion.stray_nodes).c_str());
+    std::printf("  left out: nodes that move and are no joint: %s\n", some_names(motion.stray_nodes).c_str());
   if (!motion.joints_at_rest.empty())
-    std::printf("  at rest: joints without a node: %s\n", names_text(motion.joints_at_rest).c_str());
+    std::printf("  at rest: joints without a node: %s\n", some_names(motion.joints_at_rest).c_str());
 }
 
 // "; left out 12.3 deg, 0.180 m, 3 nodes", or "".
 std::string left_out_text(const ClipMotion& motion) {
+  if (motion.columns > 0) return columns_text(motion);
   double turn_rad = 0.0, offset_m = 0.0;
   for (const LeftOut& l : motion.left_out)
     turn_rad = std::max(turn_rad, l.turn_rad), offset_m = std::max(offset_m, l.offset_m);

@@ -21,13 +21,14 @@ enum Exit : int {
   kClean = 0,         // nothing gating
   kFindings = 1,      // new or regressed failures
   kBadInput = 2,      // usage, configuration, unreadable input
-  kInternal = 3,      // a fault of ours or of the machine: the store cannot be written, no renderer
-  kInconclusive = 4,  // nondeterminism, or less work done than asked for
-  kInterrupted = 75,  // stopped early; what was found is kept
-  kNobodyReads = 141  // standard output went into a pipe that was closed: 128 + SIGPIPE, as of other programs
+  kInternal = 3,      // an error of Contort or of the machine: the corpus cannot be written, no renderer
+  kInconclusive = 4,  // a second run differed, or not all requested work was done
+  kInterrupted = 75,  // stopped early; findings are kept
+  kNobodyReads = 141  // standard output is a pipe that was closed: 128 + SIGPIPE, as in other programs
 };
 
-// The exit code of an issue: kInternal where something cannot be written, else kBadInput.
+// The exit code of an issue: kInternal if something cannot be written, kFindings if a program under test ended while it
+// made a motion, else kBadInput.
 Exit exit_of(const Issue& issue);
 
 struct Context {
@@ -35,19 +36,19 @@ struct Context {
   Sources sources;                           // --library, --generator
   std::string settings_file;                 // --settings
   std::string today;                         // --today, for waivers and quarantines
-  std::string gl = "auto";                   // --gl: who draws; "none": nobody
+  std::string gl = "auto";                   // --gl: the renderer; "none": no pictures
 
-  // The library, or nothing with the reason printed and the exit code set.
+  // Returns the library, or nothing; it then has printed the reason and set the exit code.
   const Library* load_library();
 
-  // The generator under test: the program of --generator with its own characters, or the built-in one over that library.
-  // If it cannot be had, the reason is printed and there is no generator.
+  // The generator under test: the program of --generator with its own characters, or the built-in one over that
+  // library. If it is not available, this prints the reason and returns nothing.
   Generator* load_generator();
 
   // The settings of checks; the defaults without --settings.
   Result<CheckSettings> load_settings() const;
 
-  // The same for cases that a user names: what is waived is still there.
+  // The settings for cases that a user names, in which waivers hide nothing.
   Result<CheckSettings> load_settings_without_waivers() const;
 
   // --today, else the day of the clock, UTC.

@@ -117,7 +117,8 @@ class Examination {
       spec.character.name = name, spec.rate_hz = generator_.manifest().rate_hz, spec.hold_frames = 2;
       const auto evaluation = guarded([&] { return evaluator_.run(spec); });
       if (!evaluation) return false;
-      if (!*evaluation) return fault("A request without actions is refused: " + (*evaluation).issue().text), false;
+      if (!*evaluation)
+        return fault("A request without actions is refused: " + reason_of((*evaluation).issue())), false;
       compare_with_rest(name, evaluator_.execution());
     }
     return true;
@@ -199,7 +200,6 @@ class Examination {
 
   void examine_drawn() {
     std::map<std::string, int> failing;
-    std::map<std::string, int> refused;  // by reason
     int frames = 0;
     double spent_s = 0.0;
     const double begin_s = steady_s();
@@ -210,16 +210,17 @@ class Examination {
       spent_s += steady_s() - start_s;
       ++out_.motions;
       if (!evaluation) continue;
-      if (!*evaluation) ++refused[(*evaluation).issue().text];
-      if (!*evaluation) continue;
+      if (!*evaluation) {
+        ++out_.refused;
+        count_refusal(reason_of((*evaluation).issue()), index, out_.refusals);
+        continue;
+      }
       frames += (*evaluation)->frame_count;
       for (const std::string& check : failing_checks(**evaluation)) ++failing[check];
       note_judged(**evaluation);
       look_for_degrees(evaluator_.execution());
     }
     out_.frames_per_s = spent_s > 0.0 ? frames / spent_s : 0.0;
-    out_.refusals.assign(refused.begin(), refused.end());
-    std::ranges::stable_sort(out_.refusals, std::ranges::greater(), &std::pair<std::string, int>::second);
     remark_on(failing);
     remark_on_refusals();
   }
@@ -277,10 +278,10 @@ class Examination {
             "used where radians are expected?");
     else if (share("angular_velocity") > kOften)
       fault("Joints turn faster than the manifest declares in " + rounded_text(100.0 * share("angular_velocity")) +
-            " % of the motions; is max_speed_deg_s in degrees per second, and true?");
+            " % of the motions; is max_speed_deg_s in degrees per second, and correct?");
     if (share("joint_range") > kOften)
       fault("Joints leave the ranges that the manifest declares in " + rounded_text(100.0 * share("joint_range")) +
-            " % of the motions; are low_deg and high_deg in degrees against rest, and true?");
+            " % of the motions; are low_deg and high_deg in degrees relative to rest, and correct?");
     if (share("off_axis") > kOften)
       fault("Hinges turn about other axes than the manifest declares in " + rounded_text(100.0 * share("off_axis")) +
             " % of the motions; is axis in the joint's own frame?");
@@ -291,11 +292,9 @@ class Examination {
   }
 
   void remark_on_refusals() {
-    int refused = 0;
-    for (const auto& [reason, count] : out_.refusals) refused += count;
-    if (refused * 2 > out_.motions)
-      fault(rounded_text(100.0 * refused / std::max(1, out_.motions)) +
-            " % of the motions that the manifest allows are refused: " + out_.refusals.front().first);
+    if (out_.refused * 2 > out_.motions)
+      fault(rounded_text(100.0 * out_.refused / std::max(1, out_.motions)) +
+            " % of the motions that the manifest allows are refused: " + by_frequency(out_.refusals).front().text);
   }
 
   // Each number at the ends of its range, everything else at its default.
@@ -326,7 +325,7 @@ class Examination {
     const std::string what = action.name + " with " + def.name + " = " + rounded_text(end);
     const auto evaluation = guarded([&] { return evaluator_.run(spec); }, what + ": ");
     if (evaluation && !*evaluation)
-      fault("The manifest allows " + what + ", but the generator refuses it: " + (*evaluation).issue().text);
+      fault("The manifest allows " + what + ", but the generator refuses it: " + reason_of((*evaluation).issue()));
   }
 
   GuestGenerator& generator_;

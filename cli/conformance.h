@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "corpus/refusals.h"
 #include "guest/guest_generator.h"
 
 namespace contort::cli {
 
 struct ProtocolRemark {
-  bool is_fault = false;  // else a note that a person should read
+  bool is_fault = false;  // true: a fault; false: a note for people
   std::string text;       // one sentence that says what to change
   bool operator==(const ProtocolRemark&) const = default;
 };
@@ -20,7 +21,8 @@ struct Conformance {
   std::vector<std::string> judged;                             // names of checks
   std::vector<std::pair<std::string, std::string>> not_judged;  // with the reasons
   int motions = 0;
-  std::vector<std::pair<std::string, int>> refusals;  // reasons of the drawn motions' refusals, the most frequent first
+  RefusalCounts refusals;  // reasons for which drawn motions were refused
+  int refused = 0;         // number of drawn motions that were refused
   double frames_per_s = 0.0;
   double start_s = 0.0;
 

@@ -112,7 +112,7 @@ void add_contacts(CLI::App& app, Context& context) {
   auto options = std::make_shared<ContactsOptions>();
   CLI::App* command = app.add_subcommand("contacts", "List the contacts that a character allows, and propose more");
   command
-      ->add_option("CHARACTER", options->subject, "Name of a character, or a spec or case, for its parts and objects")
+      ->add_option("CHARACTER", options->subject, "Name of a character, or a spec or case file, whose parts and objects are used")
       ->required();
   command->add_option("--poses", options->poses, "Number of poses to try, in addition to the rest pose")
       ->check(CLI::Range(0, 100000))

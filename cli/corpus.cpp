@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 
+#include "cli/causes.h"
 #include "cli/commands.h"
+#include "cli/corpus_list.h"
 #include "cli/corpus_upkeep.h"
 #include "cli/input.h"
 #include "cli/print.h"
@@ -14,7 +17,6 @@
 #include "corpus/bucket_files.h"
 #include "corpus/causes.h"
 #include "corpus/lifecycle.h"
-#include "corpus/sides.h"
 #include "model/core/json_fields.h"
 
 namespace contort::cli {
@@ -67,23 +69,6 @@ std::vector<Bucket> read_buckets(const Corpus& corpus, Context& context) {
   return buckets;
 }
 
-// One line for all that are alike but for the side: the ids of the others come last.
-void print_line(const Bucket& bucket, const std::string& others, const std::string& today) {
-  std::printf("%-11s  %s  %s%s  %s%s\n", std::string(state_name(bucket.state)).c_str(), bucket.id.c_str(),
-              printable(print_family(bucket.family)).c_str(), is_gating(bucket, today) ? "  GATES" : "",
-              printable(known_text(bucket, today)).c_str(), others.c_str());
-}
-
-void print_folded(const std::vector<Bucket>& buckets, const std::string& today) {
-  for (const std::vector<std::size_t>& group : without_sides(buckets)) {
-    std::string others;
-    for (std::size_t i = 1; i < group.size(); ++i)
-      others += (i == 1 ? "  other side: " : ", ") + buckets[group[i]].id +
-                (is_gating(buckets[group[i]], today) ? " GATES" : "");
-    print_line(buckets[group.front()], others, today);
-  }
-}
-
 void list(const CorpusOptions& options, Context& context) {
   const Result<Corpus> corpus = open_corpus(options, context);
   if (!corpus) return;
@@ -95,12 +80,7 @@ void list(const CorpusOptions& options, Context& context) {
     for (const Bucket& bucket : buckets) out.push_back(bucket_json(*corpus, bucket, today));
     return print_json(out);
   }
-  if (options.fold_sides)
-    print_folded(buckets, today);
-  else
-    for (const Bucket& bucket : buckets) print_line(bucket, "", today);
-  std::printf("%zu buckets, %td gating\n", buckets.size(),
-              std::ranges::count_if(buckets, [&](const Bucket& bucket) { return is_gating(bucket, today); }));
+  std::printf("%s", corpus_list_text({*corpus, std::move(buckets), today, options.fold_sides}).c_str());
 }
 
 // The one whose id, or folder's name, begins like this.
@@ -110,11 +90,16 @@ Result<Bucket> find_bucket(const std::vector<Bucket>& buckets, const std::string
     if (!prefix.empty() && (bucket.id.starts_with(prefix) || folder_name(bucket).starts_with(prefix)))
       found.push_back(bucket);
   if (found.empty())
-    return Issue{"corpus.no_bucket", "", "no bucket begins with \"" + prefix + "\"; contort corpus list shows them"};
+    return Issue{"corpus.no_bucket", "", "the id of no failure begins with \"" + prefix + "\"; contort corpus list shows them"};
   if (found.size() == 1) return found.front();
   std::string names;
   for (const Bucket& bucket : found) names += (names.empty() ? "" : ", ") + folder_name(bucket);
   return Issue{"corpus.many_buckets", "", "\"" + prefix + "\" is the beginning of " + names};
+}
+
+std::string cause_text(const Case& minimal) {
+  return cause_id_of(minimal) + ": " +
+         cause_headline(cause_of(minimal), minimal.expect.check, minimal.expect.subject);
 }
 
 void show(const CorpusOptions& options, Context& context) {
@@ -128,8 +113,9 @@ void show(const CorpusOptions& options, Context& context) {
   const auto line = [](const char* name, const std::string& value) {
     if (!value.empty()) std::printf("%-10s %s\n", name, printable(value).c_str());
   };
+  if (minimal) line("cause", cause_text(*minimal));
   line("bucket", folder_name(bucket));
-  line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", gates" : ""));
+  line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", fails a build" : ""));
   line("known", known_text(bucket, context.day()));
   line("note", bucket.note);
   line("family", print_family(bucket.family));
@@ -147,20 +133,22 @@ void show(const CorpusOptions& options, Context& context) {
     line(file.substr(0, file.find('-')).c_str(), replay_command(corpus->folder_of(bucket) + "/" + file, sources));
 }
 
-// Returns the buckets of the one cause whose id begins with `prefix`. A fixed bucket belongs to no cause.
+// Returns the buckets of the one cause whose id begins with `prefix`, or to which the failure belongs whose id does. A
+// fixed bucket belongs to no cause.
 Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<Bucket> buckets,
                                              const std::string& prefix) {
   std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
-  std::map<std::string, std::vector<Bucket>> of_cause;
   std::vector<Issue> unread;  // a bucket without a minimal case has no cause
-  for (const CauseMember& member : cause_members(corpus, std::move(buckets), unread))
-    if (const std::string id = cause_id_of(member.minimal); !prefix.empty() && id.starts_with(prefix))
-      of_cause[id].push_back(member.bucket);
+  const std::vector<CauseMember> members = cause_members(corpus, std::move(buckets), unread);
+  const std::set<std::string> named = causes_named(members, prefix);
+  std::map<std::string, std::vector<Bucket>> of_cause;
+  for (const CauseMember& member : members)
+    if (const std::string id = cause_id_of(member.minimal); named.contains(id)) of_cause[id].push_back(member.bucket);
   if (of_cause.size() == 1) return of_cause.begin()->second;
   if (of_cause.empty())
-    return Issue{"corpus.no_cause", "", "no cause begins with \"" + prefix + "\"; contort causes shows them"};
+    return no_such_cause(prefix);
   std::string ids;
-  for (const auto& [id, members] : of_cause) ids += (ids.empty() ? "" : ", ") + id;
+  for (const auto& [id, own] : of_cause) ids += (ids.empty() ? "" : ", ") + id;
   return Issue{"corpus.many_causes", "", "\"" + prefix + "\" is the beginning of " + ids};
 }
 
@@ -168,7 +156,7 @@ Result<std::vector<Bucket>> buckets_of_cause(const Corpus& corpus, std::vector<B
 Result<std::vector<Bucket>> chosen_buckets(const Corpus& corpus, const std::vector<Bucket>& all,
                                            const CorpusOptions& options) {
   if (options.buckets.empty() && options.causes.empty())
-    return Issue{"corpus.nothing_named", "", "name buckets, or causes with --cause"};
+    return Issue{"corpus.nothing_named", "", "name failures by their ids, or causes with --cause; contort corpus list shows both"};
   std::vector<Bucket> chosen;
   const auto add = [&](const Bucket& bucket) {
     if (std::ranges::find(chosen, bucket.id, &Bucket::id) == chosen.end()) chosen.push_back(bucket);
@@ -228,11 +216,11 @@ CLI::App* add(CLI::App& corpus, const std::string& name, const char* help,
 
 void add_listing(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
-  CLI::App* command = add(corpus, "list", "List buckets, with their states", options, context, list);
+  CLI::App* command = add(corpus, "list", "List failures by their cause, with the state of each", options, context, list);
   std::vector<std::string> states;
   for (int s = 0; s <= static_cast<int>(BucketState::invalid); ++s)
     states.emplace_back(state_name(static_cast<BucketState>(s)));
-  command->add_option("--state", options->states, "Only buckets in this state; may be repeated")
+  command->add_option("--state", options->states, "Only failures in this state; may be repeated")
       ->allow_extra_args(false)
       ->check(one_of(states));
   command->add_option("--check", options->check, "Only failures of this check");
@@ -245,8 +233,8 @@ void add_listing(CLI::App& corpus, Context& context) {
 
 void add_showing(CLI::App& corpus, Context& context) {
   auto options = std::make_shared<CorpusOptions>();
-  CLI::App* command = add(corpus, "show", "Show all that is known about a bucket", options, context, show);
-  command->add_option("BUCKET", options->buckets, "Beginning of the bucket's id or of its folder's name")
+  CLI::App* command = add(corpus, "show", "Show all that is known about a failure", options, context, show);
+  command->add_option("FAILURE", options->buckets, "Beginning of the failure's id (contort corpus list), or of its folder's name")
       ->required()
       ->expected(1);
   command->add_flag("--json", options->json, "Print as JSON");
@@ -254,8 +242,10 @@ void add_showing(CLI::App& corpus, Context& context) {
 }
 
 void add_choice(CLI::App& command, CorpusOptions& options) {
-  command.add_option("BUCKET", options.buckets, "Beginnings of ids or of folders' names");
-  command.add_option("--cause", options.causes, "All failures of this cause (contort causes); may be repeated")
+  command.add_option("FAILURE", options.buckets,
+                     "Beginnings of ids of failures (contort corpus list), or of their folders' names");
+  command.add_option("--cause", options.causes, "All failures of this cause: the beginning of its id, or of that of one of its failures (contort "
+                     "causes); may be repeated")
       ->allow_extra_args(false);
 }
 

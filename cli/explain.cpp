@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "cli/against.h"
 #include "cli/causes.h"
 #include "cli/commands.h"
+#include "cli/limits.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
 #include "cli/tested.h"
@@ -26,6 +28,7 @@ struct ExplainOptions {
   std::vector<std::string> causes;
   int draws = 300;
   int jobs = 0;
+  LimitOptions limits;
   bool stored_only = false;
   bool again = false;
   bool json = false;
@@ -50,17 +53,16 @@ std::vector<Question> questions_of(const std::vector<CauseRow>& rows) {
 
 Result<std::vector<CauseRow>> asked_for(std::vector<CauseRow> rows, const std::vector<std::string>& prefixes) {
   if (prefixes.empty()) return rows;
-  std::vector<CauseRow> chosen;
+  std::vector<CauseMember> members;
+  for (const CauseRow& row : rows) members.insert(members.end(), row.members.begin(), row.members.end());
+  std::set<std::string> chosen;
   for (const std::string& prefix : prefixes) {
-    const std::size_t before = chosen.size();
-    for (const CauseRow& row : rows)
-      if (!prefix.empty() && row.id.starts_with(prefix) &&
-          std::ranges::find(chosen, row.id, &CauseRow::id) == chosen.end())
-        chosen.push_back(row);
-    if (chosen.size() == before)
-      return Issue{"corpus.no_cause", "", "no cause begins with \"" + prefix + "\"; contort causes shows them"};
+    std::set<std::string> named = causes_named(members, prefix);
+    if (named.empty()) return no_such_cause(prefix);
+    chosen.merge(named);
   }
-  return chosen;
+  std::erase_if(rows, [&](const CauseRow& row) { return !chosen.contains(row.id); });
+  return rows;
 }
 
 std::vector<CauseRow> cause_rows(const Corpus& corpus, Context& context) {
@@ -95,7 +97,9 @@ class Explainer {
                     "learning condition " + std::to_string(i + 1) + " of " + std::to_string(questions.size()));
       const Result<Condition> found = find_condition(minimal, *generator, *settings, search);
       if (!found) {
-        context_.fail(found.issue());
+        progress.clear();
+        const bool is_ended = found.issue().code == "explain.program_ended";
+        context_.fail(about_cause(questions[i].cause, found.issue()), is_ended ? kInconclusive : kBadInput);
         continue;
       }
       if (const Result<Done> kept = keep(*found); !kept) return kept.issue();
@@ -125,6 +129,11 @@ class Explainer {
   const std::vector<Condition>& conditions() const { return conditions_; }
 
  private:
+  static Issue about_cause(const std::string& cause, Issue issue) {
+    issue.text = "cause " + cause + ": " + issue.text;
+    return issue;
+  }
+
   bool is_known(const Case& minimal, const std::string& build) const {
     return std::ranges::any_of(conditions_, [&](const Condition& condition) {
       return condition.cause == cause_id_of(minimal) && condition.character == minimal.spec.character.name &&
@@ -155,6 +164,10 @@ class Explainer {
   std::vector<Condition> conditions_;
 };
 
+constexpr char kNoCondition[] =
+    "No condition can be learned: rules are for findings in motions, and not for crashes, timeouts, too much memory, "
+    "recordings and swapped parts.";
+
 void print(const std::vector<CauseRow>& rows, const std::vector<Condition>& conditions) {
   std::size_t place = 0, with_rule = 0;
   for (const CauseRow& row : rows) {
@@ -165,7 +178,9 @@ void print(const std::vector<CauseRow>& rows, const std::vector<Condition>& cond
         std::printf("   %s: %s\n", printable(condition.character).c_str(), condition_text(condition).c_str());
         is_learned = true, has_one |= has_rule(condition);
       }
-    if (!is_learned) std::printf("   No condition was learned.\n");
+    const bool can_be = std::ranges::any_of(
+        row.members, [](const CauseMember& member) { return can_have_condition(member.minimal); });
+    if (!is_learned) std::printf("   %s\n", can_be ? "No condition was learned." : kNoCondition);
     with_rule += has_one ? 1 : 0;
   }
   std::printf("RESULT causes=%zu with_rule=%zu\n", rows.size(), with_rule);
@@ -179,6 +194,7 @@ void print_json(const std::vector<CauseRow>& rows, const std::vector<Condition>&
 }
 
 void run_explain(const ExplainOptions& options, Context& context) {
+  take_limits(options.limits, context.sources);
   const Result<Corpus> corpus = Corpus::open(options.corpus);
   if (!corpus) return context.fail(corpus.issue());
   const Result<std::vector<CauseRow>> rows = asked_for(cause_rows(*corpus, context), options.causes);
@@ -206,11 +222,13 @@ void add_explain(CLI::App& app, Context& context) {
   auto options = std::make_shared<ExplainOptions>();
   CLI::App* command = app.add_subcommand("explain", "Learn under which conditions the causes of a corpus show");
   command->add_option("corpus", options->corpus, "Folder of the corpus")->required();
-  command->add_option("--cause", options->causes, "Only causes whose id begins like this; may be repeated");
+  command->add_option("--cause", options->causes, "Only causes whose id, or that of one of whose failures, begins like this (contort causes); may be "
+                      "repeated");
   command->add_option("--draws", options->draws, "Cases that a rule is learned from")
       ->check(CLI::Range(60, 100'000))
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Threads (default: one per core)")->check(CLI::Range(1, 1024));
+  add_program_limit_options(*command, options->limits);
   CLI::Option* stored = command->add_flag("--stored", options->stored_only, "Print what is stored, and learn nothing");
   command->add_flag("--again", options->again, "Learn all conditions anew, also those that are still valid")
       ->excludes(stored);

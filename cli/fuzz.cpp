@@ -264,8 +264,8 @@ Result<Corpus> open_corpus(const FuzzOptions& options, const RunConfig& config) 
 void tell_discarded(const RunRecord& record, bool of_program) {
   const auto count = static_cast<long long>(record.discarded);
   if (of_program)
-    std::fprintf(stderr, "contort: the generator refused %lld of %lld requests that its manifest allows; contort "
-                         "generator check CMD says why\n", count, static_cast<long long>(record.cases));
+    std::fprintf(stderr, "contort: the generator refused %lld of %lld requests that its manifest allows, so that they "
+                         "were not judged\n", count, static_cast<long long>(record.cases));
   else
     std::fprintf(stderr, "contort: %lld drawn specs did not build; that is a fault of the fuzzer\n", count);
 }
@@ -278,8 +278,7 @@ std::string corpus_of_generator(const std::string& name) {
 void run(FuzzOptions options, Context& context) {
   std::signal(SIGINT, on_interrupt);  // before all else: from here on a run that is stopped ends as one
   std::signal(SIGTERM, on_interrupt);
-  context.sources.case_timeout_s = options.limits.case_timeout_s;
-  context.sources.memory_MB = options.limits.memory_MB;
+  take_limits(options.limits, context.sources);
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   if (options.profile.empty() && !context.sources.generator.empty()) options.profile = "guest";
@@ -338,7 +337,7 @@ void add_fuzz(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("fuzz", "Compose random motions, check every frame, shrink and store what fails");
   command->add_option("--character", options->characters, "Character to fuzz; may be repeated (default: all)");
-  command->add_option("--cases", options->cases, "Stop after so many cases (default: 2000, or no limit with --time)")
+  command->add_option("--cases", options->cases, "Stop after this number of cases (default: 2000, or no limit with --time)")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53));
   command->add_option("--time", options->time, "Stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
   command->add_option("--seed", options->seed, "Case i depends only on the seed and on i")

@@ -42,8 +42,10 @@ namespace {
 // The verdict in one sentence.
 std::string verdict(const RunRecord& record, const FoundCauses& causes) {
   if (record.cases == 0) return "No case ran.";
+  const std::int64_t judged = record.cases - record.discarded;
+  if (judged == 0) return "The generator refused every case, so that nothing was judged.";
   const std::string share =
-      clean_share(record.cases, record.failing) + " of " + counted(record.cases, "case is clean", "cases are clean");
+      clean_share(judged, record.failing) + " of " + counted(judged, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
   const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
   if (causes.rows.empty()) return failing + "; none has a bucket yet, so no cause is known.";
@@ -67,6 +69,7 @@ void print_causes(const RunResult& result, const TotalsRequest& request) {
 }
 
 constexpr std::size_t kMostUnsteady = 5;  // that are printed; the others are only counted
+constexpr std::size_t kMostReasons = 5;   // of refusals; the same
 
 void print_unsteady(const RunResult& result, const TotalsRequest& request) {
   for (std::size_t i = 0; i < std::min(result.unconfirmed.size(), kMostUnsteady); ++i)
@@ -83,6 +86,13 @@ void print_found(const RunResult& result, const TotalsRequest& request) {
   else
     print_causes(result, request);
   print_unsteady(result, request);
+}
+
+json_fields::Json refusals_json(const RefusalCounts& counts) {
+  json_fields::Json list = json_fields::Json::array();
+  for (const RefusalCount& count : by_frequency(counts))
+    list.push_back({{"reason", count.text}, {"cases", count.cases}});
+  return list;
 }
 
 void print_totals_json(const RunResult& result, const TotalsRequest& request) {
@@ -106,6 +116,7 @@ void print_totals_json(const RunResult& result, const TotalsRequest& request) {
                            {"waiting", result.waiting},
                            {"unconfirmed", result.unconfirmed},
                            {"discarded", t.discarded},
+                           {"refusals", refusals_json(t.refusals)},
                            {"waivers", json_fields::Json::parse(waivers_json(request.settings, result.waivers))},
                            {"tested", t.tested}};
   if (request.against)
@@ -118,18 +129,20 @@ void print_totals_text(const RunResult& result, const TotalsRequest& request) {
   const RunRecord& t = result.record;
   print_found(result, request);
   for (const std::string& line : waiver_lines(request.settings, result.waivers)) std::printf("%s\n", line.c_str());
+  for (const std::string& line : refusal_lines(t.refusals, t.discarded, t.cases, kMostReasons))
+    std::printf("%s\n", printable(line).c_str());
   std::printf("%lld cases (%lld frames) in %.1f s: %lld %s, %zu families; corpus: %s\n",
               static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
               static_cast<long long>(t.failing), request.against ? "broke or got worse" : "failing", t.families.size(),
               request.corpus.c_str());
   if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
     std::printf(
-        "%lld families came only behind the %d earliest of their cases: counted, not shrunk "
+        "%lld families were never among the %d earliest failures of a case: counted, not shrunk "
         "(--shrinks-per-case)\n",
         static_cast<long long>(late), request.shrinks_per_case);
-  if (t.cases > 0 && !request.against) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
+  if (t.cases > t.discarded && !request.against) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
   if (result.interrupted)
-    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
+    std::printf("%d failures wait to be shrunk: the same command with --resume continues from here\n", result.unsettled);
   if (!result.waiting.empty())
     std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
                 result.waiting.size(), request.corpus.c_str());

@@ -11,6 +11,7 @@
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
 #include "model/core/output.h"
+#include "process/ended.h"
 
 namespace contort::cli {
 
@@ -83,8 +84,8 @@ void run(const GenerateOptions& options, Context& context) {
   if (generator == nullptr) return;
   const Result<SpecInput> input = read_spec_input(options.spec, options.level);
   if (!input) return context.fail(input.issue());
-  const Result<Execution> execution = execute(*generator, input->spec);
-  if (!execution) return context.fail(about_file(options.spec, execution.issue()));
+  const Result<Execution> execution = unless_it_ends([&] { return execute(*generator, input->spec); });
+  if (!execution) return context.fail(about_file(options.spec, execution.issue()), exit_of(execution.issue()));
   const Motion& motion = execution->motion;
   const std::optional<int> part = part_alone(input->spec, *execution->character);
   const std::string ending = std::filesystem::path(options.output).extension().string();

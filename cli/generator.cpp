@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/conformance.h"
+#include "cli/guest_model.h"
 #include "cli/print.h"
 #include "guest/manifest_check.h"
 #include "process/clock.h"
@@ -15,13 +16,30 @@ namespace contort::cli {
 namespace {
 
 constexpr GuestLimits kExamined{60.0, 5.0};  // nobody waits longer for an answer
+constexpr std::size_t kMostReasonsShown = 20;
+
+constexpr std::size_t kMostFollowersShown = 20;
+
+void print_followers(const GuestCharacter& character) {
+  std::size_t count = 0;
+  for (const GuestJoint& joint : character.joints)
+    if (joint.follows && ++count <= kMostFollowersShown)
+      std::printf("  %s follows %s: %s times its angle from rest, plus %s degrees\n", printable(joint.name).c_str(),
+                  printable(joint.follows->joint).c_str(), rounded_text(joint.follows->multiplier).c_str(),
+                  rounded_text(joint.follows->offset_deg).c_str());
+  if (count > kMostFollowersShown) std::printf("  and %zu more joints follow others\n", count - kMostFollowersShown);
+}
 
 void print_understood(const GuestManifest& said) {
   std::printf("%s%s%s\n", printable(said.name).c_str(), said.build.empty() ? "" : ", build ",
               printable(said.build).c_str());
-  for (const GuestCharacter& character : said.characters)
-    std::printf("  character %s: %zu joints, %zu colliders\n", character.name.c_str(), character.joints.size(),
+  for (const GuestCharacter& character : said.characters) {
+    std::printf("  character %s: %zu joints, %zu colliders", character.name.c_str(), character.joints.size(),
                 character.colliders.size());
+    if (!character.may_touch.empty()) std::printf(", of which %zu pairs may touch", character.may_touch.size());
+    std::printf("\n");
+    print_followers(character);
+  }
   for (const GuestAction& action : said.actions)
     std::printf("  action %s: %zu parameters, %g to %g s\n", action.name.c_str(), action.params.size(),
                 action.duration_s[0], action.duration_s[1]);
@@ -57,8 +75,8 @@ void print_conformance(const Conformance& found) {
   std::printf("judged: %s\n", judged.empty() ? "nothing" : judged.c_str());
   for (const auto& [check, reason] : found.not_judged)
     std::printf("not judged: %s: %s\n", check.c_str(), reason.c_str());
-  for (const auto& [reason, count] : found.refusals)
-    std::printf("refused: %d of %d motions: %s\n", count, found.motions, printable(reason).c_str());
+  for (const std::string& line : refusal_lines(found.refusals, found.refused, found.motions, kMostReasonsShown))
+    std::printf("%s\n", printable(line).c_str());
   for (const ProtocolRemark& remark : found.remarks)
     std::printf("%s: %s\n", remark.is_fault ? "FAULT" : "note", printable(remark.text).c_str());
   if (!found.has_fault()) std::printf("OK: the generator keeps the protocol.\n");
@@ -66,7 +84,7 @@ void print_conformance(const Conformance& found) {
 
 void run(const std::string& command, bool limits, Context& context) {
   const double start_s = steady_s();
-  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(command, kExamined);
+  Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(command, kExamined, model_reader(command));
   if (!started) return context.fail(started.issue());
   const double manifest_s = steady_s() - start_s;
   GuestGenerator& generator = **started;

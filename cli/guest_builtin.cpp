@@ -10,7 +10,7 @@ namespace contort::cli {
 
 void add_guest_builtin(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand(
-      "guest-builtin", "Speak contort.generator/1 as the built-in generator: an example of a program under test");
+      "guest-builtin", "Serve the built-in generator over the protocol contort.generator/1, as an example of a program under test");
   auto characters = std::make_shared<std::vector<std::string>>(1, "human");
   command->add_option("--character", *characters, "The characters of the manifest")->capture_default_str();
   command->footer("Example: contort generator check \"contort guest-builtin --character quadruped\"");

@@ -9,8 +9,11 @@
 #include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/library_folder.h"
+#include "formats/detect/file_format.h"
 #include "formats/gltf/read.h"
+#include "formats/mocap/asf.h"
 #include "formats/robot/read.h"
+#include "import/asf_skeleton.h"
 #include "import/other_clips.h"
 #include "import/robot.h"
 #include "model/core/files.h"
@@ -155,17 +158,18 @@ Result<Done> add_model(const ImportCall& options, Imported& imported) {
   return Done{};
 }
 
-void print_robot_json(const ImportCall& options, const ImportedRobot& robot) {
+void print_robot_json(const ImportCall& options, const std::string& srdf, const ImportedRobot& robot) {
   const std::string& name = robot.character.name;
   const Json out = {{"file", options.model},
                     {"character", name},
                     {"folder", options.folder},
                     {"report", name + ".import.md"},
-                    {"build", "robot"},
+                    {"build", robot.is_skeleton ? "skeleton" : "robot"},
                     {"joints", robot.joints.size()},
                     {"parts", robot.parts.size()},
                     {"mass_kg", robot.mass_kg},
                     {"height_m", robot.height_m},
+                    {"srdf", srdf.empty() ? Json() : Json(srdf)},
                     {"contacts", {{"file", robot.pairs_of_file}, {"unavoidable", robot.pairs_at_rest}}},
                     {"notes", robot.notes}};
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -173,9 +177,9 @@ void print_robot_json(const ImportCall& options, const ImportedRobot& robot) {
 
 void print_robot_text(const ImportCall& options, const ImportedRobot& robot) {
   const std::string& name = robot.character.name;
-  std::printf("%s: robot, %.3g m, %.4g kg, %zu joints in %zu parts; contacts allowed: %d by the file, %d unavoidable\n",
-              name.c_str(), robot.height_m, robot.mass_kg, robot.joints.size(), robot.parts.size(), robot.pairs_of_file,
-              robot.pairs_at_rest);
+  std::printf("%s: %s, %.3g m, %.4g kg, %zu joints in %zu parts; contacts allowed: %d by the file, %d unavoidable\n",
+              name.c_str(), robot.is_skeleton ? "skeleton" : "robot", robot.height_m, robot.mass_kg,
+              robot.joints.size(), robot.parts.size(), robot.pairs_of_file, robot.pairs_at_rest);
   print_notes(robot.notes);
   print_next_steps(options, name);
 }
@@ -191,24 +195,40 @@ Result<Done> refuse_model_options(const ImportCall& options) {
       "--scale, --height-m, --skin, --mesh and --clips are for skinned models; " + options.model + " is a robot"};
 }
 
-void run_robot(const ImportCall& options, Context& context) {
-  if (const Result<Done> plain = refuse_model_options(options); !plain) return context.fail(plain.issue());
-  const Result<RobotModel> robot = read_robot(options.model, options.srdf);
-  if (!robot) return context.fail(robot.issue());
-  const Result<ImportedRobot> made = import_robot(*robot, options.import.name);
+void import_bodies(const ImportCall& options, const RobotModel& robot, Context& context) {
+  const Result<ImportedRobot> made = import_robot(robot, options.import.name);
   if (!made) return context.fail(about_file(options.model, made.issue()));
   if (!save(options, made->files, context)) return;
-  if (options.json) return print_robot_json(options, *made);
+  if (options.json) return print_robot_json(options, robot.srdf, *made);
   print_robot_text(options, *made);
 }
 
-// By the ending, and by the first element of XML that has another ending.
-bool is_robot_file(const std::string& path) {
-  constexpr std::size_t kBeginning = 65536;  // of a file that may begin with a long licence
-  const std::string ending = fs::path(path).extension().string();
-  for (const char* robot : {".urdf", ".xacro", ".srdf", ".mjcf", ".xml"})
-    if (ending == robot) return true;
-  return is_robot_text(beginning_of(path, kBeginning));
+constexpr char kHowToChoose[] = "--srdf FILE chooses one, and --srdf none uses none";
+
+void run_robot(const ImportCall& options, Context& context) {
+  if (const Result<Done> plain = refuse_model_options(options); !plain) return context.fail(plain.issue());
+  const Result<RobotModel> robot = options.srdf.empty()
+                                       ? read_robot_with_srdf_beside(options.model, kHowToChoose)
+                                       : read_robot(options.model, options.srdf == "none" ? "" : options.srdf);
+  if (!robot) return context.fail(robot.issue());
+  import_bodies(options, *robot, context);
+}
+
+void run_skeleton(const ImportCall& options, Context& context) {
+  if (options.import.skin >= 0 || options.import.draw_mesh || !options.clips.empty())
+    return context.fail({"import.not_for_skeletons", "",
+                         "--skin, --mesh and --clips are for skinned models; " + options.model +
+                             " is a skeleton (ASF)"});
+  const Result<AsfSkeleton> skeleton = read_asf(options.model);
+  if (!skeleton) return context.fail(about_file(options.model, skeleton.issue()));
+  if (skeleton->bones.size() > kMaxRobotBodies)
+    return context.fail({"import.too_many_joints", "",
+                         options.model + " has more than " + std::to_string(kMaxRobotBodies) + " bones"});
+  import_bodies(options, robot_of_asf(*skeleton, options.import), context);
+}
+
+bool is_asf(const std::string& path) {
+  return fs::path(path).extension() == ".asf" || format_of_file(path) == FileFormat::asf;
 }
 
 void run(ImportCall options, Context& context) {
@@ -217,6 +237,7 @@ void run(ImportCall options, Context& context) {
   if (!options.srdf.empty())
     return context.fail(
         {"import.only_for_robots", "", "--srdf is for a robot in URDF, and " + options.model + " is none"});
+  if (is_asf(options.model)) return run_skeleton(options, context);
   options.import.wears_model = !options.no_model && is_one_file(options.model);
   const Result<SkinnedAsset> asset = read_skinned_gltf(options.model);
   if (!asset) return context.fail(about_file(options.model, asset.issue()));
@@ -238,13 +259,15 @@ void run(ImportCall options, Context& context) {
 void add_import(CLI::App& app, Context& context) {
   auto options = std::make_shared<ImportCall>();
   CLI::App* command =
-      app.add_subcommand("import", "Make a character from a rigged model (.glb, .gltf) or a robot (.urdf, MJCF)");
+      app.add_subcommand("import", "Make a character from a rigged model (.glb, .gltf), a robot (.urdf, MJCF) or a skeleton (.asf)");
   command
       ->add_option("MODEL", options->model,
-                   "Skinned model (.glb, .gltf; VRM's bones are understood), or robot (.urdf, MuJoCo's .xml)")
+                   "Skinned model (.glb, .gltf; VRM's bones are understood), robot (.urdf, MuJoCo's .xml), or skeleton of motion capture (.asf)")
       ->required();
   command->add_option("-o,--output", options->folder, "Library folder for the character's files")->required();
-  command->add_option("--srdf", options->srdf, "The robot's SRDF, which says what links may touch");
+  command->add_option("--srdf", options->srdf, 
+                      "The robot's SRDF, which says what links may touch, or none (default: the one beside the URDF "
+                      "whose robot has the same name)");
   command->add_option("--clips", options->clips,
                       "Folder of glTF files with clips for the model: ranges and contacts are learnt from them, too");
   command->add_option("--name", options->import.name, "Name of the character (default: the file's name)");
@@ -264,7 +287,8 @@ void add_import(CLI::App& app, Context& context) {
   command->footer(
       "Example: contort import robot.glb -o my_figures\n"
       "         contort --library my_figures fuzz --character robot\n"
-      "         contort import panda.urdf --srdf panda.srdf -o my_robots");
+      "         contort import panda.urdf -o my_robots\n"
+      "         contort import 02.asf -o people");
   command->callback([options, &context] { run(*options, context); });
 }
 

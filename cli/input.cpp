@@ -89,8 +89,8 @@ Result<SpecInput> read_spec_input(const std::string& path, const std::string& le
 void add_level_option(CLI::App& command, std::string& level) {
   command
       .add_option("--level", level,
-                  "Only a sequence, a clip or a part of it: sequence:2, clip:2/1, part:arm_right. A sequence or a clip "
-                  "begins from the state that earlier ones have left")
+                  "Use only one sequence, clip or part of the spec: sequence:2, clip:2/1, part:arm_right. A sequence or a "
+                  "clip begins from the state that earlier ones leave")
       ->type_name("LEVEL");
 }
 

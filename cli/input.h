@@ -25,22 +25,23 @@ Result<Library> load_libraries(const std::vector<std::string>& folders);
 // Limits and waivers of a file; the defaults for "".
 Result<CheckSettings> load_settings_file(const std::string& path);
 
-// A spec, or the spec of a case; told apart by "format".
+// A spec, or the spec of a case, by the file's "format".
 struct SpecInput {
   Spec spec;
-  std::optional<Case> stored;  // when the file is a case
+  std::optional<Case> stored;  // if the file is a case
 };
-Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path);  // the path is for messages
+Result<SpecInput> parse_spec_input(const std::string& text, const std::string& path);  // `path` is for messages
 
 // Read a file that is named on the command line; it may be a pipe: <(command), /dev/stdin. `level` is a scope of its
 // spec (corpus/replay_scope.h); "": the whole.
 Result<SpecInput> read_spec_input(const std::string& path, const std::string& level = "");
 Result<Case> read_case_input(const std::string& path);
 
-// The finding that a picture is about: the one that a case expects; of a spec, the deepest.
+// Returns the finding that a picture shows: the one that a case expects, or the deepest of a spec.
 const Finding* subject_of(const SpecInput& input, const std::vector<Finding>& findings);
 
-// Whether the generator has changed since the case was stored: what it says is of another motion.
+// Returns true if the generator has changed since the case was stored, so that its stored values belong to another
+// motion.
 bool plays_another_motion(const SpecInput& input, const Evaluation& evaluation);
 
 // Declares --level, which takes a sequence, a clip or a part of a spec or case.
@@ -49,7 +50,7 @@ void add_level_option(CLI::App& command, std::string& level);
 // "45s", "1.5m", "2h", and "90", which is in seconds. Code usage.bad_time.
 Result<double> parse_time_s(const std::string& text);
 
-// Why a number on the command line is none, "" where it is one: CLI::Range lets NaN pass.
+// Returns an error text for NaN, and "" for other numbers, because CLI::Range accepts NaN.
 std::string refuse_nan(const std::string& text);
 
 // The command that shows a case again, quoted for a shell, with the libraries and the generator that it needs.

@@ -1,4 +1,4 @@
-// A verdict rests on the checks that judged; those that could not are listed with their reasons.
+// Lists the checks on which a verdict is based, and the checks that could not judge, with the reasons.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace contort::cli {
 
 // One check over several motions.
 struct JudgedTally {
-  int motions = 0;                          // in which it judged
-  int subjects = 0;                         // the most in one of them
-  std::map<std::string_view, int> reasons;  // why it could not judge, and in how many motions
+  int motions = 0;                          // number of motions that it judged
+  int subjects = 0;                         // greatest number of subjects in one motion
+  std::map<std::string_view, int> reasons;  // number of motions that it could not judge, by reason
 };
 
 struct JudgedSummary {
-  int motions = 0;          // or clips
-  std::int64_t frames = 0;  // of motions of characters
-  int channels = 0;         // of clips, that some check judged; the most in one of them
-  int channel_count = 0;    // of that clip
-  int joints = 0;           // that were moved, the most in one motion
-  int joint_count = 0;      // of the character; 0 without
+  int motions = 0;          // number of motions or clips
+  std::int64_t frames = 0;  // frames of motions of characters
+  int channels = 0;         // channels of clips that some check judged; the greatest number in one clip
+  int channel_count = 0;    // all channels of that clip
+  int joints = 0;           // joints that were moved; the greatest number in one motion
+  int joint_count = 0;      // joints of the character; 0 without one
   std::map<std::string, int> not_read;  // channels of all clips that no check can judge, by their kind
   std::map<std::string_view, JudgedTally> checks;
 

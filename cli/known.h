@@ -1,4 +1,4 @@
-// Says of a spec whether it is known to go wrong, by the rules of a corpus (docs/reference/conditions.md).
+// Tells whether the rules of a corpus predict that a spec fails (docs/reference/conditions.md).
 #pragma once
 
 #include <string>

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cli/sources.h"
 #include "process/worker_pool.h"
 
 namespace CLI {
@@ -18,5 +19,9 @@ struct LimitOptions {
 };
 
 void add_limit_options(CLI::App& command, LimitOptions& options);
+
+// The same for commands that run no case in a process of its own: the limits are those of a program under test.
+void add_program_limit_options(CLI::App& command, LimitOptions& options);
+void take_limits(const LimitOptions& options, Sources& sources);
 
 }  // namespace contort::cli

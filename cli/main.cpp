@@ -25,12 +25,15 @@ std::string day_of_clock() {
 }
 
 std::string refuse_no_day(const std::string& text) {
-  return is_day(text) ? "" : "\"" + text + "\" is no day; write YYYY-MM-DD";
+  return is_day(text) ? "" : "\"" + text + "\" is not a date; write YYYY-MM-DD";
 }
 
 }  // namespace
 
-Exit exit_of(const Issue& issue) { return issue.code == "file.unwritable" ? kInternal : kBadInput; }
+Exit exit_of(const Issue& issue) {
+  if (issue.code == "generator.ended") return kFindings;
+  return issue.code == "file.unwritable" ? kInternal : kBadInput;
+}
 
 const Library* Context::load_library() {
   const Generator* generator = load_generator();
@@ -86,7 +89,7 @@ int run(int argc, char** argv) {
   app.add_option("--today", context.today, "Judge waivers and quarantines as on this day (default: today, UTC)")
       ->type_name("YYYY-MM-DD")
       ->check(refuse_no_day);
-  app.add_option("--gl", context.gl, "Renderer of pictures; none: no pictures are drawn")
+  app.add_option("--gl", context.gl, "Renderer of pictures: auto, osmesa or egl; none: draw no pictures")
       ->check(one_of({"auto", "osmesa", "egl", "none"}))
       ->capture_default_str();
   app.set_version_flag("--version", std::string("contort ") + CONTORT_VERSION);

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "corpus/measurement.h"
+#include "process/ended.h"
 
 namespace contort::cli {
 
@@ -34,7 +35,13 @@ std::string answer_to(const std::string& line, bool is_too_long, Evaluator& eval
     return print_line(refused);
   }
   const Result<MeasureRequest> request = parse_request(line);
-  if (request) return print_line(measure(*request, evaluator));
+  if (request) {
+    const Result<Measurement> measured =
+        unless_it_ends([&]() -> Result<Measurement> { return measure(*request, evaluator); });
+    if (measured) return print_line(*measured);
+    refused.id = request->id, refused.refusal = measured.issue();
+    return print_line(refused);
+  }
   refused.refusal = request.issue();
   return print_line(refused);
 }

@@ -1,5 +1,5 @@
-// Options that touched nothing. A pattern, a rule or a rate that applies to none of the files changes no verdict, and
-// somebody believes that it does: that is an error, which names what there is.
+// Refuses options without an effect. A pattern, a rule or a rate that applies to no file changes no verdict although
+// its user expects that. The error lists the possible values.
 #pragma once
 
 #include <set>
@@ -19,9 +19,9 @@ struct Touched {
   bool has_take = false;           // an .amc was read
   bool has_bvh = false;            // a .bvh was read
   bool was_gap_judged = false;
-  std::set<std::string> patterns;  // of --loops that matched a clip
-  std::set<std::size_t> rules;     // of the settings that matched a subject
-  std::set<std::string> subjects;  // that rules could name
+  std::set<std::string> patterns;  // patterns of --loops that matched a clip
+  std::set<std::size_t> rules;     // rules of the settings that matched a subject
+  std::set<std::string> subjects;  // subjects that rules could name
 };
 
 // Adds what was touched in one file to what was touched in those before it.
@@ -38,7 +38,7 @@ void note_judged(const AssetClip& clip, const Animation& animation, const ClipEv
 // check.no_clip.
 Issue no_such_clip(const std::string& where, const std::string& clip, const std::vector<std::string>& clips);
 
-// Code check.no_effect, for the first option that touched nothing.
+// Returns an issue with the code check.no_effect for the first option without an effect.
 Result<Done> check_effects(const ClipCheckOptions& options, const std::string& settings_file,
                            const CheckSettings& settings, const Touched& touched);
 

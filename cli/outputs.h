@@ -15,7 +15,7 @@ class App;
 namespace contort::cli {
 
 struct OutputRequest {
-  std::string junit;  // files, "" for none
+  std::string junit;  // paths of files, "" for none
   std::string sarif;
   std::string markdown;  // appended to, as $GITHUB_STEP_SUMMARY is: the summary of a job's earlier steps stays
   bool github = false;   // annotations on standard output
@@ -30,10 +30,11 @@ void add_baseline_option(CLI::App& command, std::string& baseline);
 // Without a path, the baseline is empty.
 Result<Baseline> load_baseline(const std::string& path);
 
-// Whether what is wanted could be written, before the work is done; code file.unwritable.
+// Checks, before the work begins, that the requested files can be written; code file.unwritable.
 Result<Done> check_outputs(const OutputRequest& request);
 
-// Writes what is wanted; code file.unwritable. Annotations are workflow commands, which GitHub reads from both streams.
+// Writes the requested files; code file.unwritable. Annotations are workflow commands, which GitHub reads from both
+// streams.
 Result<Done> write_outputs(const OutputRequest& request, const ReportModel& model, std::FILE* annotations);
 
 }  // namespace contort::cli

@@ -103,7 +103,7 @@ std::vector<std::string> waiver_lines(const CheckSettings& settings, const std::
     const std::string count = std::to_string(uses[w].hidden);
     const std::string state = waiver_state(uses[w]);
     lines.push_back(state == "expired"   ? "EXPIRED: " + who + " hides nothing any more; it would have hidden " + count
-                    : state == "useless" ? "USELESS: " + who + " hid nothing here; remove it if that stays so"
+                    : state == "useless" ? "USELESS: " + who + " hid nothing here; remove it if it never does"
                                          : "waived: " + count + " by " + who + ": " + waiver.reason);
   }
   return lines;

@@ -28,4 +28,9 @@ std::string renderer_path() { return installed_or_beside("../libexec/contort/con
 
 std::string pages_path() { return installed_or_beside("../share/contort/page", "page"); }
 
+bool has_engine() {
+  std::error_code error;
+  return fs::exists(fs::path(pages_path()) / "engine.js", error);
+}
+
 }  // namespace contort::cli

@@ -15,4 +15,7 @@ std::string renderer_path();
 // The folder of the report's viewer and of the server's pages: ../share/contort/page, or page beside the program.
 std::string pages_path();
 
+// Returns true if this build includes engine.js, with which pages play specs (docs/internals/wasm.md).
+bool has_engine();
+
 }  // namespace contort::cli

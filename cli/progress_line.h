@@ -1,4 +1,4 @@
-// Shows how far something has come: one line on standard error, rewritten in place; only on a terminal.
+// Shows progress as one line on standard error that is rewritten in place; only on a terminal.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace contort::cli {
 class ProgressLine {
  public:
   ProgressLine();
-  // Progress in [0, 1], with what there is to say of it. Whoever has much to add up asks `wanted` first.
+  // Shows progress in [0, 1] with a text. Callers for which the text is costly ask `wanted` first.
   bool wanted() const { return shown_; }
   void show(double share, const std::string& text) const;
   void clear() const;

@@ -17,6 +17,7 @@
 #include "corpus/evaluator.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
+#include "process/ended.h"
 #include "renders/divergence.h"
 #include "renders/frames.h"
 #include "renders/raster/strip.h"
@@ -64,7 +65,7 @@ Result<std::unique_ptr<Shown>> evaluate(Studio& studio, const std::string& file)
   if (!input) return input.issue();
   auto shown = std::make_unique<Shown>(
       Shown{std::move(input).value(), Evaluator(studio.generator, studio.options.settings), {}});
-  Result<Evaluation> evaluation = shown->evaluator.run(shown->input.spec);
+  Result<Evaluation> evaluation = unless_it_ends([&] { return shown->evaluator.run(shown->input.spec); });
   if (!evaluation) return about_file(file, evaluation.issue());
   shown->evaluation = std::move(evaluation).value();
   shown->skin = studio.skin_of(*shown->evaluator.execution().character);
@@ -112,7 +113,7 @@ Result<std::vector<Performed>> perform_all(Studio& studio, const std::vector<std
   for (const std::string& file : files) {
     Result<SpecInput> input = read_spec_input(file, studio.options.level);
     if (!input) return input.issue();
-    Result<Execution> made = execute(studio.generator, input->spec);
+    Result<Execution> made = unless_it_ends([&] { return execute(studio.generator, input->spec); });
     if (!made) return about_file(file, made.issue());
     std::shared_ptr<const Skin> skin = studio.skin_of(*made->character);
     all.push_back({file, std::move(input->spec), std::move(made).value(), std::move(skin)});
@@ -258,6 +259,7 @@ int fail(const Issue& issue, int code) {
 
 // Input faults are the user's, the rest (no OpenGL, an unwritable picture) the machine's.
 int code_of(const Issue& issue) {
+  if (issue.code == "generator.ended") return kFindings;
   const bool asked = issue.code == "render.bad_frame" || issue.code == "render.bad_size";
   const bool ours = (issue.code.rfind("render.", 0) == 0 && !asked) || issue.code == "file.unwritable";
   return ours ? kInternal : kBadInput;

@@ -44,16 +44,16 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--compare", options.compared,
-                  "Another case or spec, drawn in a second row; says where the two motions first differ")
+                  "Draw this case or spec in a second row, and say in which frame the two motions first differ")
       ->type_name("FILE");
-  command.add_option("--tolerance", options.tolerance_mm, "Positions that are no farther apart count as equal [1]")
+  command.add_option("--tolerance", options.tolerance_mm, "Positions that are no farther apart than this, in mm, count as equal [1]")
       ->type_name("MM")
       ->check(range(0.0, 1e6))
       ->check(refuse_nan);
   command.add_flag("--json", options.json, "Print the result of --compare as JSON");
   command.add_flag("--colliders", options.colliders, "Draw the shapes that checks judge, as wires around the figure");
-  command.add_flag("--rows", options.rows, "One row for each FILE, with the same frames and camera");
-  command.add_flag("--sheet", options.sheet, "A contact sheet: a tile for each FILE, or for each bucket of a corpus");
+  command.add_flag("--rows", options.rows, "Draw one row for each FILE, with the same frames and camera");
+  command.add_flag("--sheet", options.sheet, "Draw a contact sheet: a tile for each FILE, or for each bucket of a corpus");
   command.add_flag("--allow-unreadable", options.allow_unreadable,
                    "With --sheet, files that cannot be shown are not an error");
   command.add_option("--label", options.labels, "Title of the strip, or of the rows in turn: one for each FILE")

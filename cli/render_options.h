@@ -20,10 +20,10 @@ struct PictureOptions {
   std::string output;
   int tiles = 8;
   std::vector<int> frames;
-  std::string level;        // of each file; "": the whole
-  std::string azimuth_deg;  // as it was written; "": none is given
-  std::string clip;         // where the moving picture of one file goes; "": there is none
-  std::string compared;     // with the one file; "": with nothing
+  std::string level;        // scope of each file; "": the whole spec
+  std::string azimuth_deg;  // as it was written; "": not given
+  std::string clip;         // file for the animation; "": none
+  std::string compared;     // the file to compare with; "": no comparison
   double tolerance_mm = 1000.0 * kSamePlace_m;
   bool json = false;
   bool colliders = false;
@@ -53,7 +53,7 @@ struct RenderOptions : PictureOptions {
   bool many = false;
 };
 
-// Why the arguments do not fit together, "" where they do.
+// Returns the reason why the arguments contradict each other; "" if they do not.
 std::string misfit(const RenderOptions& options);
 
 }  // namespace contort::cli

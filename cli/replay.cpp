@@ -259,8 +259,7 @@ class ReplayCommand {
 };
 
 void run(const ReplayOptions& options, Context& context) {
-  context.sources.case_timeout_s = options.limits.case_timeout_s;
-  context.sources.memory_MB = options.limits.memory_MB;
+  take_limits(options.limits, context.sources);
   Generator* generator = context.load_generator();
   if (generator == nullptr) return;
   const Result<CheckSettings> settings = context.load_settings_without_waivers();
@@ -297,13 +296,13 @@ void add_replay(CLI::App& app, Context& context) {
   add_level_option(*command, options->level);
   command
       ->add_option("--against", options->against,
-                   "With --generator: another program; says from which frame on its motions differ")
+                   "With --generator: also run this program, and say from which frame on its motions differ")
       ->type_name("CMD");
-  command->add_flag("--update", options->update, "For a corpus: write the states that buckets have now");
+  command->add_flag("--update", options->update, "For a corpus: write the new states of buckets into it");
   command->add_option("--time", options->time,
                       "For a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
   command->add_option("--build", options->build,
-                      "Text that --update writes after the version, such as a commit of your library");
+                      "Text that names the build after the version, such as a commit of your library; for --update");
   add_limit_options(*command, options->limits);
   add_baseline_option(*command, options->baseline);
   command->add_flag("--json", options->json, "Print the result as JSON");

@@ -14,6 +14,7 @@
 #include "cli/input.h"
 #include "cli/measured_values.h"
 #include "cli/print.h"
+#include "cli/program_files.h"
 #include "cli/progress_line.h"
 #include "cli/render.h"
 #include "cli/report_folder.h"
@@ -244,6 +245,8 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
   for (const RunRecord& run : runs) {
     model.cases += run.cases;
     model.frames += run.frames;
+    model.refused += run.discarded;
+    add_refusals(run.refusals, model.refusals);
     for (const auto& [what, count] : run.tested) tested[what] += count;
     for (const auto& [family, count] : run.families) seen[print_family(family)] += count.cases;
   }
@@ -344,6 +347,7 @@ void make_report(const ReportRequest& request, Generator& generator, Context& co
   model.title = "Contort report";
   model.tool = CONTORT_VERSION;
   model.has_baseline = !request.outputs.baseline.empty();
+  model.has_engine = has_engine() && context.sources.generator.empty();  // the page plays specs with the built-in one
   Media media;
   const MeasuredValues measured(*generator.manifest().library, *settings);
   fill_rows(*corpus, *known, measured, model, media, request.folder, context);

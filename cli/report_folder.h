@@ -8,14 +8,14 @@
 
 namespace contort::cli {
 
-// Whether a name is one that only a report gives: "<check>-<12 hex digits>", with "-<8 hex digits>" for pictures.
+// Returns true if only a report gives such names: "<check>-<12 hex digits>", with "-<8 hex digits>" for pictures.
 bool is_case_file(const std::string& name);     // .js
-bool is_picture_file(const std::string& name);  // .png, .webp, and .js of from where it is seen
+bool is_picture_file(const std::string& name);  // .png, .webp, and .js with the camera of a strip
 
-// Whether a report may go there: code folder.other_files where it holds files and no report.
+// Checks that a report may be written there: code folder.other_files if the folder has files but no report.
 Result<Done> check_report_folder(const std::string& folder);
 
-// Removes the files of this kind that nobody wants any more; all others stay.
+// Removes the files of this kind that are not needed any more; all others stay.
 void remove_old(const std::string& folder, bool (*is_ours)(const std::string&), const std::set<std::string>& wanted);
 
 }  // namespace contort::cli

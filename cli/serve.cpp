@@ -9,6 +9,7 @@
 
 #include "cli/catalogue_fields.h"
 #include "cli/commands.h"
+#include "cli/engine_files.h"
 #include "cli/input.h"
 #include "cli/program_files.h"
 #include "model/core/files.h"
@@ -106,10 +107,10 @@ Result<Done> check(const ServeOptions& options) {
     return Issue{"serve.no_token", "",
                  "--host " + options.http.host + " can be reached from other machines: give --token, or use 127.0.0.1"};
   if (!options.token.empty() && options.token.size() < 16)
-    return Issue{"serve.short_token", "", "a token needs 16 characters at least"};
+    return Issue{"serve.short_token", "", "a token needs at least 16 characters"};
   for (const char c : options.token)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_')
-      return Issue{"serve.bad_token", "", "a token is of letters, digits, - and _"};
+      return Issue{"serve.bad_token", "", "a token consists of letters, digits, - and _"};
   return Done{};
 }
 
@@ -135,6 +136,9 @@ server::AppConfig app_config(const ServeOptions& options, int port, const server
 // Signals are blocked first, so that from then on none ends the server without its folder being removed.
 void serve(const ServeOptions& options, Generator& generator, const CheckSettings& settings, Context& context) {
   const std::string about = catalogue(generator, options);
+  const Result<std::string> library =
+      has_engine() ? library_script(*generator.manifest().library, context) : std::string();
+  if (!library) return context.fail(library.issue());
   const sigset_t ends = block_signals();
   server::Engine engine(options.limits, options.workers, generator, settings, std::string("contort ") + CONTORT_VERSION);
   server::Http http(options.http);
@@ -143,7 +147,7 @@ void serve(const ServeOptions& options, Generator& generator, const CheckSetting
   const auto scratch = server::Scratch::make();
   if (!scratch) return context.fail(scratch.issue(), kInternal);
   server::AppConfig config = app_config(options, *port, **scratch, context);
-  config.catalogue = about;
+  config.catalogue = about, config.library = *library;
   server::App app(std::move(config), engine);
   std::thread answers([&] {
     http.run({[&](const server::Request& head) { return app.refuse(head); },
@@ -190,13 +194,13 @@ void add_limits(CLI::App& command, ServeOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     command.add_option(name, value, help)->check(some)->capture_default_str()->group(group);
   };
-  add("--sessions", limits.sessions, "Sessions at a time");
-  add("--sessions-per-client", limits.sessions_of_client, "Sessions of one address at a time");
-  add("--streams", limits.streams, "Streams at a time");
-  add("--streams-per-client", limits.streams_of_client, "Streams of one address at a time");
-  add("--calls-per-second", limits.calls_per_s, "Calls of one address in a second, on average");
+  add("--sessions", limits.sessions, "Greatest number of sessions at a time");
+  add("--sessions-per-client", limits.sessions_of_client, "Greatest number of sessions of one address");
+  add("--streams", limits.streams, "Greatest number of streams at a time");
+  add("--streams-per-client", limits.streams_of_client, "Greatest number of streams of one address");
+  add("--calls-per-second", limits.calls_per_s, "Greatest number of calls of one address in a second, on average");
   add("--cpu-per-client", limits.cpu_s_per_minute,
-      "CPU seconds of one address in a minute, on average; five times as many after a pause");
+      "CPU seconds that one address may use in a minute, on average; five times as many after a pause");
   add("--idle-seconds", limits.idle_s, "Seconds after which an unused session ends");
   add("--waiting-tasks", options.workers.most_waiting, "Greatest number of motions that wait for a worker");
   add("--task-seconds", options.workers.each.seconds, "Greatest time for one motion, in seconds");
@@ -204,7 +208,7 @@ void add_limits(CLI::App& command, ServeOptions& options) {
       ->check(CLI::Range(1 << 10, 16 << 20))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--take-seconds", limits.take_s, "Length of a recording, in seconds")
+  command.add_option("--take-seconds", limits.take_s, "Length of a take, in seconds (docs/reference/server.md)")
       ->check(CLI::Range(2.0, 60.0))
       ->check(refuse_nan)
       ->capture_default_str()
@@ -223,7 +227,7 @@ void add_serve(CLI::App& app, Context& context) {
       ->type_name("DIR");
   command
       ->add_option("--report", options->report,
-                   "Folder of its report (default: a folder that is removed with the server)")
+                   "Folder of the report (default: a temporary folder, removed when the server ends)")
       ->type_name("DIR");
   command->add_option("--host", options->http.host, "Address to listen on")->capture_default_str();
   command->add_option("--port", options->http.port, "Port to listen on; 0: any free port")
@@ -231,7 +235,7 @@ void add_serve(CLI::App& app, Context& context) {
       ->capture_default_str();
   command->add_option("--token", options->token,
                       "Secret that callers must send; required if other machines can reach the server");
-  command->add_option("--allow-host", options->hosts, "A name by which browsers may call it, such as one of a proxy");
+  command->add_option("--allow-host", options->hosts, "Host name under which browsers may call the server, such as that of a proxy");
   command->add_flag("--read-only", options->read_only, "Do not change the corpus");
   command->add_option("--workers", options->workers.workers, "Number of processes that generate motions")
       ->check(CLI::Range(1, 256))

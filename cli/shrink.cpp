@@ -46,7 +46,7 @@ std::optional<Case> failing_now(const ShrinkOptions& options, Generator& generat
   if (now.verdict != Verdict::same && now.verdict != Verdict::same_family)
     return context.fail(
                {"shrink.no_failure", "",
-                options.input + " does not fail as it says any more (" + std::string(verdict_name(now.verdict)) + ")"}),
+                options.input + " does not fail as stored any more (" + std::string(verdict_name(now.verdict)) + ")"}),
            std::nullopt;
   Case failing = std::move(stored).value();
   failing.expect = now.now;
@@ -130,7 +130,7 @@ void run(const ShrinkOptions& options, Context& context) {
   if (*profile) config.allowed = within(**profile, original->spec, *generator);
   const Shrunk shrunk = shrink(*original, *generator, config);
   if (shrunk.stopped == "flaky" || shrunk.stopped == "gone")
-    return context.fail({"shrink.flaky", "", options.input + " shows something else each time: nothing is shrunk"},
+    return context.fail({"shrink.flaky", "", options.input + " gives another result each time: nothing is shrunk"},
                         kInconclusive);
   const std::string output =
       options.output.empty() ? "min-" + spec_id(shrunk.minimal.spec).substr(0, 16) + ".json" : options.output;
@@ -150,7 +150,7 @@ void add_shrink(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("shrink", "Make a case smaller, with the same failure");
   command->add_option("CASE", options->input, "Case file")->required();
   command->add_option("-o,--output", options->output, "File to write (default: min-<id>.json in this folder)");
-  command->add_option("--worst", options->worst, "Also write the deepest failure of the smaller case's structure");
+  command->add_option("--worst", options->worst, "Also write, to this file, the deepest failure that the smaller case shows with other numbers");
   command->add_option("--time,--shrink-time", options->time,
                       "Stop after this time: 45s, 1.5m; without a unit, seconds; results then depend on the machine");
   command->add_option("--profile", options->profile,

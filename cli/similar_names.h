@@ -1,5 +1,5 @@
 // Files name the same joint with other prefixes: mixamorig:Hips, mixamorig1:Hips, mixamorigHips,
-// Armature|mixamorig:Hips, Hips. A map that says one of them means the others.
+// Armature|mixamorig:Hips, Hips. A map with one of these names also applies to the others.
 #pragma once
 
 #include <map>

@@ -50,7 +50,7 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
     room -= text.size();
     inside[name] = text;
   };
-  for (const char* name : {"viewer/viewer.css", "viewer/viewer.js"}) add(name, text_of(name));
+  for (const char* name : {"viewer/viewer.css", "viewer/viewer.js", "viewer/engine.js", "viewer/library.js"}) add(name, text_of(name));
   for (const ReportRow* one : rows_by_use(model)) {
     const ReportRow& row = *one;
     if (!row.strip.empty()) add(row.strip, text_of(row.strip));
@@ -60,7 +60,7 @@ Result<Done> write_single_file(const ReportModel& model, const std::string& fold
     if (row.has_motion) add("cases/" + row.key + ".json", data_of_script(row.key, text_of("cases/" + row.key + ".js")));
   }
   if (left_out > 0)
-    std::fprintf(stderr, "contort: %s is as large as mail may be; %d motions and pictures are only in %s\n",
+    std::fprintf(stderr, "contort: %s has the greatest size for mail; %d motions and pictures are only in %s\n",
                  path.c_str(), left_out, folder.c_str());
   return write_output(path, report_html(model, inside));
 }

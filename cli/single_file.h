@@ -8,8 +8,8 @@
 
 namespace contort::cli {
 
-// The page of the model, with everything inside that write_page put into `folder`. What is not there is left out,
-// and what comes after as much as mail takes, with a line on standard error.
+// The page of the model, with everything inside that write_page put into `folder`. Missing files are left out. So are
+// files beyond the size that mail accepts, with a line on standard error.
 Result<Done> write_single_file(const ReportModel& model, const std::string& folder, const std::string& path);
 
 }  // namespace contort::cli

@@ -1,5 +1,5 @@
-// The options of a command line that decide which motions there are: libraries, and the generator under test. A command
-// that repeats a case needs them too.
+// The options of a command line on which motions depend: libraries, and the generator under test. A command that
+// repeats a case needs them too.
 #pragma once
 
 #include <cstdint>

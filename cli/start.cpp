@@ -38,7 +38,7 @@ int close_output(int code) {
   if (flushed && std::ferror(stdout) == 0) return code;
   const int why = errno;
   if (nobody_reads()) return kNobodyReads;
-  std::fprintf(stderr, "contort: output.unwritable: what was printed could not be written to standard output%s%s\n",
+  std::fprintf(stderr, "contort: output.unwritable: the output could not be written to standard output%s%s\n",
                why == 0 ? "" : ": ",
                why == 0       ? ""
                : why == EBADF ? "it is closed"

@@ -7,8 +7,8 @@
 
 namespace contort::cli {
 
-// A hash of this program's own bytes, as a version says nothing while the program is worked on; of the text of
-// --settings; and of every file of the library folders, which a motion or a table may come from, wherever these lie; and of the build of a program under test.
+// Returns a hash of this program's own bytes, because the version stays the same during development; of the text of
+// --settings; of every file in the library folders; and of the build of a program under test.
 std::string surroundings_id(const Context& context, const Manifest& manifest);
 
 }  // namespace contort::cli

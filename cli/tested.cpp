@@ -1,5 +1,6 @@
 #include "cli/tested.h"
 
+#include "cli/guest_model.h"
 #include "cli/input.h"
 #include "generator/built_in.h"
 #include "guest/guest_generator.h"
@@ -12,7 +13,8 @@ Result<Tested> load_program(const Sources& sources) {
   if (!sources.libraries.empty())
     return Issue{"generator.own_library", "", "a program under test brings its characters along; leave --library out"};
   Result<std::unique_ptr<GuestGenerator>> started = GuestGenerator::start(
-      sources.generator, {.case_s = sources.case_timeout_s, .bytes = sources.memory_MB << 20});
+      sources.generator, {.case_s = sources.case_timeout_s, .bytes = sources.memory_MB << 20},
+      model_reader(sources.generator));
   if (!started) return started.issue();
   return Tested{nullptr, std::move(started).value()};
 }

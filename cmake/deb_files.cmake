@@ -28,7 +28,22 @@ License: Expat
 endif()
 file(APPEND ${doc}/copyright "Comment: licences has the texts of the libraries whose headers are compiled in,
  or which are linked statically.
-
+")
+if(EXISTS ${share}/contort/page/engine.js)
+  file(APPEND ${doc}/copyright "
+Files: usr/share/contort/page/engine.js
+Copyright: ${owner}
+ 2010-2022 The Emscripten Authors
+ 2005-2015 G-Truc Creation (GLM)
+ 2015-2022 Syoyo Fujita and Aurelien Chatelain (tinygltf)
+ 2012-2014 Yann Collet (xxHash)
+ 2013-2022 Niels Lohmann (nlohmann-json)
+License: Expat and others
+ All code of Contort in it has the licence below. The end of the file itself and
+ the folder licences have the texts for the libraries that are compiled in.
+")
+endif()
+file(APPEND ${doc}/copyright "
 License: Expat
  ${terms}
 ")

@@ -13,9 +13,9 @@
 namespace contort {
 
 struct Baseline {
-  std::set<std::string> buckets;   // ids
-  std::set<Family> families;      // of these
-  std::set<std::string> causes{}; // ids (cause.h) of these; a list of replays does not know them
+  std::set<std::string> buckets;   // ids of buckets
+  std::set<Family> families;      // families of these buckets
+  std::set<std::string> causes{}; // ids (cause.h) of their causes; empty if the baseline is a list of replays
   void add(const std::string& bucket, const std::optional<Family>& family);
   bool contains(const Bucket& bucket) const { return buckets.contains(bucket.id); }
   bool operator==(const Baseline&) const = default;

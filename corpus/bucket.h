@@ -1,4 +1,4 @@
-// A bucket is one failure, recognised by its identity, with the knowledge of people and replays about it.
+// A bucket is one failure, recognised by its identity, with its state and the notes of people about it.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace contort {
 // corpus rekey` names it again.
 inline constexpr int kSignatureVersion = 2;
 
-// The coarse features of a minimal spec, without numbers: what it needs in order to fail. Example:
-// "actions=pose,reach clips=1 sequences=1 interrupt swap".
+// The coarse features, without numbers, that a minimal spec needs in order to fail. Example: "actions=pose,reach
+// clips=1 sequences=1 interrupt swap".
 std::string features_of(const Spec& spec);
 
 // The id of a bucket: 12 hex digits of a hash over the family and the features.
@@ -34,18 +34,21 @@ struct Bucket {
   std::string check;
   Family family;
   std::string features;
-  int signature = 1;  // kSignatureVersion of who named it; files of the first rules do not say it
+  int signature = 1;  // kSignatureVersion of the rules that named it; files of the first version do not have it
   BucketState state = BucketState::fresh;
-  BucketState was = BucketState::fresh;  // before it was flaky or invalid; meaningless in other states
-  std::string owner;                     // open, quarantined: who looks after it
-  std::string ticket;                    // where the work on it is tracked
-  std::string reason;                    // quarantined: why it may fail
+  BucketState was = BucketState::fresh;  // the state before it became flaky or invalid; meaningless in other states
+  std::string owner;                     // open, quarantined: the person who is responsible
+  std::string ticket;                    // the ticket in which the work on it is tracked
+  std::string reason;                    // quarantined: the reason why it may fail
   std::string expires;                   // quarantined: the last day, YYYY-MM-DD
   std::string note;                      // a note by people
-  std::vector<std::string> passed_in;    // builds in which it was gone, one after the other, since it failed last
-  int streak = 0;                        // quarantined: replays in a row that passed; flaky: that were steady
-  int changes = 0;                // of all this since the bucket is there; of two copies the one with more counts
-  std::vector<std::string> runs;  // that put a case here, by name; how often each saw the family is in runs.h
+  std::vector<std::string> passed_in;    // builds in which it was gone since it failed last, in their order
+  int streak = 0;                        // number of successive replays that passed (quarantined) or were steady
+                                         // (flaky)
+  int changes = 0;                // number of changes to the fields above; of two copies the one with more changes is
+                                  // kept
+  std::vector<std::string> runs;  // names of the runs that stored a case here; runs.h says how often each run saw the
+                                  // family
   std::string min;                // file names in the bucket's folder
   std::string worst;
   std::string orig;

@@ -18,36 +18,39 @@ namespace contort {
 struct Expectation {
   std::string check;    // "self_collision"; with the subject and the character's name, the family
   std::string subject;  // "arm_left/forearm ~ torso/trunk"
-  std::string unit;     // of worst_margin
+  std::string unit;     // unit of worst_margin
   int first_frame = 0;
   int worst_frame = 0;
   int last_frame = 0;
   double worst_margin = 0.0;   // < 0, or NaN
   double depth = 0.0;          // -worst_margin in the check's scale; 0 for NaN
   std::string motion_hash;     // 16 hex digits; "" for a crash, a timeout or memory (isolate.h)
-  std::string character_hash;  // the same; another one means that the parts changed since
-  std::string trace;           // motion_trace, four hex digits a frame: tells the first frame that differs
-  std::string phase{};         // of the worst frame, a name of checks/circumstances.h; "" where no motion was judged
-  int limit_s = 0;             // of a timeout: in so many seconds it did not end
-  int limit_MB = 0;            // of memory: it took more than this
+  std::string character_hash;  // 16 hex digits; differs if the parts have changed since
+  std::string trace;           // motion_trace, four hex digits per frame, to find the first frame that differs
+  std::string phase{};         // phase of the worst frame, by its name in checks/circumstances.h; "" if no motion was
+                               // judged
+  int limit_s = 0;             // for a timeout: the time limit that was exceeded, s
+  int limit_MB = 0;            // for a memory failure: the limit that was exceeded, MB
   std::string printed{};       // the last words of a generator that is a program of its own, before it ended
   bool operator==(const Expectation&) const = default;
 };
 
 // The origin of the case. Not part of its identity.
 struct Provenance {
-  std::string tool;         // version that found it
-  std::int64_t seed = -1;   // of the run; -1: written by a person
-  std::int64_t index = -1;  // of the case in the run
-  std::string shrunk_from;  // spec_id of the spec before shrinking; "" where it was not
+  std::string tool;         // version of Contort that found it
+  std::int64_t seed = -1;   // seed of the run; -1: written by a person
+  std::int64_t index = -1;  // index of the case in the run
+  std::string shrunk_from;  // spec_id of the spec before shrinking; "" if it was not shrunk
   int shrink_evaluations = 0;
   std::string shrink_stopped;   // "fixpoint", "evaluations", "time", "flaky" or "gone"
-  double original_depth = 0.0;  // before any shrinking; the depth that must be kept is a share of it
-  int rank = 0;                 // among the failures of its case by first frame; 0: the earliest
-  std::string profile;          // of the run, by name; shrinking stays within it. "": it draws everything
-  Family met_shrinking;       // of the failure whose shrinking met this one; empty where the case itself showed it
+  double original_depth = 0.0;  // depth before any shrinking; the depth that shrinking must keep is a fraction of it
+  int rank = 0;                 // position among the failures of its case, by first frame; 0: the earliest
+  std::string profile;          // name of the run's profile; shrinking stays within it. "": the default profile, which
+                                // draws everything
+  Family met_shrinking;       // family of the failure during whose shrinking this one was found; empty if a drawn case
+                              // showed it
   std::string base{};         // the other build of a comparison, "0.1.0 1a2b…"; "": none (docs/reference/against.md)
-  std::string base_shows{};   // by that build for this spec: "passes_check", "passes" or "milder"
+  std::string base_shows{};   // the result of that build for this spec: "passes_check", "passes" or "milder"
   double base_margin = 0.0;   // the base's margin for the family, in the check's scale; 0 if it judged none
   std::string generator{};        // name of the program under test; "": the built-in generator
   std::string generator_build{};  // its build and the hash of its manifest
@@ -58,15 +61,17 @@ struct Case {
   Spec spec;
   Expectation expect;
   Provenance provenance;
-  std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields that could as well have other values
-  std::vector<Family> co_failures{};              // came with it before it was shrunk, and still do
-  Cause cause{};                                  // of a minimal case
+  std::vector<std::string> free_fields{};  // JSON pointers into the spec: fields whose values do not matter for the
+                                           // failure
+  std::vector<Family> co_failures{};              // other families that the case showed before it was shrunk, and still
+                                                  // shows
+  Cause cause{};                                  // only for a minimal case
   bool operator==(const Case&) const = default;
 };
 
 Family family_of(const Case& stored);
 
-// The stored cause, or the one that the spec alone tells if none is stored.
+// Returns the stored cause, or, if none is stored, the cause that follows from the spec alone.
 Cause cause_of(const Case& minimal);
 std::string cause_id_of(const Case& minimal);
 

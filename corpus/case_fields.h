@@ -11,8 +11,9 @@ namespace stored_rules {
 using json_fields::Rule;
 using json_fields::Text;
 inline const Rule kText{.text = Text::label, .may_be_empty = true};
-inline const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are no label
-inline const Rule kHash{.required = true, .may_be_empty = true};    // parse_case says when
+inline const Rule kSubject{.text = Text::prose, .required = true};  // four names of up to 64 letters are too long for a
+                                                                    // label
+inline const Rule kHash{.required = true, .may_be_empty = true};    // parse_case checks when it may be empty
 inline const Rule kFrame{.low = 0, .high = 36000};
 inline const Rule kNames{.max_count = 64, .text = Text::label};
 inline const Rule kWholeNumber{.low = -1, .high = 0x1p53};

@@ -1,4 +1,4 @@
-// The cause of a failure: what people read, where a bucket is what is tracked. docs/reference/causes.md describes the
+// The cause of a failure. People read causes, while buckets are tracked. docs/reference/causes.md describes the
 // experiments that find it (fuzz/culprits.h).
 #pragma once
 
@@ -23,7 +23,7 @@ enum class CauseScope : std::uint8_t {
 std::span<const std::string_view> cause_scope_names();  // in the order of the enum
 
 struct Cause {
-  int scheme = 0;  // kCauseScheme of who found it; 0: not found yet
+  int scheme = 0;  // kCauseScheme of the rules that found it; 0: not found yet
   CauseScope scope = CauseScope::alone;
   std::vector<std::string> names{};  // alone: the culprit; company: the actions, sorted; setting: surroundings, sorted
   std::vector<std::string> also{};   // alone: other actions that fail by themselves, too; setting: actions; sorted
@@ -31,7 +31,8 @@ struct Cause {
   bool operator==(const Cause&) const = default;
 };
 
-// The actions of a spec in the order of its text: each with the sequence and clip that hold it, and nothing else there.
+// Returns one spec for each action, in the order of the spec's text: the action with the sequence and clip that hold
+// it, without other actions.
 struct LoneAction {
   std::string action;
   SequenceDesc sequence;
@@ -42,7 +43,7 @@ std::vector<LoneAction> lone_actions_of(const Spec& spec);
 // "load", "obstacle", "recording", "swap"; "pose" if it has none.
 std::vector<std::string> surroundings_of(const Spec& spec);
 
-// The cause as far as the minimal spec alone tells it, without experiments.
+// Returns the cause that follows from the minimal spec alone, without experiments.
 Cause cause_without_experiments(const Spec& minimal);
 
 // The id of a cause: 12 hex digits, a hash over scheme, scope, names, kind and whether it needs dynamics.

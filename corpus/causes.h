@@ -17,14 +17,15 @@ namespace contort {
 struct CauseMember {
   Bucket bucket;
   Case minimal;
-  std::string path;  // of the minimal case
+  std::string path;  // path of the minimal case
 };
 
 struct CauseRow {
   std::string id;
   double severity = 0.0;      // [0, 100]
-  std::string headline{};     // of its deepest member
-  std::int64_t cases = 0;     // of the runs, that showed the most frequent family of its buckets; >= 1 if any ran
+  std::string headline{};     // headline of its deepest member
+  std::int64_t cases = 0;     // number of cases of all runs that showed the most frequent family of its buckets; >= 1
+                              // if any case ran
   std::set<std::string> characters{};
   std::vector<CauseMember> members{};  // the deepest first, then by name
 };
@@ -39,7 +40,8 @@ std::vector<CauseRow> causes_of(std::vector<CauseMember> members, std::span<cons
 // The ids of the causes of these members.
 std::set<std::string> cause_ids(std::span<const CauseMember> members);
 
-// The severity of a cause, [0, 100]: of a kind of check, at this median depth (in scales), shown by a share of cases.
+// Returns the severity, [0, 100], of a cause with this kind of check, this median depth (in scales of the check), and
+// this share of cases that show it.
 double severity_of(CheckKind kind, double median_depth, CauseScope scope, double share);
 
 }  // namespace contort

@@ -13,9 +13,9 @@
 
 namespace contort {
 
-inline constexpr std::size_t kMostComparisons = 4;  // of a rule
+inline constexpr std::size_t kMostComparisons = 4;  // the most comparisons in a rule
 
-// In the order of the enums.
+// Names in the order of the enums.
 std::span<const std::string_view> quantity_names();
 std::span<const std::string_view> op_names();
 
@@ -24,10 +24,10 @@ struct ConditionTerm {
   known::Quantity quantity = known::Quantity::value;
   bool is_mirrored = false;
   known::Op op = known::Op::below;
-  double limit = 0.0;  // of below and above; it might be anywhere in [lowest, highest]
+  double limit = 0.0;  // for below and above; any limit in [lowest, highest] separates the same cases
   double lowest = 0.0;
   double highest = 0.0;
-  std::string word{};  // of is and is_not
+  std::string word{};  // for is and is_not
   bool operator==(const ConditionTerm&) const = default;
 };
 
@@ -39,26 +39,26 @@ struct RuleTrial {
   int inside_failing = 0;
   int outside = 0;
   int outside_failing = 0;
-  double inside_share = 0.0;  // [0, 1]: of the draws, that lie inside
+  double inside_share = 0.0;  // fraction of all draws that lie inside, [0, 1]
   bool operator==(const RuleTrial&) const = default;
 };
 
 struct Condition {
   std::string cause;           // id
-  std::string headline;        // of the cause, on this character
+  std::string headline;        // headline of the cause, on this character
   std::string character;       // name in the library
-  std::string character_hash;  // of the minimal case; another one voids the rule
-  std::string tool;            // version that learned it, the same
-  std::string learned_from;    // spec_id of the minimal case, the same
+  std::string character_hash;  // hash at the time of learning; if it changes, the rule is void
+  std::string tool;            // version of Contort that learned it; if it changes, the rule is void
+  std::string learned_from;    // spec_id of the minimal case; if it changes, the rule is void
   std::vector<std::string> needs;   // names of values that a request must have
-  std::vector<Conjunction> any_of{};  // one of them has to hold; none: no rule was found
-  int drawn = 0;                    // cases that it was learned from
-  int failing = 0;                  // of them
+  std::vector<Conjunction> any_of{};  // one of them must hold; empty: no rule was found
+  int drawn = 0;                    // number of cases from which it was learned
+  int failing = 0;                  // number of these cases that fail
   RuleTrial trial{};
   bool operator==(const Condition&) const = default;
 };
 
-// Shares of fresh cases in [0, 1]; 0 where nothing was tried.
+// Fractions of fresh cases in [0, 1]; 0 if no case was tried.
 double precision_of(const RuleTrial& trial);
 double recall_of(const RuleTrial& trial);
 double failing_outside(const RuleTrial& trial);
@@ -91,7 +91,7 @@ class RuleTable {
 
 // ---- the file rules.json of a corpus
 
-// Parses it. Codes json.*.
+// Parses the text of print_conditions. Codes json.*.
 Result<std::vector<Condition>> parse_conditions(std::string_view json);
 std::string print_conditions(std::vector<Condition> conditions);  // sorted by cause and character
 std::string conditions_schema();
@@ -99,8 +99,8 @@ std::string conditions_schema();
 // The conditions of a corpus; none if it has no such file. Codes json.*, and file.outside if the file is a link that
 // leads out of the corpus.
 Result<std::vector<Condition>> conditions_of(const Corpus& corpus);
-// Reads them, changes them and writes them while no other process writes. Returns those that are now stored. Codes of
-// conditions_of, and file.unwritable; then nothing changes.
+// Reads the conditions, changes them and writes them while no other process writes. Returns the stored conditions.
+// Codes of conditions_of, and file.unwritable; then nothing changes.
 using ConditionsChange = std::function<void(std::vector<Condition>&)>;
 Result<std::vector<Condition>> change_conditions(const Corpus& corpus, const ConditionsChange& change);
 

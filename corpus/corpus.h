@@ -4,7 +4,7 @@
 //                                  min-<spec16>.json   smallest failing spec: what people look at
 //                                  worst-<spec16>.json deepest violation seen
 //                                  orig-<spec16>.json  the spec that min was shrunk from
-//   DIR/rules.json  when its causes show (condition.h)
+// DIR/rules.json when its causes show (condition.h)
 //   DIR/leads/   found, not in a bucket yet (leads.h)
 //   DIR/runs/    what each run did (runs.h)
 //   DIR/invalid/ what `contort corpus fsck --repair` put aside (fsck.h)
@@ -30,7 +30,7 @@ struct Found {
   Case minimal;
   Case original;
   std::string run;              // name of the run for Bucket::runs
-  std::optional<Case> worst{};  // another one that may be deeper than both
+  std::optional<Case> worst{};  // a third case, if it may be deeper than both
 };
 
 class Corpus {
@@ -44,7 +44,7 @@ class Corpus {
 
   // Stores a failure in its bucket. `is_new`: the bucket did not exist before. A fixed bucket regresses.
   struct Added {
-    std::string bucket;  // folder of the bucket
+    std::string bucket;  // name of the bucket's folder
     bool is_new = false;
   };
   Result<Added> add(const Found& found) const;

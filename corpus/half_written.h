@@ -1,4 +1,5 @@
-// A process that was killed between writing a file and renaming it (files.h) leaves such files behind.
+// Removes partly written files. A process that is killed between writing a file and renaming it (files.h) leaves them
+// behind.
 #pragma once
 
 #include "corpus/corpus.h"

@@ -9,11 +9,11 @@
 
 namespace contort::known {
 
-// One thing that is asked for: a number or a word.
+// One value of a request: a number or a word.
 struct Value {
   std::string_view name;    // "reach.target_m.x", "reach.slot"
   double number = 0.0;      // in the unit of the name
-  std::string_view word{};  // of slots, parts and choices
+  std::string_view word{};  // for slots, parts and choices
 };
 
 // A request that has not been played yet.
@@ -28,7 +28,7 @@ enum class Quantity : std::uint8_t {
   magnitude,
   per_second,            // divided by the seconds of the action
   magnitude_per_second,
-  times_seconds,         // a speed times the seconds: the way
+  times_seconds,         // a speed times the seconds, which is a distance
 };
 
 enum class Op : std::uint8_t { below, above, is, is_not };
@@ -39,8 +39,8 @@ struct Term {
   Quantity quantity = Quantity::value;
   bool is_mirrored = false;  // on the right side the number counts with the opposite sign
   Op op = Op::below;
-  double limit = 0.0;       // of below and above
-  std::string_view word{};  // of is and is_not
+  double limit = 0.0;       // for below and above
+  std::string_view word{};  // for is and is_not
 };
 
 // A conjunction.
@@ -48,15 +48,16 @@ struct All {
   std::span<const Term> terms;
 };
 
-// Holds for requests of this character that tell all values that it needs, if one of the conjunctions holds.
+// A rule. It holds for a request of this character if the request has all needed values and one conjunction holds.
 struct KnownRule {
   std::string_view cause;  // id of the cause
   std::string_view text;   // a sentence for people
   std::string_view character;
-  std::span<const std::string_view> needs;  // names of values: "reach.seconds" where it is about the action reach
+  std::span<const std::string_view> needs;  // names of values, such as "reach.seconds" if the rule is about the action
+                                            // reach
   std::span<const All> any_of;
-  double precision = 0.0;  // share of fresh requests inside of the rule that went wrong
-  double recall = 0.0;     // share of the requests that went wrong that are inside
+  double precision = 0.0;  // fraction of fresh requests inside of the rule that failed
+  double recall = 0.0;     // fraction of failing fresh requests that are inside of the rule
 };
 
 inline const Value* find_value(const Question& question, std::string_view name) {
@@ -75,7 +76,7 @@ inline const Value* value_beside(const Question& question, std::string_view name
   return nullptr;
 }
 
-// Sets `amount` to the number that is compared; returns false if the question does not tell it.
+// Sets `amount` to the number that is compared; returns false if the question does not have it.
 inline bool tells_amount(const Question& question, const Term& term, double& amount) {
   const Value* const value = find_value(question, term.name);
   if (value == nullptr) return false;

@@ -1,6 +1,6 @@
 // A lead is a failure that is not in a bucket yet, as case files that can be replayed:
 //
-//   DIR/leads/<run>/<family12>-<index>.json       the drawn case; written as soon as it is wanted
+// DIR/leads/<run>/<family12>-<index>.json the drawn case; written as soon as it is to be processed
 //                   <family12>-<index>-min.json   the case that it was shrunk to
 //                   <family12>-<index>-worst.json the deepest case with the same failure
 //                   <family12>-<index>-orig.json  the drawn case, if another of its families names the minimal case
@@ -20,11 +20,11 @@ namespace contort {
 
 struct Lead {
   std::string run;
-  Case original;                // provenance.index: which case of the run
-  std::optional<Case> minimal;  // once it was shrunk
+  Case original;                // provenance.index is the index of its case in the run
+  std::optional<Case> minimal;  // set once the lead was shrunk
   std::optional<Case> worst{};
   std::optional<Case>
-      shrunk_from{};  // original as a case of minimal's family, where that is another (fuzz/precursor.h)
+      shrunk_from{};  // `original` as a case of the family of `minimal`, if that is another family (fuzz/precursor.h)
   bool operator==(const Lead&) const = default;
 };
 

@@ -67,7 +67,7 @@ Issue refuse(const Bucket& bucket, const char* code, const std::string& why) {
 }
 
 Result<Done> check_day(const Bucket& bucket, const std::string& expires, const std::string& today) {
-  if (!is_day(expires)) return refuse(bucket, "no_day", "\"" + expires + "\" is no day; write YYYY-MM-DD");
+  if (!is_day(expires)) return refuse(bucket, "no_day", "\"" + expires + "\" is not a date; write YYYY-MM-DD");
   const int days = day_number(expires) - day_number(today);
   if (days < 0 || days > kLongestQuarantineDays)
     return refuse(bucket, "too_long",

@@ -12,14 +12,14 @@ namespace contort {
 // The outcome of a replay of all cases of a bucket.
 enum class Shown {
   fails,     // at least one case still fails in the bucket's family
-  gone,      // no case does
+  gone,      // no case fails in the bucket's family
   unsteady,  // two runs of one case differed
   refused,   // the specs no longer build
 };
 
 struct Observation {
   Shown shown = Shown::fails;
-  std::string build;  // in which this was seen: "contort 0.1.0 abc123"
+  std::string build;  // the build that was replayed: "contort 0.1.0 abc123"
 };
 
 // The number of builds in which a bucket must be gone to count as fixed.

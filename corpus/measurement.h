@@ -20,9 +20,9 @@ inline constexpr char kMeasureFormat[] = "contort.measure/1";
 struct MeasureRequest {
   std::int64_t id = 0;  // the answer repeats it
   Spec spec;
-  std::string check;     // this check alone; "": all
-  bool margins = false;  // subjects that pass are listed, too
-  bool trace = false;    // the running hash of the motion is wanted
+  std::string check;     // only this check is measured; "": all checks
+  bool margins = false;  // true: the answer also lists subjects that pass
+  bool trace = false;    // true: the answer has the running hash of the motion
   bool operator==(const MeasureRequest&) const = default;
 };
 
@@ -43,26 +43,28 @@ struct Measurement {
   int frames = 0;
   std::string trace;                    // four hex digits a frame, if asked for
   std::vector<SubjectMargin> findings;  // the deepest of each family, sorted by check and subject
-  std::vector<SubjectMargin> margins;   // of subjects that pass, if asked for, sorted in the same way
-  std::optional<Issue> refusal;  // the spec was refused, or the request could not be read; then nothing else counts
+  std::vector<SubjectMargin> margins;   // margins of subjects that pass, if requested, sorted in the same way
+  std::optional<Issue> refusal;  // set if the spec was refused or the request could not be read; the other fields are
+                                 // then unused
 };
 
 // The first line of a program that answers requests.
 struct MeasureHello {
   std::string version;
-  std::vector<std::string> checks;  // that it can judge by
+  std::vector<std::string> checks;  // names of the checks that it has
 };
 
 // Measures the spec, or says why it was refused.
 Measurement measure(const MeasureRequest& request, Evaluator& evaluator);
 
-// The same from an evaluation of the evaluator's that has just been made.
+// Makes the measurement from the evaluator's last evaluation, which must be given.
 Measurement measurement_of(const MeasureRequest& request, const Evaluation& evaluation, const Evaluator& evaluator);
 
-// The hello of this build, which calls itself `version`.
+// Returns the hello of this build; `version` is its version.
 MeasureHello own_hello(const std::string& version);
 
-// Lines without their line end. A request may also be a bare spec. Codes measure.* and those of parse_spec.
+// The functions print and parse one line without its line end. A request may also be a bare spec. Codes measure.* and
+// those of parse_spec.
 std::string print_line(const MeasureRequest& request);
 std::string print_line(const Measurement& measurement);
 std::string print_line(const MeasureHello& hello);

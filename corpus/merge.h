@@ -16,7 +16,7 @@ namespace contort {
 struct Merged {
   std::vector<std::string> incomplete;  // "seed_7_0123abcd: shards 3, 12 of 16 are missing"
   std::vector<Issue> damaged;           // files that could not be read; the rest was merged
-  int leads = 0;                        // that still wait
+  int leads = 0;                        // number of leads that still wait
 };
 
 // Adds `sources` to `into`, which may be one of them. Code file.unwritable.

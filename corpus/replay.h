@@ -22,17 +22,17 @@ std::string_view verdict_name(Verdict verdict);
 
 struct Replay {
   Verdict verdict = Verdict::refused;
-  int first_difference = -1;       // first frame that differs from the stored trace; -1 where none does
-  bool character_changed = false;  // the parts or their own actions are not what they were when the case was stored
-  Expectation now;                 // of the expected family where it is found, else of the first finding
+  int first_difference = -1;       // first frame that differs from the stored trace; -1 if none differs
+  bool character_changed = false;  // the parts, or users' actions for them, have changed since the case was stored
+  Expectation now;                 // the finding of the expected family if there is one, else the first finding
   Issue issue;                     // for `refused`
 };
 
 using RunCase = std::function<Replay(const Case&)>;
 
-// Replays a case. If the scope is not the whole, the motion differs by nature, so `same_family` is the best verdict.
-// A case of an abnormal exit (is_abnormal_exit) is first run in a child process, within its stored limits or else
-// those of `isolation`; the caller must then have one thread.
+// Replays a case. If the scope is only a part of the spec, the motion necessarily differs, so `same_family` is the best
+// verdict. A case of an abnormal exit (is_abnormal_exit) is first run in a child process, within its stored limits or
+// else those of `isolation`; the caller must then have one thread.
 Replay replay(const Case& stored, Evaluator& evaluator, const ReplayScope& scope = {},
               const Isolation& isolation = {});
 

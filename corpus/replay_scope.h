@@ -12,8 +12,8 @@ namespace contort {
 struct ReplayScope {
   enum class Kind { whole, sequence, clip, part };
   Kind kind = Kind::whole;
-  int sequence = 0;  // counted from 1, as people do; those of interrupts come after the queue's
-  int clip = 0;      // the same
+  int sequence = 0;  // counted from 1; sequences of interrupts come after those of the queue
+  int clip = 0;      // counted from 1, too
   std::string slot;
   bool operator==(const ReplayScope&) const = default;
 };

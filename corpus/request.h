@@ -15,8 +15,8 @@ namespace contort {
 struct RequestValue {
   std::string name;
   double number = 0.0;
-  std::string word{};        // of a slot, a part or a choice
-  bool is_mirrored = false;  // its sign means the other side for a part of the right side
+  std::string word{};        // for a slot, a part or a choice
+  bool is_mirrored = false;  // the value changes its sign for a part on the right side
   bool operator==(const RequestValue&) const = default;
 };
 
@@ -30,12 +30,12 @@ struct SpecRequest {
 std::vector<std::string> needs_of(const Cause& cause);
 
 // The requests of a spec that have these values: one for each combination of uses of the actions that are needed, at
-// most 256; where no action is needed, one with the first use of each. The character is the spec's, and the offers are
-// its parts'.
+// most 256; if no action is needed, one request with the first use of each action. The character is the spec's, and the
+// offers are its parts'.
 std::vector<SpecRequest> requests_of(const Spec& spec, const std::vector<std::string>& needs,
                                      const Character& character, const Offers& offers);
 
-// The same values for known.h; they refer to the request.
+// Returns the values of a request in the form of known.h; they refer to the request.
 std::vector<known::Value> known_values(const SpecRequest& request);
 
 }  // namespace contort

@@ -10,8 +10,8 @@ namespace contort {
 namespace run_rules {
 inline const json_fields::Rule kTotal{.low = 0, .high = 0x1p53};
 inline const json_fields::Rule kLabel{.text = json_fields::Text::label, .may_be_empty = true};
-inline constexpr std::size_t kMostEntries = 100'000;  // of an object, too (json_fields.cpp)
-inline constexpr int kMostShrinks = 1000;  // of one family
+inline constexpr std::size_t kMostEntries = 100'000;  // the most entries of a list, as of an object (json_fields.cpp)
+inline constexpr int kMostShrinks = 1000;  // the most shrinks of one family
 }  // namespace run_rules
 
 template <class V>
@@ -28,6 +28,13 @@ template <class V>
 void fields(V& v, const StrategyCount*) {
   v.field("cases", &StrategyCount::cases, run_rules::kTotal, "Cases that were drawn in this way.");
   v.field("failing", &StrategyCount::failing, run_rules::kTotal, "Of these with at least one finding.");
+}
+
+template <class V>
+void fields(V& v, const RefusalCount*) {
+  v.field("cases", &RefusalCount::cases, run_rules::kTotal, "Cases that were refused for this reason.");
+  v.field("first_index", &RefusalCount::first_index, run_rules::kTotal, "The first of them.");
+  v.field("text", &RefusalCount::text, {.text = json_fields::Text::prose, .may_be_empty = true}, "Its reason.");
 }
 
 template <class V>
@@ -60,7 +67,7 @@ void fields(V& v, const RunRecord*) {
   v.field("cases", &RunRecord::cases, run_rules::kTotal, "Cases that ran.");
   v.field("frames", &RunRecord::frames, run_rules::kTotal, "Frames that they had.");
   v.field("failing", &RunRecord::failing, run_rules::kTotal, "Cases with at least one finding.");
-  v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that did not build.");
+  v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that were refused.");
   using json_fields::Text;
   v.field("tested", &RunRecord::tested,
           {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = Text::label},
@@ -69,6 +76,8 @@ void fields(V& v, const RunRecord*) {
           "Failures, by family.");
   v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");
   v.field("against", &RunRecord::against, {}, "Comparison with another build.");
+  v.field("refusals", &RunRecord::refusals, {.max_count = run_rules::kMostEntries, .key_text = Text::prose},
+          "Refused specs, by reason without its numbers.");
 }
 
 }  // namespace contort

@@ -67,6 +67,7 @@ RunRecord added_up(const std::vector<RunRecord>& shards) {
   for (const RunRecord& shard : shards) {
     sum.cases += shard.cases, sum.frames += shard.frames, sum.failing += shard.failing;
     sum.discarded += shard.discarded;
+    add_refusals(shard.refusals, sum.refusals);
     for (const auto& [label, count] : shard.tested) sum.tested[label] += count;
     add_families(shard, sum);
     if (shard.against) {

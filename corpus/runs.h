@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corpus/corpus.h"
+#include "corpus/refusals.h"
 
 namespace contort {
 
@@ -16,9 +17,9 @@ namespace contort {
 // discovery curve.
 struct FamilyCount {
   std::int64_t cases = 0;
-  std::int64_t first_index = 0;  // of the first of them
-  // Indices of the first cases in which it was one of the earliest failures (RunConfig::shrinks_per_case), ascending;
-  // at most shrinks_per_family of the run.
+  std::int64_t first_index = 0;  // index of the first of these cases
+  // Ascending indices of the first cases in which the family was one of the earliest failures
+  // (RunConfig::shrinks_per_case); at most shrinks_per_family of the run.
   std::vector<std::int64_t> first_indices;
   std::string first_arm;  // "guided": how the case of first_index was drawn
   bool operator==(const FamilyCount&) const = default;
@@ -34,13 +35,13 @@ struct StrategyCount {
 // The comparison of a run with another build (docs/reference/against.md). Counts are of cases.
 struct AgainstCounts {
   std::string base;          // version and content hash of the other build
-  std::string build;         // the same of this one
-  std::int64_t same = 0;     // equal motions and no change
-  std::int64_t moved = 0;    // other motions, and no family that broke, got worse or was mended
-  std::int64_t broke = 0;    // at least one family fails here and passes there
-  std::int64_t worse = 0;    // at least one fails in both, and much deeper here
-  std::int64_t mended = 0;   // at least one fails there and passes here
-  std::int64_t refused = 0;  // the base did not accept the spec, or ended badly
+  std::string build;         // version and content hash of this build
+  std::int64_t same = 0;     // the motions are equal, and no family changed
+  std::int64_t moved = 0;    // the motions differ, but no family broke, got worse or was mended
+  std::int64_t broke = 0;    // at least one family fails here and passes in the base
+  std::int64_t worse = 0;    // at least one family fails in both, and much deeper here
+  std::int64_t mended = 0;   // at least one family fails in the base and passes here
+  std::int64_t refused = 0;  // the base refused the spec, or crashed, hung or used too much memory
   std::int64_t first_moved = -1;    // index of the first case that moved; -1 if no case did
   int first_moved_frame = -1;       // the first frame in which its motions differ
   std::int64_t first_refused = -1;  // index of the first refused case; -1 if none was refused
@@ -55,15 +56,17 @@ struct RunRecord {
   std::string tool;
   int shard = 0;
   int shards = 1;
-  int shrinks_per_family = 2;  // the first so many cases of a family go into buckets
+  int shrinks_per_family = 2;  // number of first cases of each family that are stored in buckets
   std::int64_t cases = 0;
   std::int64_t frames = 0;
   std::int64_t failing = 0;                     // cases with at least one finding
-  std::int64_t discarded = 0;                   // drawn specs that did not build: a fault of the draw
+  std::int64_t discarded = 0;                   // drawn specs that were refused; a fault if the generator is built in
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
   std::map<Family, FamilyCount> families;
   std::map<std::string, StrategyCount> arms;         // "uniform", "guided"
-  std::optional<AgainstCounts> against;  // of a run that was compared; failures are then those that count there
+  std::optional<AgainstCounts> against;  // for a run that was compared; only failures that count in the comparison are
+                                         // then failures of the run
+  RefusalCounts refusals{};              // the reasons of the specs that were refused
   bool operator==(const RunRecord&) const = default;
 };
 

@@ -13,9 +13,9 @@ namespace contort {
 // The results of one way of drawing cases.
 struct ArmProgress {
   std::string name;            // "uniform", "guided"
-  std::int64_t cases = 0;      // that it drew
-  std::int64_t failing = 0;    // of these with at least one finding
-  std::int64_t families = 0;   // that it met before any other did
+  std::int64_t cases = 0;      // number of cases that it drew
+  std::int64_t failing = 0;    // number of these with at least one finding
+  std::int64_t families = 0;   // families that it found before the other ways did
   bool operator==(const ArmProgress&) const = default;
 };
 
@@ -23,8 +23,9 @@ struct SearchProgress {
   std::int64_t cases = 0;
   std::int64_t failing = 0;
   std::int64_t met_once = 0;             // families that a single case showed
-  std::int64_t lone_cases = 0;           // those cases, each counted once: one case often shows several families
-  std::vector<std::int64_t> discovered;  // after how many cases each family was met first, ascending, in [1, cases]
+  std::int64_t lone_cases = 0;           // number of these cases; one case often shows several families
+  std::vector<std::int64_t> discovered;  // for each family the number of cases until it was first found, ascending, in
+                                         // [1, cases]
   std::vector<ArmProgress> arms;         // by name
   bool operator==(const SearchProgress&) const = default;
 };

@@ -1,4 +1,4 @@
-// Relates failures of the left and the right side: they are two buckets, and often one fault.
+// Relates failures of the left and the right side: they are two buckets, and often have one cause.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// The family with "left" and "right" exchanged in the names of its subject, and with pairs in order again:
+// The family with "left" and "right" exchanged in the names of its subject, and pairs sorted again:
 // "self_collision|human|arm_left/hand ~ head" becomes "self_collision|human|arm_right/hand ~ head".
 Family other_side(const Family& family);
 

@@ -11,8 +11,8 @@ namespace contort {
 
 using Changes = std::vector<std::string>;
 
-// Names buckets again, by the present rules, from their minimal cases, and moves them. Buckets that become equal are
-// merged.
+// Renames buckets by the present rules, from their minimal cases, and moves their folders. Buckets that become equal
+// are merged.
 Result<Changes> rekey(const Corpus& corpus);
 
 // Counts buckets that were named by other rules than the present ones: a failure that is found again gets another

@@ -14,7 +14,7 @@ namespace contort {
 
 struct CaseReplay {
   std::string path;
-  Family family;  // empty where the case cannot be read
+  Family family;  // empty if the case cannot be read
   Replay result;
 };
 
@@ -22,7 +22,7 @@ struct BucketReplay {
   Bucket bucket;
   Shown shown = Shown::refused;
   std::vector<CaseReplay> cases;
-  Verdict verdict = Verdict::refused;  // of the cases that decide `shown`, of which one it is worth to be told
+  Verdict verdict = Verdict::refused;  // the most informative verdict among the cases that decide `shown`
 };
 
 // Runs all cases of a bucket. A case with a different result runs a second time, to tell a change from chance; cases

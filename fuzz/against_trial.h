@@ -13,7 +13,7 @@ namespace contort {
 
 class AgainstTrial final : public Trial {
  public:
-  // `inner` runs this build and looks for the family of `expect`. `alive` is called while the base is waited for.
+  // `inner` runs this build and looks for the family of `expect`. `alive` is called while waiting for the base.
   AgainstTrial(Trial& inner, const Expectation& expect, BaseBuild& base, const CompareRules& rules,
                std::function<bool()> alive);
   TrialResult run(const Spec& spec, int most_frames) override;
@@ -25,7 +25,7 @@ class AgainstTrial final : public Trial {
 
   Trial& inner_;
   std::string check_, subject_;
-  bool is_ending_;  // a crash, a timeout or memory: counts where the base has an answer
+  bool is_ending_;  // the failure is a crash, a timeout or too much memory: it counts if the base has an answer
   BaseBuild& base_;
   const CompareRules& rules_;
   std::function<bool()> alive_;

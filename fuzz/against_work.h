@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// One per worker. The base starts at the first spec.
+// The base of one worker. It starts at the first spec.
 class AgainstWork {
  public:
   explicit AgainstWork(const AgainstConfig& config) : config_(config) {}
@@ -21,12 +21,12 @@ class AgainstWork {
   Comparison compare(const Spec& spec, const Evaluation& ours, const Evaluator& evaluator, WorkerSlot& slot);
   void drop(WorkerSlot& slot);
 
-  // The comparison for a case that ends this build in the way of `ended`: that broke if the base has an answer.
+  // Returns the comparison for a case that ends this build as `ended` says: the family broke if the base has an answer.
   Comparison compare_ending(const Spec& spec, const Family& ended, WorkerSlot& slot);
 
-  // Runs the case in both builds once more. True if this build repeats its motion, the base repeats `base_hash` (any,
-  // if that is empty), and the failure counts. The provenance then says what the base shows. A case that ended this
-  // build is run by the base alone.
+  // Runs the case in both builds once more. Returns true if this build repeats its motion, the base repeats `base_hash`
+  // (any, if that is empty), and the failure counts. The provenance then says what the base shows. A case that ended
+  // this build is run only by the base.
   bool confirm(Case& found, Evaluator& evaluator, const std::string& base_hash, WorkerSlot& slot);
 
   // Returns true if the spec ends the base, or if the base refuses it.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <optional>
 
+#include "corpus/ending_case.h"
 #include "fuzz/compose_params.h"
 #include "fuzz/dice.h"
 #include "fuzz/evaluators.h"
@@ -13,6 +16,7 @@
 #include "model/core/nearest.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/legs.h"
+#include "process/ended.h"
 
 namespace contort {
 
@@ -127,7 +131,17 @@ struct Outcome {
   std::vector<std::string> reasons;  // of unmet requests
   double depth = 0.0;
   bool still = false;
+  std::string ending{};                  // a sentence, if the program under test ended
+  std::optional<std::string> refusal{};  // its reason, if it refused
 };
+
+constexpr std::size_t kMostPrintedOfRow = 200;
+
+// A program that ended in a motion has the finding that a run would store.
+Outcome outcome_of(const Spec& spec, const ProgramEnded& ended) {
+  const Expectation shown = ending_case(spec, ended.ending()).expect;
+  return {{shown.check}, {}, shown.depth, false, describe(ended.ending(), kMostPrintedOfRow), {}};
+}
 
 void note_once(std::vector<std::string>& names, std::string name) {
   if (!holds(names, name)) names.push_back(std::move(name));
@@ -202,29 +216,56 @@ void fold(const Outcome& outcome, const Offered& on, std::int64_t seed, int inde
   const bool is_unmet = !outcome.reasons.empty();
   const bool first_unmet = is_unmet && row.unmet == 0 && row.depth == 0.0;
   ++row.draws;
+  if (outcome.refusal) {
+    ++row.refused;
+    return count_refusal(*outcome.refusal, index, row.refusals);
+  }
+  if (!outcome.ending.empty()) row.endings.try_emplace(outcome.checks.front(), outcome.ending);
   row.clean += outcome.checks.empty() ? 1 : 0;
   row.unmet += is_unmet ? 1 : 0;
   row.still += outcome.still ? 1 : 0;
   for (const std::string& check : outcome.checks) ++row.findings[check];
   for (const std::string& reason : outcome.reasons) ++row.reasons[reason];
-  if (outcome.depth > row.depth || first_unmet) row.worst = drawn(row, on, seed, index);
+  if (outcome.depth > row.depth || first_unmet)
+    row.worst = drawn(row, on, seed, index), row.worst_ends = !outcome.ending.empty();
   row.depth = std::max(row.depth, outcome.depth);
 }
 
+Result<Outcome> played(const Spec& spec, Layer layer, Evaluator& evaluator) {
+  try {
+    const Result<Evaluation> evaluation = evaluator.run(spec);
+    if (evaluation) return outcome_of(*evaluation, evaluator.execution(), layer);
+    if (evaluation.issue().code != kRefusedCode) return evaluation.issue();
+    Outcome refused;
+    refused.refusal = reason_of(evaluation.issue());
+    return refused;
+  } catch (const ProgramEnded& ended) {
+    return outcome_of(spec, ended);
+  }
+}
+
+bool is_timeout(const Result<Outcome>& outcome) { return outcome && holds(outcome->checks, "timeout"); }
+
+// The row ends with the same draw whatever the number of threads: a draw before it that no thread made is made now.
 Result<Done> audit_row(const AuditOptions& options, const Offered& on, Evaluators& evaluators, AuditRow& row) {
-  std::vector<Result<Outcome>> outcomes(static_cast<std::size_t>(options.draws), Outcome{});
+  std::vector<std::optional<Result<Outcome>>> outcomes(at(options.draws));
+  std::atomic<int> timeouts{0};
+  const auto play = [&](int worker, int index) {
+    outcomes[at(index)] = played(drawn(row, on, options.seed, index), on.action.layer, evaluators.of(worker));
+    timeouts += is_timeout(*outcomes[at(index)]) ? 1 : 0;
+  };
   parallel_for(options.jobs, options.draws, [&](int worker, int index) {
-    Evaluator& evaluator = evaluators.of(worker);
-    const Result<Evaluation> evaluation = evaluator.run(drawn(row, on, options.seed, index));
-    outcomes[static_cast<std::size_t>(index)] =
-        evaluation ? Result<Outcome>(outcome_of(*evaluation, evaluator.execution(), on.action.layer))
-                   : Result<Outcome>(evaluation.issue());
+    if (timeouts < kMostTimeouts) play(worker, index);
   }, [] {});
-  for (int index = 0; index < options.draws; ++index) {
-    const Result<Outcome>& outcome = outcomes[static_cast<std::size_t>(index)];
+  int late = 0;
+  for (int index = 0; index < options.draws && late < kMostTimeouts; ++index) {
+    if (!outcomes[at(index)]) play(0, index);
+    const Result<Outcome>& outcome = *outcomes[at(index)];
     if (!outcome) return outcome.issue();
+    late += is_timeout(outcome) ? 1 : 0;
     fold(*outcome, on, options.seed, index, row);
   }
+  row.is_cut = row.draws < options.draws;
   return Done{};
 }
 

@@ -21,8 +21,8 @@ class BaseBuild {
   // Begins to measure. answer() must be called before the next request.
   virtual void ask(const MeasureRequest& request) = 0;
 
-  // Waits for the measurement. If the base crashes, hangs or uses too much memory, it is a refusal with the code
-  // base.crash, base.timeout or base.memory. `on_wait` is called now and then.
+  // Waits for the measurement. If the base crashes, hangs or uses too much memory, the result is a refusal with the
+  // code base.crash, base.timeout or base.memory. `on_wait` is called repeatedly while it waits.
   virtual Measurement answer(const std::function<void()>& on_wait) = 0;
 };
 
@@ -42,7 +42,7 @@ class BaseProgram final : public BaseBuild {
 
   std::vector<std::string> command_;
   WorkerLimits limits_;
-  std::string line_;  // of the request that waits for its answer
+  std::string line_;  // the request that waits for its answer
   std::int64_t id_ = 0;
   bool is_asked_ = false;  // the running program has the request
   std::unique_ptr<LineProgram> program_;
@@ -51,11 +51,11 @@ class BaseProgram final : public BaseBuild {
 // Starts the program once and reads its first line. Codes against.cannot_start, against.no_protocol.
 Result<MeasureHello> greet(const std::vector<std::string>& command, const WorkerLimits& limits);
 
-// A run that compares.
+// The settings of a run that compares two builds.
 struct AgainstConfig {
-  std::function<std::unique_ptr<BaseBuild>()> start;  // in the process that uses it
+  std::function<std::unique_ptr<BaseBuild>()> start;  // starts the base; called in the process that uses it
   std::string base;                                   // version and content hash of the other build, "0.1.0 1a2b…"
-  std::string build;                                  // the same of this one
+  std::string build;                                  // version and content hash of this build
   CompareRules rules;
 };
 

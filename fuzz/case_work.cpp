@@ -5,6 +5,7 @@
 #include <set>
 
 #include "corpus/ending_case.h"
+#include "corpus/refusals.h"
 #include "process/clock.h"
 #include "corpus/replay.h"
 #include "fuzz/profile_violations.h"
@@ -84,6 +85,7 @@ EvaluateReport CaseWork::evaluate(const EvaluateTask& task, WorkerSlot& slot) {
   if (against_) against_->begin(spec);
   const Result<Evaluation> run = evaluator_.run(spec);
   if (run) report = report_of(task, spec, *run);
+  if (!run) report.refusal = reason_of(run.issue());
   if (run && against_) report.against = against_->compare(spec, *run, evaluator_, slot);
   if (!run && against_) against_->drop(slot);
   return report;

@@ -31,7 +31,7 @@ class TargetGroups {
   std::map<std::tuple<std::string_view, std::string, std::uint64_t>, std::vector<std::int8_t>> known_;
 };
 
-// One per worker.
+// The tasks of one worker.
 class CaseWork {
  public:
   CaseWork(const RunConfig& config, Generator& generator, const Corpus& corpus);

@@ -19,16 +19,18 @@ enum class BaseShows { passes_check, passes, milder };
 std::string_view base_shows_name(BaseShows shows);  // "passes_check"
 
 struct CompareRules {
-  double tolerance = 0.1;           // depth that a failure of one build alone must have, in the check's scale; >= 0
-  std::vector<std::string> checks;  // that both builds have; families of other checks are not compared
+  double tolerance = 0.1;           // smallest depth of a failure that counts if only one build shows it, in the
+                                    // check's scale; >= 0
+  std::vector<std::string> checks;  // checks that both builds have; families of other checks are not compared
 };
 
 struct Comparison {
-  std::string refusal;                       // why the base has no measurement; nothing else counts then
+  std::string refusal;                       // the reason why the base has no measurement; the other fields are then
+                                             // unused
   bool moved = false;                        // the motions differ
-  int first_difference = -1;                 // the first frame that does, -1: none, or the base told no trace
-  std::string base_hash;                     // of the base's motion
-  std::vector<Family> broke, worse, mended;  // each in rising order
+  int first_difference = -1;                 // the first frame that differs; -1: none, or the base sent no trace
+  std::string base_hash;                     // hash of the base's motion
+  std::vector<Family> broke, worse, mended;  // each sorted
   bool operator==(const Comparison&) const = default;
 };
 
@@ -39,7 +41,7 @@ std::optional<Change> change_between(std::optional<double> depth, std::optional<
 std::optional<double> depth_in(const Measurement& measured, const std::string& check, const std::string& subject,
                                bool with_waived);
 
-// Both must be of the same spec and of the same checks.
+// Compares two measurements of the same spec by the same checks.
 Comparison compare(const std::string& character, const Measurement& ours, const Measurement& base,
                    const CompareRules& rules);
 

@@ -10,11 +10,12 @@
 
 namespace contort {
 
-// Frames to which one clip in five is stretched.
+// The lengths, in frames, to which one clip in five is stretched.
 inline constexpr int kShortestStretch = 20;
 inline constexpr int kLongestStretch = 120;
 
-// Reads every number as a choice among the items that the generator offers and the profile allows.
+// Returns the spec in which every raw number is a choice among the items that the generator offers and the profile
+// allows.
 Spec compose(const RawSpec& raw, const DrawConfig& config, Generator& generator);
 
 // Returns true if the ground is a plane, assuming that no feature is left out.

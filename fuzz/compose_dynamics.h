@@ -1,4 +1,4 @@
-// Modes, loads and impacts from raw numbers.
+// Makes modes, loads and impacts from raw numbers.
 #pragma once
 
 #include <array>

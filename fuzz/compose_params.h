@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// Fills use.params. Whole degrees, centimetres, 0.1 m/s (steps_per_unit), so that specs are short and read well.
+// Fills use.params with whole degrees, centimetres or 0.1 m/s (steps_per_unit), so that specs are short and readable.
 void draw_params(const Character& character, const Part& part, const OfferedAction& action, const Profile& profile,
                  const std::array<int, kRawValues>& raw, ActionUse& use);
 

@@ -5,7 +5,8 @@
 
 namespace contort {
 
-// A clip begins when the previous one has ended, and an action when no other action moves one of its parts.
+// Moves starts so that a clip begins when the previous one has ended, and an action when no other action moves its
+// parts.
 void take_turns(const Character& character, const Offers& offers, SequenceDesc& sequence);
 
 }  // namespace contort

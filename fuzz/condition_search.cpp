@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <iterator>
+#include <mutex>
 
 #include "fuzz/evaluators.h"
 #include "fuzz/parallel.h"
 #include "fuzz/population.h"
 #include "fuzz/rule_learning.h"
+#include "process/ended.h"
 
 namespace contort {
 
@@ -20,6 +23,25 @@ constexpr double kLeastPrecision = 0.8;  // of a rule that is told
 constexpr int kLeastTried = 20;          // fresh cases on each side, that a rule must have been tried on
 constexpr std::int64_t kMostDraws = 20'000;
 constexpr std::int64_t kFirstFresh = std::int64_t{1} << 32;  // index of the first fresh draw
+
+// The draws that ended a program under test. Several threads add to it.
+class Endings {
+ public:
+  void add(const Ending& ending) {
+    const std::lock_guard lock(mutex_);
+    late_ += ending.kind == Ending::Kind::timeout ? 1 : 0;
+    if (count_++ == 0) first_ = describe(ending, kMostPrintedTold);
+  }
+  int count() const { return count_; }
+  int late() const { return late_; }
+  const std::string& first() const { return first_; }
+
+ private:
+  static constexpr std::size_t kMostPrintedTold = 200;
+  std::mutex mutex_;
+  std::atomic<int> count_{0}, late_{0};
+  std::string first_;
+};
 
 class Search {
  public:
@@ -55,6 +77,17 @@ class Search {
     return trial;
   }
 
+  // Half of the draws must have come to their end, for what they show to hold for the others.
+  Result<Done> enough_ran() const {
+    const int ended = endings_.count();
+    if (endings_.late() < kMostLateDraws && 2 * ended <= judged_) return Done{};
+    const bool is_late = endings_.late() >= kMostLateDraws;  // then not all were asked for
+    const std::string share = std::to_string(ended) + (is_late ? "" : " of " + std::to_string(judged_));
+    return Issue{"explain.program_ended", "",
+                 "no condition can be learned, because the generator makes no motion of " + share +
+                     " requests like the minimal case: " + endings_.first()};
+  }
+
  private:
   std::vector<DrawnRequest> drawn(int count, std::int64_t& index) {
     std::vector<DrawnRequest> all;
@@ -63,16 +96,23 @@ class Search {
     return all;
   }
 
+  // A draw that ends the program under test, or is refused, is no sample. If some are too late, no further ones run.
   std::vector<RuleSample> judged(std::vector<DrawnRequest> all) {
     std::vector<char> fails(all.size(), 0), ran(all.size(), 0);
     parallel_for(options_.jobs, static_cast<int>(all.size()), [&](int worker, int index) {
       const auto i = static_cast<std::size_t>(index);
-      const Result<Evaluation> run = evaluators_.of(worker).run(all[i].spec);
-      ran[i] = run.ok();
-      fails[i] = run && std::ranges::any_of(run->findings, [&](const Finding& finding) {
-        return kind_of_check(finding.check) == kind_;
-      });
+      if (endings_.late() >= kMostLateDraws) return;
+      try {
+        const Result<Evaluation> run = evaluators_.of(worker).run(all[i].spec);
+        ran[i] = run.ok();
+        fails[i] = run && std::ranges::any_of(run->findings, [&](const Finding& finding) {
+          return kind_of_check(finding.check) == kind_;
+        });
+      } catch (const ProgramEnded& ended) {
+        endings_.add(ended.ending());
+      }
     }, [] {});
+    judged_ += static_cast<int>(all.size());
     std::vector<RuleSample> samples;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (ran[i]) samples.push_back({std::move(all[i].request), fails[i] != 0});
@@ -85,6 +125,8 @@ class Search {
   }
 
   CheckKind kind_;
+  Endings endings_;
+  int judged_ = 0;  // draws that were asked for
   const Population& population_;
   Generator& generator_;
   Evaluators evaluators_;
@@ -138,11 +180,13 @@ Result<Condition> find_condition(const Case& minimal, Generator& generator, cons
   std::vector<RuleSample> samples;
   for (int round = 0; round < kMostRounds && !has_rule(found); ++round) {
     search.learn_more(samples);
+    if (const Result<Done> enough = search.enough_ran(); !enough) return enough.issue();
     found.drawn = static_cast<int>(samples.size());
     found.failing = static_cast<int>(std::ranges::count_if(samples, &RuleSample::fails));
     if (!has_enough(found) && round + 1 < kMostRounds) continue;
     found.any_of = learned(samples, found.failing);
     if (has_rule(found)) found.trial = search.trial(found.any_of);
+    if (const Result<Done> enough = search.enough_ran(); !enough) return enough.issue();
     if (has_rule(found) && !is_told(found)) found.any_of.clear(), found.trial = {};
   }
   return found;

@@ -1,4 +1,4 @@
-// The workers, and the task of each of them: a case of the round, by its place there, or a failure to process.
+// The workers, and the task of each of them: a case of the round, by its place in the round, or a failure to process.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ class Crew {
   // Gives a job to an idle worker; there must be one.
   void give(const Job& job);
 
-  // A job that a worker has finished, or that ended the worker; empty if there is none within the time.
+  // Returns a job that a worker has finished, or that ended its worker; empty if no job ends within the time.
   struct Finished {
     Job job;
     WorkerEvent event;

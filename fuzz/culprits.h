@@ -13,8 +13,9 @@
 namespace contort {
 
 struct CauseSearch {
-  std::function<void(const Spec&)> before_run;  // is told each spec before it runs; may be empty
-  std::optional<Isolation> guard;               // each spec runs in a process of its own first; one thread only
+  std::function<void(const Spec&)> before_run;  // called with each spec before it runs; may be empty
+  std::optional<Isolation> guard;               // if set, each spec first runs in a process of its own; the caller must
+                                                // have one thread
 };
 
 struct FoundCause {
@@ -22,8 +23,8 @@ struct FoundCause {
   std::vector<Case> met;  // experiments that ended their process; only with a guard
 };
 
-// The cause of a minimal case that was shrunk. Runs one motion for each action, at most 16, and one more, and nothing
-// for cases that ended their process. An experiment that ends its process shows nothing about the failure.
+// Returns the cause of a minimal case that was shrunk. It runs one motion for each action, at most 16, and one more.
+// For cases that ended their process it runs none. An experiment that ends its process shows nothing about the failure.
 FoundCause find_cause(const Case& minimal, Evaluator& evaluator, const CauseSearch& search = {});
 
 }  // namespace contort

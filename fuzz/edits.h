@@ -1,4 +1,4 @@
-// Units that shrinking may remove from a spec: those of one kind, in all lists together.
+// Units that shrinking may remove from a spec. Units of one kind are numbered across all lists of the spec.
 #pragma once
 
 #include <span>
@@ -7,19 +7,20 @@
 
 namespace contort {
 
-// The sequences of the queue, then those of the interrupts: s counts through both.
+// The number of all sequences, and sequence s: sequences of the queue come first, then those of the interrupts.
 std::size_t sequence_count(const Spec& spec);
 SequenceDesc& sequence_at(Spec& spec, std::size_t s);
 const SequenceDesc& sequence_at(const Spec& spec, std::size_t s);
 
-// Units of one kind that a spec consists of, numbered through.
+// The units of one kind, numbered from 0.
 struct UnitKind {
   const char* name;
   int (*count)(const Spec&);
   void (*remove)(Spec&, int first, int count);
 };
 
-// From coarse to fine: sequences, interrupts, clips, actions; the surroundings; swapped parts, parameters.
+// Returns all kinds of units, from coarse to fine: sequences, interrupts, clips, actions; the surroundings; swapped
+// parts, parameters.
 std::span<const UnitKind> unit_kinds();
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// The failures of a run on their way to a bucket: which ones are to be run again and shrunk, in which order, and how
-// the answers of the workers are processed.
+// The queue of a run's failures on their way to buckets. It decides which ones are run again and shrunk, and in which
+// order, and it processes the workers' answers.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ class FailureQueue {
   // Records the outcome of a job that next() gave.
   void take(const FailureJob& job, const WorkerEvent& event);
 
-  // The case crashed once and not when it was run again.
+  // Records a case that crashed once, and not when it was run again.
   void keep_ending_of_once(const Case& ended, const Lineage& lineage);
 
   // Paths of leads that were not shrunk in time.

@@ -20,8 +20,8 @@ class Features {
   const Profile& profile() const { return profile_; }
   // "slot", "action" or "ground" with a name, "interrupt", "swap", "object", "obstacle", "blend", "speed", "stretch".
   bool omits(std::string_view kind, std::string_view name = {}) const;
-  // The list without features that are not allowed. If none is left, those that the profile alone allows; if none of
-  // those is left either, the whole list.
+  // Returns the list without features that are not allowed. If none is left, it returns those that the profile allows;
+  // if none of those is left either, the whole list.
   template <class T, class NameOf>
   std::vector<T> among(const std::vector<T>& list, std::string_view kind, const std::vector<std::string>& allowed,
                        const NameOf& name_of) const;

@@ -19,8 +19,8 @@
 namespace contort {
 
 inline constexpr int kIslands = 64;
-inline constexpr int kGeneration = 4;                  // cases of one island between two uses of its pools
-inline constexpr int kRound = kIslands * kGeneration;  // cases of a run between two uses
+inline constexpr int kGeneration = 4;                  // cases of one island between two updates of its pools
+inline constexpr int kRound = kIslands * kGeneration;  // cases of a run between two updates of the pools
 
 inline constexpr int kTargetGroups = 8;
 
@@ -55,8 +55,8 @@ struct TargetPool {
 
 class Island {
  public:
-  // The ancestry of case `index`: a mutation of a case of a promising pool, if there is one and the case is to be
-  // guided.
+  // Returns the ancestry of case `index`. If the case is to be guided and there is a promising pool, it is a mutation
+  // of a case of that pool.
   Lineage lineage_of(const Odds& odds, std::int64_t index) const;
 
   // Records the results of a case. Must be called in the order of cases.

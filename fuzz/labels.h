@@ -10,11 +10,12 @@
 
 namespace contort {
 
-// An action, and each phase in which it moved its part, once for each use; the others once. The execution is the
-// spec's; phases and pairs are known where the generator says its intent.
+// Returns the labels of a spec and its execution. An action, and each phase in which it moved its part, is listed once
+// for each use; all other labels once. Phases and pairs are known only if the generator gives an intent.
 std::vector<std::string> labels_of(const Spec& spec, Generator& generator, const Execution& execution);
 
-// "action reach (ik) on arm_left", "pair pose + reach on arm_left": all that cases of this character could be made of.
+// Returns all labels of actions and pairs that cases of this character could have, such as "action reach (ik) on
+// arm_left" and "pair pose + reach on arm_left".
 std::set<std::string> possible_labels(Generator& generator, const Character& character);
 
 }  // namespace contort

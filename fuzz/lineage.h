@@ -1,7 +1,7 @@
 // The origin of cases. A case is its ancestry, the indices of the cases that it was made from, and its own index last.
 // In a staged run these are the singles whose actions it combines (stages.h). In other runs the oldest was drawn, and
-// every other is a mutation of the one before, thrown with dice keyed by its own index. So nothing but indices has to be
-// kept, sent or stored to make any case of a run again.
+// every other is a mutation of the one before, with random numbers keyed by its own index. So indices are all that must
+// be kept, sent or stored to make any case of a run again.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Field lists (json_fields.h) of what workers are asked and answer. Included from .cpp files only.
+// Field lists (json_fields.h) of the workers' tasks and answers. Included from .cpp files only.
 #pragma once
 
 #include "corpus/case_fields.h"
@@ -82,6 +82,7 @@ void fields(V& v, const EvaluateReport*) {
   v.field("near", &EvaluateReport::near, {.max_count = 100'000}, "Near misses.");
   v.field("waivers", &EvaluateReport::waivers, {.max_count = 1000}, "Use of each.");
   v.field("against", &EvaluateReport::against, {}, "Comparison with the base.");
+  v.field("refusal", &EvaluateReport::refusal, message_rules::kProse, "Why the spec does not build.");
 }
 
 template <class V>

@@ -15,10 +15,10 @@
 
 namespace contort {
 
-// Run a case.
+// Task: run a case.
 struct EvaluateTask {
   Lineage lineage;
-  Family ends{};  // the crash, timeout or memory by which the case ends this build: only the base runs it; else empty
+  Family ends{};  // set if the case ends this build (crash, timeout, memory), so that only the base runs it
   bool operator==(const EvaluateTask&) const = default;
 };
 
@@ -28,31 +28,32 @@ struct EvaluateReport {
   int frames = 0;
   std::string motion_hash;
   std::vector<std::string> tested;  // labels of the actions, parts and so on that the case uses
-  std::vector<Family> broken;       // by their first frame, then the deepest in its check's scale
-  std::vector<NearMiss> near;       // of the subjects of the island's group
+  std::vector<Family> broken;       // sorted by first frame, then by depth in the check's scale, the deepest first
+  std::vector<NearMiss> near;       // near misses of the subjects of the island's group
   std::vector<WaiverUse> waivers;
   std::optional<Comparison> against{};  // only in a run that compares two builds
+  std::string refusal{};                // the reason why the spec did not build
   bool operator==(const EvaluateReport&) const = default;
 };
 
-// The families of `broken` that a run counts: all, or those that broke or got worse against the base.
+// Returns the families of `broken` that a run counts: all, or, with a base, those that broke or got worse.
 std::vector<Family> counted_families(const EvaluateReport& report);
 
-// Process a failure of a case: run it again, store it as a lead, shrink it.
+// Task: process a failure of a case. Run it again, store it as a lead, shrink it.
 struct SettleTask {
   Lineage lineage;
   Family family;
-  int rank = 0;             // of the family among those of the case, by first frame
-  std::string motion_hash;  // of the first run
+  int rank = 0;             // position of the family among those of the case, by first frame
+  std::string motion_hash;  // hash of the motion in the first run
   bool guarded = false;     // the case, or a candidate of its shrinking, has ended a process before
-  bool shrinks = true;      // false: there is no time; the lead waits
-  std::string base_hash{};  // of the base's first motion, in a run that compares
+  bool shrinks = true;      // false: there is no time to shrink, and the lead waits
+  std::string base_hash{};  // hash of the base's first motion, in a run that compares
   bool operator==(const SettleTask&) const = default;
 };
 
-// Shrink a lead that waits because the time of a run was up.
+// Task: shrink a lead that waits because the time of a run was up.
 struct ShrinkTask {
-  std::string lead;      // path of its original
+  std::string lead;      // path of the lead's original
   bool guarded = false;  // a candidate ended a process before
   bool operator==(const ShrinkTask&) const = default;
 };
@@ -63,19 +64,20 @@ struct SettledLead {
   bool confirmed = false;  // the second run was equal to the first in every bit
   std::vector<Lead> incidental;
   std::vector<Lead> incidental_unconfirmed;  // failures that did not happen again
-  std::vector<Family> incidental_of_base{};  // endings that the base shows as well: they do not count
+  std::vector<Family> incidental_of_base{};  // crashes, timeouts and memory failures that the base shows as well: they
+                                             // do not count
   bool operator==(const SettledLead&) const = default;
 };
 
 struct SettleReport {
   SettledLead settled;
-  std::string issue;  // it could not be written: code and text
+  std::string issue;  // code and text if the lead could not be written; else ""
   bool operator==(const SettleReport&) const = default;
 };
 
 struct ShrinkReport {
   std::optional<SettledLead> shrunk;  // empty if another process has taken the lead
-  std::string issue;                  // it could not be written: code and text
+  std::string issue;                  // code and text if the lead could not be written; else ""
   bool operator==(const ShrinkReport&) const = default;
 };
 

@@ -11,17 +11,17 @@ namespace contort {
 
 // The greatest lengths of lists; lists of draws are shorter.
 inline constexpr std::size_t kMostSequences = 3;
-inline constexpr std::size_t kMostClips = 4;    // of a sequence
-inline constexpr std::size_t kMostActions = 6;  // of a clip
+inline constexpr std::size_t kMostClips = 4;    // the most clips in a sequence
+inline constexpr std::size_t kMostActions = 6;  // the most actions in a clip
 inline constexpr std::size_t kMostInterrupts = 6;
 
-// Appends everything that another draw has: its actions to the clips, and its clips, sequences and interrupts after the
-// present ones, as far as there is room. The result is interrupted if one of the two is, and has as many loads and
-// blows as the one with more of them. So more features meet in one case.
+// Overlays another draw, so that more features meet in one case. Its actions are appended to the clips, and its clips,
+// sequences and interrupts to the present ones, as far as there is room. The result has interrupts if one of the two
+// has them, and as many loads and blows as the one with more of them.
 void overlay(RawSpec& raw, const RawSpec& mate);
 
-// Sets every fourth number of actions, of times of clips, and of the ground to an end of its range: many faults are
-// there, and even draws rarely are.
+// Sets every fourth number of actions, of times of clips, and of the ground to an end of its range: many faults are at
+// the ends, which evenly drawn numbers rarely reach.
 void go_to_corners(RawSpec& raw, Dice& dice);
 
 // Leaves out half of all features (features.h).

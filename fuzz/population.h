@@ -23,11 +23,11 @@ class Population {
   // Codes of build_character and Generator::admit if the case does not build any more.
   static Result<Population> like(const Case& minimal, Generator& generator);
 
-  // Draw `index`; none if the generator refuses it. Equal indices give equal requests.
+  // Returns draw `index`; empty if the generator refuses it. Equal indices give equal requests.
   std::optional<DrawnRequest> draw(Generator& generator, std::int64_t index) const;
 
  private:
-  // The character, as it is or with another part in one slot, and what its parts can do.
+  // The character, unchanged or with another part in one slot, and the actions of its parts.
   struct Variant {
     CharacterChoice choice;
     Character character;
@@ -46,7 +46,7 @@ class Population {
 
   Spec base_;
   std::vector<std::string> needs_;
-  std::vector<Variant> variants_;  // the case's own first
+  std::vector<Variant> variants_;  // the case's own character comes first
   std::vector<SpecField> setting_;  // numbers of the setting that are not at their defaults
 };
 

@@ -1,8 +1,8 @@
 // Chooses the name of a failure that occurs together with others.
 //
 // One fault often breaks several limits at the same time: a knee that snaps straight is too fast, and so is its hip,
-// which pops, and the foot leaves its place. Whichever of them a case was shrunk for, the minimal spec shows all of
-// them. Of the failures at that time which are at least as deep, the earliest names them all
+// which pops, and the foot leaves its place. The minimal spec shows all of them, whichever one it was shrunk for. So
+// the earliest failure that is near in time and at least as deep gives all of them their name
 // (docs/internals/shrinking.md, "Who names it").
 #pragma once
 
@@ -22,8 +22,8 @@ namespace contort {
 inline constexpr double kOneTime_s = 0.2;
 
 // Chooses, from the other families of one motion, the earliest that occurs together with `shown` and is at least as
-// deep (in each check's scale); among equally early ones the deepest, and among these one about broken numbers. It
-// never chooses a family that was left before. Null if `shown` itself is the earliest.
+// deep (in each check's scale); among equally early ones the deepest, and among these a check of broken numbers. It
+// never chooses a family in `left`. Null if `shown` itself is the earliest.
 const Case* precursor_of(const Case& shown, const std::vector<Case>& others, const std::set<Family>& left = {});
 
 using ShrinkStep = std::function<Shrunk(const Case& original, const PrimarySearch& search)>;

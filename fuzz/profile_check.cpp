@@ -62,7 +62,7 @@ Result<Done> check_known(const std::vector<std::string>& names, const std::set<s
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!known.contains(names[i]))
       return Issue{"profile.unknown_name", pointer + "/" + std::to_string(i),
-                   quoted(names[i]) + " is none of the library's " + kind + did_you_mean(names[i], joined(known))};
+                   quoted(names[i]) + " is not one of the library's " + kind + did_you_mean(names[i], joined(known))};
   return Done{};
 }
 

@@ -1,5 +1,5 @@
-// A spec as bounded whole numbers, and how each is read as a choice. Every raw spec composes to a spec that builds, so
-// drawing, mutating and crossing them needs no repair.
+// A spec as bounded whole numbers, and the functions that read each number as a choice. Every raw spec composes to a
+// spec that builds, so drawing, mutating and crossing them needs no repair.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ inline constexpr std::size_t kRawParts = 16;
 inline constexpr std::size_t kRawObjects = 4;
 inline constexpr std::size_t kRawGround = 16;
 inline constexpr std::size_t kRawDynamics = 24;
-inline constexpr std::size_t kLoadCount = 1, kBlowCount = 2;  // among those: a greater number makes more loads or blows
+inline constexpr std::size_t kLoadCount = 1, kBlowCount = 2;  // positions of two of these numbers: greater values make
+                                                              // more loads or blows
 
 struct RawAction {
   int slot = 0;
@@ -40,7 +41,7 @@ struct RawClip {
 
 struct RawInterrupt {
   int event = 0;
-  int what = 0;  // the frame, the clip, the sequence
+  int what = 0;  // the event's parameter: a frame, a clip or a sequence
   int enter = 0;
   int after = 0;
   int resume = 0;
@@ -53,7 +54,7 @@ struct RawSpec {
   int hold = 0;
   int interrupted = 0;
   int obstacle = 0;
-  int omitted = 0;  // not 0: half of all features are left out, and this says which (features.h)
+  int omitted = 0;  // if not 0, half of all features are left out, chosen by this number (features.h)
   std::array<int, kRawGround> ground{};
   std::array<int, kRawParts> parts{};
   std::array<int, kRawObjects> objects{};
@@ -75,7 +76,7 @@ inline int between(int raw, int low, int high) {
   return low + static_cast<int>(pick(raw, static_cast<std::size_t>(high - low + 1)));
 }
 
-// Returns true if raw falls into this share of the lattice.
+// Returns true for this fraction of all raw numbers: reads the number as a decision with these odds.
 inline bool happens(int raw, double odds) { return raw < odds * kLattice; }
 
 }  // namespace contort

@@ -1,5 +1,5 @@
-// The cases between two updates of the search: which of them to give out next, and their results. Results come back in
-// any order, and are folded in the order of the cases.
+// A round: the cases between two updates of the search. It chooses the next case for a worker and collects the results,
+// which arrive in any order and are processed in the order of the cases.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace contort {
 struct RoundCase {
   Lineage lineage;
   std::optional<EvaluateReport> report{};
-  std::optional<Case> ended_once{};  // how it ended its process the first time, if it did not the second time
-  bool ends_process = false;         // it ended its process both times
+  std::optional<Case> ended_once{};  // the failure of the first run if it ended its process, but the second run did not
+  bool ends_process = false;         // both runs ended their process
   Family ends{};                     // the way in which it ended its process, if the base must run it too
 };
 
@@ -24,7 +24,7 @@ class Round {
   explicit Round(bool asks_base = false) : asks_base_(asks_base) {}
   void add(const Lineage& lineage);
 
-  // The next case for a worker, by its place; cases that are to be tried again go first.
+  // Returns the place of the next case for a worker; cases that are to be tried again go first.
   std::optional<int> next();
   EvaluateTask task(int place) const;
 

@@ -20,14 +20,15 @@ struct RuleSample {
   bool fails = false;
 };
 
-// The best rule of one or two conjunctions with at most kMostComparisons comparisons in all, at least one in each. None
-// if all samples fail, if none does, or if no comparison is better than calling everything a failure.
+// Returns the best rule of one or two conjunctions with at most kMostComparisons comparisons in all, at least one in
+// each. It returns no rule if all samples fail, if no sample fails, or if no comparison is better than calling
+// everything a failure.
 std::optional<std::vector<Conjunction>> learn_rule(std::span<const RuleSample> samples);
 
-// Whether a rule holds for a request, by the comparison of known.h.
+// Returns true if a rule holds for a request, by the comparison of known.h.
 bool rule_holds(const std::vector<Conjunction>& any_of, const SpecRequest& request);
 
-// The decimal number with the fewest digits that lies between two others, low < high; of several, the one in the middle.
+// Returns the decimal number with the fewest digits between two others, low < high; of several, the one in the middle.
 double shortest_between(double low, double high);
 
 }  // namespace contort

@@ -35,19 +35,19 @@ struct RunConfig {
   int shrinks_per_family = 2;  // failures of one family that are shrunk; later ones are only counted
   int shrinks_per_case = 4;    // families of one case that are shrunk, the earliest first; the others are only counted
   bool resume = false;         // continue a run with the same options that was stopped
-  WorkerLimits limits;         // of one case
+  WorkerLimits limits;         // limits of one case
   ShrinkConfig shrink;
   double shrink_time_s = 0.0;  // stop each shrink after this time; 0: no limit
   CheckSettings checks;
   std::optional<AgainstConfig> against;  // only failures that the base does not show count
-  std::string surroundings;  // id of everything that all cases depend on; another id is another run
+  std::string surroundings;  // id of everything on which all cases depend; a different id means a different run
   std::string tool;      // version, for provenance
   std::string generator{};        // name of the program under test, for provenance; "": the built-in generator
   std::string generator_build{};  // its build
   double deadline_s = 0.0;  // on the steady clock; set by the run
 };
 
-// Whether case `index` is a seed. It has no numbers that could be mutated, so nothing is drawn from it.
+// Returns true if case `index` is a seed. A seed has no raw numbers, so no other case is made from it.
 inline bool is_seed(const RunConfig& config, std::int64_t index) { return index < std::ssize(config.seeds); }
 
 struct RunProgress {
@@ -64,14 +64,14 @@ struct RunProgress {
 struct FailingCase {
   std::int64_t index = 0;
   std::string arm;                    // "guided"
-  std::vector<Family> families;       // in the order of their first frames; against a base, those that count
+  std::vector<Family> families;       // in the order of their first frames; with a base, only those that count
   Spec spec;
 };
 
 struct RunResult {
   RunRecord record;
   double elapsed_s = 0.0;
-  std::vector<WaiverUse> waivers;          // of the settings: findings that each one hid
+  std::vector<WaiverUse> waivers;          // for each waiver of the settings, the findings that it hid
   std::vector<std::string> new_buckets;    // folders
   std::vector<std::string> known_buckets;  // folders that existed before this run
   std::vector<std::string> unconfirmed;    // leads whose second run differed
@@ -81,18 +81,19 @@ struct RunResult {
   Issue issue;                             // the corpus could not be written; code "" if there was no error
 };
 
-// "seed_7_0123abcd". Another seed, profile or generator, other characters, seeds or limits are another run.
+// Returns the name of the run, "seed_7_0123abcd". It differs for another seed, profile or generator, and for other
+// characters, seed specs or limits.
 std::string run_name(const RunConfig& config);
 
-// The provenance of a case that the run drew.
+// Returns the provenance of a case that the run drew.
 Provenance provenance_in(const RunConfig& config, std::int64_t index);
 
-// A case of the run, by its ancestry.
+// Makes a case of the run again from its ancestry.
 Spec spec_of(const RunConfig& config, Generator& generator, const Lineage& lineage);
 
-// `progress` is called now and then. `stop` is called often; when it returns true, the run ends early and keeps its
-// findings. `failing`, if given, is called with each failing case in the order of indices; after a resume, with some of
-// them again. The caller must have no other threads.
+// Runs the cases. `progress` is called a few times per second. `stop` is called often; when it returns true, the run
+// ends early and keeps its findings. `failing`, if given, is called with each failing case in the order of indices;
+// after a resume, with some of them again. The caller must have no other threads.
 RunResult run_fuzz(const RunConfig& config, Generator& generator, const Corpus& corpus,
                    const std::function<void(const RunProgress&)>& progress, const std::function<bool()>& stop,
                    const std::function<void(const FailingCase&)>& failing = {});

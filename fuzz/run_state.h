@@ -14,7 +14,7 @@
 namespace contort {
 
 struct RunState {
-  std::string plan;       // the options of the run; other options are another run
+  std::string plan;       // the options of the run; other options mean another run
   std::int64_t next = 0;  // first case of the next round
   RunRecord record;
   std::vector<Island> islands = std::vector<Island>(kIslands);
@@ -29,13 +29,12 @@ struct RunState {
 std::string state_path(const Corpus& corpus, const RunRecord& record);
 Result<Done> keep_state(const Corpus& corpus, const RunState& state);
 
-// Returns no state if none was kept. A corpus from somebody else may hold a state from somebody else, so that paths in
-// it must stay inside. Codes state.wrong_format (of another version), state.other_plan, state.other_run, file.*,
-// json.*.
+// Returns no state if none was kept. A state in a corpus from somebody else is not trusted, so paths in it must stay in
+// the corpus. Codes state.wrong_format (of another version), state.other_plan, state.other_run, file.*, json.*.
 Result<std::optional<RunState>> load_state(const Corpus& corpus, const RunRecord& record, const std::string& plan);
 void drop_state(const Corpus& corpus, const RunRecord& record);
 
-// One process at a time may do a run; held until destroyed, or until the process ends in any way.
+// A lock, so that only one process at a time executes a run. It is held until it is destroyed or the process ends.
 class RunLock {
  public:
   // Code run.busy.

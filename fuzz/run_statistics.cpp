@@ -29,12 +29,14 @@ void add_case(const Comparison& comparison, std::int64_t index, AgainstCounts& c
 
 }  // namespace
 
-void RunStatistics::count(const EvaluateReport& report, bool fails, const std::string& strategy_name) {
+void RunStatistics::count(const EvaluateReport& report, std::int64_t index, bool fails,
+                          const std::string& strategy_name) {
   RunRecord& record = state_.record;
   StrategyCount& strategy = record.arms[strategy_name];
   ++record.cases, ++strategy.cases;
   record.frames += report.frames;
   record.discarded += !report.built;
+  if (!report.built) count_refusal(report.refusal, index, record.refusals);
   record.failing += fails, strategy.failing += fails;
   for (const std::string& label : report.tested) ++record.tested[label];
   add_uses(report.waivers, state_.waivers);
@@ -65,7 +67,7 @@ std::vector<SettleTask> RunStatistics::add(const RoundCase& one) {
   const std::int64_t index = one.lineage.back();
   const std::string strategy_name = strategy_of_case(one.lineage);
   const std::vector<Family> counted = counted_families(report);
-  count(report, !counted.empty(), strategy_name);
+  count(report, index, !counted.empty(), strategy_name);
   if (report.against && state_.record.against) add_case(*report.against, index, *state_.record.against);
   learn(one.lineage, report);
   std::vector<SettleTask> wanted;

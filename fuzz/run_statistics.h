@@ -16,16 +16,16 @@ class RunStatistics {
   // Both must live as long as this.
   RunStatistics(const RunConfig& config, RunState& state) : config_(config), state_(state) {}
 
-  // A case that has its report, in the order of cases. Gives the failures to be settled: of the first cases of each
-  // family those that are among the earliest of their case.
+  // Adds the report of a case; cases must come in order. Returns the failures to be processed: those of the first cases
+  // of each family that are among the earliest of their case.
   std::vector<SettleTask> add(const RoundCase& one);
 
-  // "guided", "seed"
+  // Returns the way in which a case was made: "guided", "seed".
   std::string strategy_of_case(const Lineage& lineage) const;
 
  private:
   void learn(const Lineage& lineage, const EvaluateReport& report);
-  void count(const EvaluateReport& report, bool fails, const std::string& strategy_name);
+  void count(const EvaluateReport& report, std::int64_t index, bool fails, const std::string& strategy_name);
   bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name);
 
   const RunConfig& config_;

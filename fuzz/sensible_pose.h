@@ -1,5 +1,5 @@
-// Poses as an author would draw them. Values drawn over the whole ranges of joints put hands through chests, and such a
-// pose says nothing about the generator, which plays it as it is.
+// Poses as an author would draw them. Values drawn over the whole ranges of joints put hands through chests, and the
+// generator plays such a pose as it is, so its collisions are not the generator's fault.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace contort {
 
-// Whether a part carries a sole, on itself or below. A random pose of it drags a foot over the ground.
+// Returns true if the part, or a part that it carries, has a sole. A random pose of it drags a foot over the ground.
 bool carries_sole(const Character& character, int part);
 
-// Brings the joint values in use.params (those of Domain::joint_range) back towards rest, by halves, until on the way
-// there from rest no body of the figure meets another one, the ground or an obstacle. After four halves, the values are
-// those of rest. The figure stands at rest otherwise.
+// Moves the joint values in use.params (those of Domain::joint_range) towards rest, halving them until no body of the
+// figure collides with another one, the ground or an obstacle on the way from rest to the pose. After four halvings,
+// the values are those of rest. All other joints are at rest.
 void make_sensible(const Character& character, const Part& part, const std::vector<ParamDef>& params,
                    const Environment& environment, ActionUse& use);
 

@@ -68,7 +68,7 @@ Result<Shard> parse_shard(const std::string& text) {
   const std::optional<int> index = whole_number(std::string_view(text).substr(0, slash));
   const std::optional<int> count =
       slash == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(slash + 1));
-  if (!index || !count) return Issue{"shard.syntax", "", "\"" + text + "\" is no shard; write K/N, as in 3/16"};
+  if (!index || !count) return Issue{"shard.syntax", "", "\"" + text + "\" is not a shard; write K/N, as in 3/16"};
   return checked(*index, *count, "--shard " + text);
 }
 

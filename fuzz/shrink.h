@@ -21,20 +21,20 @@ namespace contort {
 // Options of a shrink on the way to the precursor (precursor.h). If the result has a precursor, free fields and the
 // worst case are not computed for it.
 struct PrimarySearch {
-  std::optional<Spec> begin_with;  // tried first: the minimal spec of another failure of the same case
+  std::optional<Spec> begin_with;  // the candidate to try first: the minimal spec of another failure of the same case
   std::set<Family> left;           // families that were shrunk before; none of them is the precursor again
 };
 
 struct ShrinkConfig {
-  int max_evaluations = 2000;  // of all stages together
+  int max_evaluations = 2000;  // for all stages together
   // A candidate must stay at least this deep, as a fraction of the original depth. Without a floor, shrinking ends at
   // tiny violations, which look like noise.
   double depth_floor = 0.5;
   CheckSettings checks;  // the settings with which the failure was found
-  Isolation isolation;   // for cases that end their process
+  Isolation isolation;   // limits for cases that end their process
   BaseBuild* base = nullptr;   // candidates must count against this build by `rules`; null: no comparison
   CompareRules rules;
-  bool guarded = false;  // a candidate is known to end its process: each is tried in another one first
+  bool guarded = false;  // a candidate is known to end its process, so each is first tried in another process
   BeforeRun before_run;  // may be empty
   std::function<bool(const Spec&)> allowed;  // candidates for which it is false are not tried; may be empty
   std::optional<PrimarySearch> search;              // the caller continues with the precursor
@@ -42,11 +42,12 @@ struct ShrinkConfig {
 };
 
 struct Shrunk {
-  Case original;  // as it was confirmed
+  Case original;  // the original case as it was confirmed
   Case minimal;
-  Case worst;                     // the structure of minimal, with the numbers that made it deepest
+  Case worst;                     // the structure of `minimal`, with the numbers that make the failure deepest
   std::vector<Case> met;          // for each family that the original does not show, the cheapest spec seen
-  std::optional<Case> precursor;  // of minimal (precursor.h), as the original shows it, or else as minimal does
+  std::optional<Case> precursor;  // the precursor of `minimal` (precursor.h), in the original if that shows it, else in
+                                  // `minimal`
   std::string stopped;            // fixpoint, evaluations, time; or nothing was shrunk: flaky, gone
   int evaluations = 0;            // motions generated
 };
@@ -55,7 +56,7 @@ struct Shrunk {
 // other processes; then the caller must have only one thread.
 Shrunk shrink(const Case& original, Generator& generator, const ShrinkConfig& config);
 
-// The same with any way of running specs. The generator knows the limits of parameters.
+// Shrinks with any way of running specs. The generator is needed for the limits of parameters.
 Shrunk shrink_with(Trial& trial, const Case& original, Generator& generator, const ShrinkConfig& config);
 
 }  // namespace contort

@@ -6,8 +6,8 @@ namespace contort {
 
 class ShrinkState;
 
-// Keeps only the actions that moved a part of the subject in the worst frame; else those that moved then; else those
-// that had begun.
+// Keeps only the actions that moved a part of the subject in the worst frame. If the failure then does not show, it
+// keeps the actions that moved any part in that frame, or else those that had begun.
 void cut_time(ShrinkState& state);
 
 // Sets everything around the actions to its default in one step: parts, surroundings, dynamics.

@@ -37,7 +37,7 @@ class ShrinkState {
   // Adds a case of a family that the original does not show.
   void meet(const Case& other);
 
-  // From now on motions may have this many frames, even if the original has fewer.
+  // Allows motions of this many frames from now on, even if the original has fewer.
   void allow_frames(int most_frames) { most_frames_ = most_frames; }
 
   // The fields of a spec that has the character of best().
@@ -48,7 +48,7 @@ class ShrinkState {
   bool halted() const { return stopped_ != "fixpoint"; }
   const Spec& spec() const { return best_.spec; }
   const Case& best() const { return best_; }
-  const TrialResult& shown() const { return shown_; }  // of best()
+  const TrialResult& shown() const { return shown_; }  // the result of best()
   double depth() const { return shown_.depth; }
   const std::string& stopped() const { return stopped_; }
   int evaluations() const { return evaluations_; }
@@ -57,7 +57,7 @@ class ShrinkState {
   // Other families that both the original and the smallest spec show, at least as deep as the family itself must stay.
   std::vector<Family> still_shown(const std::vector<Case>& others) const;
 
-  // Such a family as the original shows it, or else as the smallest spec does.
+  // Returns such a family as a case of the original, or else of the smallest spec.
   Case before(const Case& other) const;
 
  private:
@@ -69,7 +69,7 @@ class ShrinkState {
   Case best_;
   TrialResult shown_;
   double least_depth_ = 0.0;
-  BaseShows most_ = BaseShows::milder;   // a candidate must not be less clear a regression than the smallest spec
+  BaseShows most_ = BaseShows::milder;   // a candidate must be at least as clear a regression as the smallest spec
   int most_frames_ = kMaxFrames;         // a smaller spec must not take longer than the original
   std::map<std::string, double> tried_;  // depth by the spec's text; -1: does not fail in the family
   std::map<Family, Case> beside_;        // the original's other families

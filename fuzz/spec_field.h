@@ -12,7 +12,7 @@
 namespace contort {
 
 struct SpecField {
-  std::string pointer;  // into the spec
+  std::string pointer;  // JSON pointer into the spec
   bool is_number = false;
   // If the field is a number: present value, default, and the range in which other values make sense. Motions of 36000
   // frames are allowed but useless, so frames, weights and blows go up to twice their present value.
@@ -20,8 +20,8 @@ struct SpecField {
   double preset = 0.0;
   double low = 0.0;
   double high = 0.0;
-  double steps_per_unit = 1.0;     // of the grid on which values stay
-  std::vector<std::string> words;  // if it is a choice: all allowed words
+  double steps_per_unit = 1.0;     // grid on which values stay
+  std::vector<std::string> words;  // for a choice: all allowed words
   bool operator==(const SpecField&) const = default;
 };
 

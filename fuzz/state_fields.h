@@ -1,4 +1,4 @@
-// Field lists (json_fields.h) of what a run keeps. Included from .cpp files only.
+// Field lists (json_fields.h) of the state that a run keeps. Included from .cpp files only.
 #pragma once
 
 #include "corpus/run_fields.h"

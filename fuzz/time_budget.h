@@ -14,10 +14,10 @@ class TimeBudget {
   double elapsed_s(double now_s) const { return now_s - start_s_; }
   bool is_over(double now_s) const { return is_limited() && now_s >= deadline_s(); }
 
-  // Half of the run's time at most is for what earlier ones left.
+  // At most half of the run's time is used for failures that earlier runs left.
   bool has_time_for_waiting(double now_s) const { return !is_limited() || now_s < start_s_ + 0.5 * limit_s_; }
 
-  // Half of the time that is left when the last round begins is for what it finds.
+  // When the last round begins, half of the remaining time is reserved for processing its failures.
   void begin_round(double now_s) { fold_at_s_ = 0.5 * (now_s + deadline_s()); }
   bool must_fold(double now_s) const { return is_limited() && now_s >= fold_at_s_; }
 
@@ -28,7 +28,7 @@ class TimeBudget {
   double fold_at_s_ = 0.0;
 };
 
-// When to keep the state of a run: as often as it costs at most 2 % of the time.
+// Decides when to store the state of a run: as often as possible within 2 % of the time.
 class KeepingPace {
  public:
   explicit KeepingPace(double start_s) : next_s_(start_s + kEvery_s) {}

@@ -1,4 +1,4 @@
-// Runs specs to see what they show of the family that is being shrunk.
+// Runs specs to see whether they show the family that is being shrunk, and how deeply.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ struct TrialResult {
   Expectation expect;
   std::shared_ptr<const Character> character;  // null if the generator runs in another process
   std::vector<ActionSpan> spans;               // the actions that moved parts, and their frames
-  std::vector<Case> met;                       // failures of other families that were seen at no further cost
+  std::vector<Case> met;                       // failures of other families that the same motions showed
   BaseShows base = BaseShows::passes_check;    // the base's result, for a failure that counts against it
-  std::string base_hash{};                     // of the base's motion
+  std::string base_hash{};                     // hash of the base's motion
 };
 
 // Called with each spec, in the process that runs the spec and before it runs. If the process ends, the notes of this

@@ -27,7 +27,7 @@ class BuiltInGenerator final : public Generator {
 
   Manifest manifest_;
   std::map<std::uint64_t, Offers> offers_;  // by the character's hash
-  Spec spec_;                               // that stage_ was built from
+  Spec spec_;                               // the spec from which stage_ was built
   Result<Stage> stage_ = Issue{};
   GenerateScratch scratch_;
 };

@@ -1,4 +1,4 @@
-// Whether what an interrupt waits for holds in a frame. Frames, clips and sequences are the queue's own
+// Decides whether the condition of an interrupt holds in a frame. Frames, clips and sequences are the queue's own
 // (timeline/queue.h).
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// `feedback` is what the actions told, by part; `root` is where the figure is.
+// `feedback` is the report of the actions, by part; `root` is the place of the figure.
 bool condition_holds(const PlannedInterrupt& interrupt, const Stage& stage, std::span<const Feedback> feedback,
               const Rigid& root);
 

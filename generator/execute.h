@@ -1,4 +1,4 @@
-// Stage to Execution: the motion, and what the generator meant by it.
+// Makes an Execution from a Stage: the motion, and the generator's intent.
 #pragma once
 
 #include "generator/generate.h"

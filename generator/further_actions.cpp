@@ -54,9 +54,10 @@ void FurtherActions::begin(const Stage& stage) {
 
 // A search, as a spec may have thousands of aims. They stand in the order of their uses.
 std::span<const FurtherAction> FurtherActions::of_use(int use) const {
-  const std::vector<FurtherAction>& all = stage_->timeline.further;
-  return {std::ranges::lower_bound(all, use, {}, &FurtherAction::of_use),
-          std::ranges::upper_bound(all, use, {}, &FurtherAction::of_use)};
+  const std::span<const FurtherAction> all = stage_->timeline.further;
+  const auto first = std::ranges::lower_bound(all, use, {}, &FurtherAction::of_use);
+  const auto end = std::ranges::upper_bound(all, use, {}, &FurtherAction::of_use);
+  return all.subspan(static_cast<std::size_t>(first - all.begin()), static_cast<std::size_t>(end - first));
 }
 
 int& FurtherActions::acquired_at(const FurtherAction& further) {

@@ -1,5 +1,5 @@
-// Further actions: where a part cannot be directed at its target, the torso that carries it turns, and then the figure
-// steps round (P13 of the seed, docs/internals/aim.md).
+// Further actions: if a part cannot point at its target, the torso that carries it turns, and if that is not enough,
+// the figure steps round (docs/internals/aim.md).
 #pragma once
 
 #include <span>
@@ -18,12 +18,12 @@ class FurtherActions {
   // The frame from which each of them is in force, as Playback takes it.
   std::span<const int> acquired() const { return acquired_; }
 
-  // After a frame: has the next help come for a part whose aim misses its target, or reaches it with a twist. `root` is
-  // shown.
+  // Call it after each frame. If a part's aim misses its target, or reaches it only with a twist, the next further
+  // action starts for it. `root` is shown.
   void ask(const Playback& playback, std::size_t part, std::span<const LayerStack> stacks, RuleRunner& rules,
            const Rigid& root);
 
-  // Whether help for an aim is on its way, and the aim is in force after this frame, too.
+  // Returns true if a further action is helping an aim that remains in force after this frame.
   bool is_coming(const Playback& playback, const LayerHold& aim, std::span<const LayerStack> stacks,
                  const Rigid& root) const;
 

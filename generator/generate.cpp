@@ -15,7 +15,8 @@ namespace contort {
 
 namespace {
 
-constexpr double kHurry = 0.7;  // of the time that a limb takes for a way at ease (way.h)
+constexpr double kHurry = 0.7;      // of the time that a limb takes for a way at ease (way.h)
+constexpr double kGoesOn_s = 0.15;  // the time for which legs are assumed to keep their speed before they go home
 
 class Generation {
  public:
@@ -49,6 +50,8 @@ class Generation {
     s_.added.assign(character_.parts().size(), 0);
     s_.behind.assign(character_.parts().size(), 0);
     s_.held_off.assign(character_.parts().size(), 0);
+    s_.returns.assign(character_.parts().size(), 0);
+    s_.rests.assign(character_.parts().size(), 0);
     s_.free_arm.assign(character_.parts().size(), 0);
     for (int p = 1; p < static_cast<int>(s_.free_arm.size()); ++p)
       s_.free_arm[at(p)] = is_free_arm(character_, stage_.legs, p);
@@ -67,11 +70,16 @@ class Generation {
     s_.carry.begin(stage_, s_.rules.world(), start);
     s_.rules.start_from(start);
     s_.postures.start_from(start);
-    s_.path.begin(character_, start.coords, stage_.rate_hz);
+    s_.path.begin(character_, start.coords, stage_.rate_hz, easy());
     s_.clearance.begin(character_, s_.rules.room());
     s_.past.before = s_.past.earlier = start;
-    s_.wanted = s_.between = start;
-    s_.past.frame_s = 1.0 / stage_.rate_hz;
+    s_.wanted = s_.between = s_.rested = start;
+    s_.past.frame_s = 1.0 / stage_.rate_hz, s_.past.easy = easy();
+  }
+
+  // The accelerations that joints of a figure with mass may have; empty without mass.
+  std::span<const double> easy() const {
+    return stage_.dynamics ? std::span<const double>(stage_.dynamics->easy) : std::span<const double>();
   }
 
   // Sequences after the one that is played alone are left out.
@@ -129,16 +137,18 @@ class Generation {
   void move_part(const Playback& playback, std::size_t p) {
     LayerPostures& layers = s_.postures;
     LayerStack& stack = s_.stacks[p];
-    const LayerStack::Change change = stack.advance(playback, p);
+    const LayerStack::Change change = stack.advance(playback, p, s_.stacks[0].ik());
+    if (change.returns) s_.returns[p] = 1;
     if (change.settles) settle(p);
     if (change.overwrite_begins) begin(playback, stack.overwrite(), p, layers.base, layers.from_overwrite);
     if (stack.overwrite().action >= 0) overwrite(playback, p, change.overwrite_begins);
-    const Posture& present = change.ik_follows || change.ik_restarts ? seen(p) : layers.base;
+    LimbKeeper(stage_, s_).rest(p);
+    const Posture& present = change.ik_follows || change.ik_restarts ? seen(p) : beneath(p);
     if (change.ik_begins || change.ik_restarts) begin(playback, stack.ik(), p, present, layers.from_ik);
     if (stack.ik().action >= 0)
       solve_ik(playback, p, change);
     else
-      copy_part(character_, p, layers.base, layers.plain);
+      copy_part(character_, p, beneath(p), layers.plain);
     copy_part(character_, p, layers.plain, layers.shown);
     if (s_.free_arm[p] != 0 && stack.ik().action < 0 && stack.overwrite().action < 0) swing(playback, p);
     add_additives(playback, p);
@@ -146,6 +156,9 @@ class Generation {
     s_.rules.place(p, layers.shown);
     if (p != 0 && at(limb_at(p).parts.back()) == p) LimbKeeper(stage_, s_).finish(playback, limb_at(p));
   }
+
+  // The posture to which the actions of the other layers add, and to which they fade.
+  const Posture& beneath(std::size_t p) const { return s_.rests[p] != 0 ? s_.postures.stand : s_.postures.base; }
 
   // Arms that have nothing to do swing with the gait.
   void swing(const Playback& playback, std::size_t p) {
@@ -162,7 +175,10 @@ class Generation {
   const Limb& limb_at(std::size_t p) const { return s_.rules.room().limb_of(p); }
 
   // A part's posture with ik in the frame before, without additives.
-  const Posture& seen(std::size_t p) const { return s_.shift[p] != Shift::none ? s_.past.before : s_.postures.plain; }
+  const Posture& seen(std::size_t p) const {
+    const bool is_elsewhere = s_.shift[p] != Shift::none && s_.returns[p] == 0;
+    return is_elsewhere ? s_.past.before : s_.postures.plain;
+  }
 
   // An ik action has ended: the base is what it reached.
   void settle(std::size_t p) {
@@ -193,8 +209,8 @@ class Generation {
     const LayerHold& hold = s_.stacks[p].ik();
     const bool begins = change.ik_begins || change.ik_restarts;
     s_.spans.hold(playback.frame(), planned(playback, hold), change.ik_begins);
-    move(playback, hold, p, s_.postures.from_ik, s_.postures.base, s_.postures.plain);
-    if (begins && takes_its_time(planned(playback, hold))) s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
+    move(playback, hold, p, s_.postures.from_ik, beneath(p), s_.postures.plain);
+    if (begins && !change.returns) take_time_to_come_in(playback, hold, p);
     if (p == 0) remember_soles(playback);
     if (p == 0 && moves_legs(playback, hold)) take_time_to_fade(playback, hold);
     fade(playback, hold, p);
@@ -215,9 +231,18 @@ class Generation {
     blend(playback, hold, p, from, wanted, covered(playback, hold), out);
   }
 
+  // A course of legs that should come in faster than joints can take its legs over comes in as fast as they can.
+  void take_time_to_come_in(const Playback& playback, const LayerHold& hold, std::size_t p) {
+    const PlannedAction& action = planned(playback, hold);
+    if (takes_its_time(action)) return s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
+    if (action.cuts || !moves_legs(playback, hold)) return;
+    const int needs = static_cast<int>(std::ceil(kHurry * way_frames(playback, hold, p)));
+    if (needs > action.blend_in) s_.stacks[p].set_ik_blend(needs);
+  }
+
   // From the posture that the action found to the one that its rule has just made.
   int way_frames(const Playback& playback, const LayerHold& hold, std::size_t p) {
-    double longest_s = way_s(character_, p, s_.postures.from_ik, s_.rules.made());
+    double longest_s = way_s(character_, p, s_.postures.from_ik, s_.rules.made(), easy());
     if (p == 0 && moves_legs(playback, hold)) {
       const WholeBody& body = s_.rules.body(planned(playback, hold));
       for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
@@ -230,22 +255,34 @@ class Generation {
   void take_time_to_fade(const Playback& playback, const LayerHold& hold) {
     const PlannedAction& course = planned(playback, hold);
     if (hold.fade_frames >= 0 || !(course.blend_out > 0.0)) return;
-    double way_home_s = kLeastWay_s;
-    for (const Leg& leg : stage_.legs)
-      for (const int part : {leg.part, leg.foot_part})
-        way_home_s = std::max(way_home_s, way_s(character_, at(part), s_.past.before, s_.postures.base));
+    const double left = course.end - content(playback, hold);
+    if (left < course.blend_out) return;  // it fades already
+    const double way_home_s = std::max(kLeastWay_s, way_home_s_after(std::min(0.5 * left, kGoesOn_s * stage_.rate_hz)));
     const double needs = std::ceil(kHurry * (way_home_s - kLeastWay_s) * stage_.rate_hz);
-    if (needs <= course.blend_out || course.end - content(playback, hold) > needs) return;
+    if (needs <= course.blend_out || left > needs) return;
     for (LayerStack& stack : s_.stacks)
       if (stack.ik().action >= 0 && planned(playback, stack.ik()).use == course.use)
         stack.set_ik_fade(static_cast<int>(needs));
+  }
+
+  // The time that legs take to their base if they first went on for so many frames at the speeds that they have now: a
+  // figure that is still going down has a longer way back.
+  double way_home_s_after(double frames) {
+    double longest_s = 0.0;
+    for (const Leg& leg : stage_.legs)
+      for (const int part : {leg.part, leg.foot_part}) {
+        coast_part(character_, at(part), s_.past.earlier, s_.past.before, frames, s_.between);
+        longest_s = std::max(longest_s, way_s(character_, at(part), s_.between, s_.postures.base, easy()));
+        longest_s = std::max(longest_s, way_s(character_, at(part), s_.past.before, s_.postures.base, easy()));
+      }
+    return longest_s;
   }
 
   void fade(const Playback& playback, const LayerHold& hold, std::size_t p) {
     if (places_foot(playback, hold, p)) return;
     const double left = left_of(playback, hold);
     if (moves_legs(playback, hold) && left < 1.0) s_.carry.bring_along(s_.postures.base.root);
-    blend(playback, hold, p, s_.postures.base, s_.postures.plain, left, s_.postures.plain);
+    blend(playback, hold, p, beneath(p), s_.postures.plain, left, s_.postures.plain);
   }
 
   void blend(const Playback& playback, const LayerHold& hold, std::size_t p, const Posture& a, const Posture& b,
@@ -293,7 +330,8 @@ class Generation {
     s_.behind[p] = 0;
     if (is_cut(playback, stack.overwrite()) || is_cut(playback, stack.ik()))
       s_.path.cut(p, coords);
-    else if (stack.ik().action >= 0 && moves_legs(playback, stack.ik()))
+    else if ((stack.ik().action >= 0 && moves_legs(playback, stack.ik())) ||
+             LimbKeeper(stage_, s_).stays_planted(p))
       s_.path.pass(p, coords);
     else
       s_.behind[p] = s_.path.follow(p, coords);

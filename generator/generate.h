@@ -20,12 +20,13 @@ namespace contort {
 // is in the frame before.
 struct LayerPostures {
   Posture base;            // the result of the overwrite layer
+  Posture stand;           // the base, with feet where they rest although a trunk has moved their hips
   Posture plain;           // with ik, without additives
   Posture shown;           // with all layers
   Posture from_overwrite;  // where the actions that have the layers took over
   Posture from_ik;
 
-  void start_from(const Posture& posture) { base = plain = shown = from_overwrite = from_ik = posture; }
+  void start_from(const Posture& posture) { base = stand = plain = shown = from_overwrite = from_ik = posture; }
 };
 
 // The reason for which a part is elsewhere than its layers have it.
@@ -54,6 +55,9 @@ struct GenerateScratch {
   Past past;                       // the earlier frames
   std::vector<char> free_arm;      // by part: a gait may swing it
   std::vector<Shift> shift;        // by part
+  std::vector<char> returns;       // by part: a leg or foot on its way back to the course that the root follows
+  std::vector<char> rests;         // by part: a leg or foot that `stand` has
+  Posture rested;                  // the base of legs and feet while their feet rested last
   std::vector<int> held_off;       // by the last part of a limb: for how many frames it has been
   Posture wanted;                  // of a limb that lands
   Posture between;                 // on its way

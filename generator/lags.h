@@ -12,7 +12,7 @@ struct Lag {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
   int part = 0;
-  std::optional<Shortfall> why;  // none: the action is coming in or fading out
+  std::optional<Shortfall> why;  // empty: the action is blending in or out
   bool operator==(const Lag&) const = default;
 };
 

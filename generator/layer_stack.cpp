@@ -1,6 +1,7 @@
 #include "generator/layer_stack.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace contort {
@@ -29,6 +30,23 @@ LayerHold next_hold(const Playback& playback, const LayerHold& held, Layer layer
   return best;
 }
 
+// The action by which the course of legs that the root follows moves another part; none if there is no such course.
+LayerHold course_of(const Playback& playback, const LayerHold& root, const LayerHold& held, std::size_t part) {
+  LayerHold course;
+  if (part == 0 || root.action < 0 || !moves_legs(playback, root)) return course;
+  playback.for_each(part, Layer::ik, 0, [&](int run, int action) {
+    if (run == root.run && playback.action(action).use == planned(playback, root).use) course.action = action;
+  });
+  course.run = root.run;
+  course.since = held.since, course.since_action = course.action;
+  return course;
+}
+
+// A leg's own action that fades out while a course goes on has nothing to fade to but the course.
+bool gives_way(const Playback& playback, const LayerHold& hold) {
+  return hold.action < 0 || (!moves_legs(playback, hold) && left_of(playback, hold) < 1.0);
+}
+
 bool is_same(const LayerHold& a, const LayerHold& b) { return a.action == b.action && a.run == b.run; }
 
 // The easing that an action had reached a frame ago, [0, 1].
@@ -43,7 +61,7 @@ bool was_in_force(const Playback& playback, const LayerHold& hold, std::size_t p
 }
 
 double come_in_at_ease(int held_frames, int blend_frames) {
-  if (blend_frames < 0 || held_frames <= 0) return 0.0;
+  if (blend_frames < 0 || (held_frames <= 0 && blend_frames > 0)) return 0.0;
   return held_frames < blend_frames ? ease(static_cast<double>(held_frames) / blend_frames) : 1.0;
 }
 
@@ -54,7 +72,8 @@ const PlannedAction& planned(const Playback& playback, const LayerHold& hold) { 
 int content(const Playback& playback, const LayerHold& hold) { return playback.content(playback.run(hold.run)); }
 
 double come_in(const Playback& playback, const LayerHold& hold) {
-  if (takes_its_time(planned(playback, hold))) return come_in_at_ease(playback.frame() - hold.frame, hold.blend_frames);
+  if (hold.blend_frames >= 0 || takes_its_time(planned(playback, hold)))
+    return come_in_at_ease(playback.frame() - hold.frame, hold.blend_frames);
   return come_in(planned(playback, hold), hold.came, content(playback, hold), playback.frame() - hold.frame,
                  playback.rate_hz());
 }
@@ -80,12 +99,17 @@ bool is_cut(const Playback& playback, const LayerHold& hold) {
 }
 
 bool places_foot(const Playback& playback, const LayerHold& hold, std::size_t part) {
-  return moves_legs(playback, hold) && part != 0 && hold.eased >= 1.0;
+  return moves_legs(playback, hold) && part != 0 && (hold.eased >= 1.0 || come_in(playback, hold) >= 1.0);
 }
 
-LayerStack::Change LayerStack::advance(const Playback& playback, std::size_t part) {
-  const LayerHold ik = next_hold(playback, ik_, Layer::ik, part);
+LayerStack::Change LayerStack::advance(const Playback& playback, std::size_t part, const LayerHold& root) {
+  LayerHold ik = next_hold(playback, ik_, Layer::ik, part);
+  const LayerHold course = course_of(playback, root, ik_, part);
   Change change;
+  if (course.action >= 0 && gives_way(playback, ik)) {
+    ik = course;
+    change.returns = !is_same(ik, ik_);
+  }
   // An action that begins in this frame has moved nothing yet: the one before it ends as if none followed.
   change.ik_follows = ik_.action >= 0 && ik.action >= 0 && ik.since < playback.frame();
   change.settles = ik_.action >= 0 && ik.action != ik_.action && !change.ik_follows &&
@@ -94,6 +118,8 @@ LayerStack::Change LayerStack::advance(const Playback& playback, std::size_t par
   const LayerHold overwrite = next_hold(playback, overwrite_, Layer::overwrite, part);
   change.overwrite_begins = take_over(playback, part, overwrite, overwrite_);
   change.ik_begins = take_over(playback, part, ik, ik_);
+  change.returns |= change.ik_begins && comes_to_course(playback, part);
+  if (change.returns) ik_.eased = 1.0, ik_.blend_frames = 0;
   change.ik_restarts = restart(playback) && !change.ik_begins;
   return change;
 }
@@ -117,9 +143,17 @@ bool LayerStack::take_over(const Playback& playback, std::size_t part, const Lay
     taken.came = playback.comes(action, playback.run(next.run));
     taken.eased = action.def->timing == Timing::goal ? eased_before(playback, taken)
                                                      : static_cast<double>(stands_for(playback, next, part));
+    // An action that had to wait for a frame does not jump by what it would have come in meanwhile.
+    if (moves_legs(playback, next) && action.blend_in > 0.0 && content(playback, next) > taken.came)
+      taken.blend_frames = static_cast<int>(std::ceil(action.blend_in));
   }
   hold = taken;
   return next.action >= 0;
+}
+
+// Whether the action that has just taken the layer ik is a course of legs, and finds the leg or foot elsewhere.
+bool LayerStack::comes_to_course(const Playback& playback, std::size_t part) const {
+  return part != 0 && moves_legs(playback, ik_) && !planned(playback, ik_).cuts && ik_.eased < 1.0;
 }
 
 // Whether a leg or foot is where the last course of legs put it. No action that blends its joints has moved it since.

@@ -15,7 +15,8 @@ struct LayerHold {
   double came = 0.0;      // the content frame at which it took over
   double eased = 0.0;     // [0, 1]
   int restarts = 0;       // of this hold, by restart_ik
-  int blend_frames = -1;  // over which an action comes in that takes its time; -1: not known yet
+  int blend_frames = -1;  // over which an action comes in that takes its time, or a course of legs that needs longer
+                          // than its use says; -1: not known yet, or as the use says
   int fade_frames = -1;   // over which a course of legs fades out that needs longer than it says; -1: it does not
   double since = -1e30;   // when the last action that had the layer began, in frames of the motion
   int since_action = -1;  // that action: none that began earlier gets the layer
@@ -49,13 +50,15 @@ class LayerStack {
     bool ik_begins = false;         // from the base, or,
     bool ik_follows = false;        // where ik had the layer already, from what was shown
     bool ik_restarts = false;       // the same action, from what was shown
+    bool returns = false;           // a leg or foot goes to where its course has it; another action moved it before
     bool operator==(const Change&) const = default;
   };
 
-  // Brings both holds to the playback's frame; frames in rising order.
-  Change advance(const Playback& playback, std::size_t part);
+  // Brings both holds to the playback's frame; frames in rising order. `root` is what holds the layer ik of the root part
+  // in this frame; for that part itself it does not matter.
+  Change advance(const Playback& playback, std::size_t part, const LayerHold& root);
 
-  // Sets the frames in which the action that has just begun comes in, if it takes its time.
+  // Sets the frames in which the action that has just begun comes in.
   void set_ik_blend(int frames) { ik_.blend_frames = frames; }
 
   // Sets the frames in which the course that has the layer ik fades out before its end.
@@ -70,6 +73,7 @@ class LayerStack {
  private:
   bool restart(const Playback& playback);
   bool take_over(const Playback& playback, std::size_t part, const LayerHold& next, LayerHold& hold) const;
+  bool comes_to_course(const Playback& playback, std::size_t part) const;
   bool stands_for(const Playback& playback, const LayerHold& next, std::size_t part) const;
 
   LayerHold overwrite_;

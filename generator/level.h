@@ -1,4 +1,4 @@
-// One level of a spec: a sequence or a clip alone, from the state that those before it have left (P11 of the seed).
+// One level of a spec: a sequence or a clip that is played alone, from the state that the earlier ones leave.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// Follows the queue until the level is over. The whole spec has no level and never begins one.
+// Follows the queue until the level is over. If the whole spec is played, no level ever begins.
 class LevelPlay {
  public:
   void begin(const Level& level);
@@ -18,9 +18,9 @@ class LevelPlay {
   bool has_begun() const { return first_frame_ >= 0; }
   int first_frame() const { return first_frame_; }  // -1 before it has begun
   bool is_over() const { return is_over_; }
-  int last_frame() const { return last_frame_; }  // so far
+  int last_frame() const { return last_frame_; }  // the last frame so far
 
-  // Whether an action is not of the level, and leaves its part where it is in the level's first frame.
+  // Returns true if an action is not part of the level, so that its part stays where it is in the level's first frame.
   bool is_left_out(const PlannedAction& action, int frame) const {
     return has_begun() && frame > first_frame_ &&
            (action.sequence != level_.sequence || (level_.clip >= 0 && action.clip != level_.clip));

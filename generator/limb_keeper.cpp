@@ -26,7 +26,14 @@ bool carries(const Character& character, int joint, int other) {
 bool LimbKeeper::makes_way(const Playback& playback, std::size_t p) const {
   const LayerHold& ik = s_.stacks[p].ik();
   if (ik.action >= 0) return !moves_legs(playback, ik) && !is_cut(playback, ik);
-  return s_.added[p] != 0;
+  return s_.added[p] != 0 || swings_at_obstacles(playback, p);
+}
+
+// An arm that swings with a gait keeps clear of walls that the figure goes along; its own body is no danger to it.
+bool LimbKeeper::swings_at_obstacles(const Playback& playback, std::size_t p) const {
+  const LayerHold& gait = s_.stacks[0].ik();
+  return s_.free_arm[p] != 0 && s_.stacks[p].overwrite().action < 0 && gait.action >= 0 &&
+         moves_legs(playback, gait) && !stage_.environment.obstacles().empty();
 }
 
 // The limb's last action is over, and the limb is still on its way to its base.
@@ -58,6 +65,7 @@ bool LimbKeeper::acts(const Playback& playback, const Limb& limb) const {
 // As of now for limbs that are finished, else with the shift of the frame before.
 LegUse LimbKeeper::use_of(const Playback& playback, const Limb& limb) const {
   if (acts(playback, limb)) return LegUse::acts;
+  if (returns(limb)) return LegUse::lands;
   if (std::ranges::any_of(limb.parts, [&](int p) { return comes_back(at(p)); })) return LegUse::lands;
   const bool is_placed = std::ranges::any_of(limb.parts, [&](int p) {
     return s_.stacks[at(p)].overwrite().action >= 0 || s_.stacks[at(p)].ik().action >= 0;
@@ -65,6 +73,38 @@ LegUse LimbKeeper::use_of(const Playback& playback, const Limb& limb) const {
   if (is_placed) return LegUse::placed;
   const Shift shift = s_.shift[at(limb.parts.back())];
   return shift == Shift::lifted || shift == Shift::held_off ? LegUse::lands : LegUse::idle;
+}
+
+bool LimbKeeper::is_as_rested(const Leg& leg) const {
+  return std::ranges::all_of(std::array{leg.part, leg.foot_part}, [&](int p) {
+    const Part& part = stage_.character->parts()[at(p)];
+    const auto base = s_.postures.base.coords.begin() + part.first_coord;
+    return std::equal(base, base + part.coord_count, s_.rested.coords.begin() + part.first_coord);
+  });
+}
+
+void LimbKeeper::rest(std::size_t p) {
+  const Character& character = *stage_.character;
+  const StandingFeet& feet = s_.rules.feet();
+  for (std::size_t i = 0; i < stage_.legs.size(); ++i) {
+    const Leg& leg = stage_.legs[i];
+    if (at(leg.part) != p || carrier_of(character, leg.part) == 0) continue;
+    const bool rests = feet.rests_at(i) && is_as_rested(leg);
+    for (const int part : {leg.part, leg.foot_part}) {
+      s_.rests[at(part)] = rests;
+      if (rests) copy_part(character, at(part), s_.postures.base, s_.postures.stand);
+    }
+    if (!rests) continue;
+    place(leg, s_.postures.stand);
+    feet.put_to_rest(i, s_.rules.world(), s_.postures.stand.coords);
+  }
+}
+
+bool LimbKeeper::stays_planted(std::size_t p) const {
+  const LayerStack& stack = s_.stacks[p];
+  if (s_.rests[p] == 0 || s_.added[p] != 0 || stack.overwrite().action >= 0 || stack.ik().action >= 0) return false;
+  const std::span<const int> legs = limb_at(p).legs;
+  return std::ranges::all_of(legs, [&](int i) { return s_.rules.feet().is_planted(at(i)); });
 }
 
 // All parts of the limb are placed.
@@ -75,7 +115,8 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   int& held_off = s_.held_off[at(limb.parts.back())];
   const HeldObject held = held_by(playback, at(limb.parts.front()));
   s_.rules.room().hold(at(limb.parts.back()), held);
-  const bool lands = use == LegUse::lands && land(limb);
+  if (use == LegUse::acts) stop_returning(limb);
+  const bool lands = use == LegUse::lands && land(playback, limb);
   if (use == LegUse::acts || (use == LegUse::lands && !lands)) keep_clear(limb, was_lifted);
   if (use == LegUse::idle) plant(limb);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
@@ -121,56 +162,112 @@ void LimbKeeper::place(const Leg& leg, const Posture& posture) {
   forward_kinematics(*stage_.character, posture.coords, leg.joints, s_.rules.world());
 }
 
-// For a limb that no action moves any more: its feet go to where its base posture has them, by the greatest share of
-// that way in which joints move smoothly and bodies have room. False for a limb without feet of its own, and where no
-// share does.
-bool LimbKeeper::land(const Limb& limb) {
+// A course that comes in moves the soles from where it has found them.
+bool LimbKeeper::is_coming_in(const Playback& playback, const Limb& limb) const {
+  const LayerHold& course = s_.stacks[0].ik();
+  return returns(limb) && course.action >= 0 && come_in(playback, course) < 1.0;
+}
+
+void LimbKeeper::stop_returning(const Limb& limb) {
+  for (const int p : limb.parts) s_.returns[at(p)] = 0;
+}
+
+bool LimbKeeper::returns(const Limb& limb) const {
+  return std::ranges::any_of(limb.parts, [&](int p) { return s_.returns[at(p)] != 0; });
+}
+
+// For a limb that no action of its own moves any more: its feet go to where its base posture has them, or the course of
+// legs that goes on, by the greatest share of that way in which joints move smoothly and bodies have room. False for a
+// limb without feet of its own, and where no share does.
+bool LimbKeeper::land(const Playback& playback, const Limb& limb) {
   const bool has_feet = std::ranges::any_of(limb.legs, [&](int i) { return limb.is_its_own(stage_.legs[at(i)]); });
   if (!has_feet) return false;
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
+  for (const int i : limb.legs) {
+    home_[at(i)] = home_sole(limb, stage_.legs[at(i)]);
+    is_raised_[at(i)] = !returns(limb) && s_.rules.feet().put_on_ground(at(i), home_[at(i)]);
+  }
   // A hand that waits beside the thigh, and for which the thigh waits, would keep the leg in the air for good.
-  if (land(limb, kComfortable_m) || land(limb, kNarrow_m)) return true;
+  if (land(playback, limb, kComfortable_m) || land(playback, limb, kNarrow_m) || rise(limb)) return true;
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.wanted, s_.postures.shown);
+  if (returns(limb)) follow_in_joints(limb);
   return false;
 }
 
-bool LimbKeeper::land(const Limb& limb, double gap_m) {
+// No step of the soles is smooth: the joints go after the course as fast as they can gather and lose speed.
+void LimbKeeper::follow_in_joints(const Limb& limb) {
+  for (const int p : limb.parts) {
+    s_.path.correct(at(p), s_.past.earlier.coords, s_.past.before.coords);
+    s_.path.follow(at(p), s_.postures.shown.coords);
+  }
+  forward_kinematics(*stage_.character, s_.postures.shown.coords, limb.joints, s_.rules.world());
+}
+
+bool LimbKeeper::land(const Playback& playback, const Limb& limb, double gap_m) {
   constexpr std::array kShares = {0.25, 0.18, 0.12, 0.08, 0.05, 0.03, 0.02};
   for (const double share : kShares) {
-    const bool is_there = step_to_base(limb, share);
+    const bool is_there = step_home(limb, {.share = share});
     if (!is_smooth(limb) || !has_room_on_the_way(limb, gap_m)) continue;
-    if (is_there) return arrive(limb), true;
-    shift(limb, Shift::lifted);
-    for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
-    return true;
+    if (is_there && !is_coming_in(playback, limb)) return arrive(limb), true;
+    return go_on_landing(limb), true;
   }
   return false;
 }
 
+void LimbKeeper::go_on_landing(const Limb& limb) {
+  shift(limb, Shift::lifted);
+  for (const int p : limb.parts) s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+}
+
+// A straight leg that has come in low bends its knee fast when its foot is to be lifted: it is lifted little by little
+// before it goes anywhere. While a course moves the hips, that would not keep it out of the ground.
+bool LimbKeeper::rise(const Limb& limb) {
+  constexpr std::array kLifts = {0.6, 0.4, 0.25, 0.15, 0.08, 0.04};
+  step_home(limb, {.share = 0.0, .lift = 0.0});
+  const bool is_too_low = std::ranges::any_of(limb.legs, [&](int i) {
+    return limb.is_its_own(stage_.legs[at(i)]) && s_.rules.feet().room_m(at(i), s_.rules.world()) < -kTooNear_m;
+  });
+  if (!is_too_low || returns(limb)) return false;
+  const auto is_good = [&](double lift) {
+    step_home(limb, {.share = 0.0, .lift = lift});
+    return is_smooth(limb) && has_room_on_the_way(limb, kNarrow_m, true);
+  };
+  const bool rises = std::ranges::any_of(kLifts, is_good);
+  if (rises) go_on_landing(limb);
+  return rises;
+}
+
 // From the frame before; true where all feet of the limb have arrived.
-bool LimbKeeper::step_to_base(const Limb& limb, double share) {
+bool LimbKeeper::step_home(const Limb& limb, LandingStep step) {
   bool is_there = true;
   for (const int i : limb.legs) {
     const Leg& leg = stage_.legs[at(i)];
     if (!limb.is_its_own(leg)) continue;
-    const Rigid there = rest_sole(leg);
     place(leg, s_.past.before);
     for (const int p : {leg.part, leg.foot_part})
       copy_part(*stage_.character, at(p), s_.past.before, s_.postures.shown);
-    is_there = s_.rules.feet().land(at(i), there, share, s_.rules.world(), s_.postures.shown.coords) && is_there;
+    is_there = s_.rules.feet().land(at(i), home_[at(i)], step, s_.rules.world(), s_.postures.shown.coords) && is_there;
   }
   return is_there;
 }
 
 // Additives and ik of a trunk that carries the leg do not count: the foot would land on the move, and slide.
-Rigid LimbKeeper::rest_sole(const Leg& leg) {
+Rigid LimbKeeper::home_sole(const Limb& limb, const Leg& leg) {
   const Character& character = *stage_.character;
+  const Posture& home = home_of(limb, leg.part);
   std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
   const int hip = leg.joints.front();
-  for (int j = 1; j < hip; ++j)  // carriers first
-    if (carries(character, j, hip)) forward_kinematics(character, s_.postures.base.coords, j, j + 1, s_.rest_world);
-  forward_kinematics(character, s_.postures.base.coords, leg.joints, s_.rest_world);
+  const bool goes_along = returns(limb) || s_.rests[at(leg.part)] != 0;
+  for (int j = 1; j < hip && !goes_along; ++j)  // carriers first
+    if (carries(character, j, hip)) forward_kinematics(character, home.coords, j, j + 1, s_.rest_world);
+  forward_kinematics(character, home.coords, leg.joints, s_.rest_world);
   return world_from_socket(character, s_.rest_world, leg.sole);
+}
+
+// The posture that a limb which lands goes to.
+const Posture& LimbKeeper::home_of(const Limb& limb, int part) const {
+  if (returns(limb)) return s_.postures.plain;
+  return s_.rests[at(part)] != 0 ? s_.postures.stand : s_.postures.base;
 }
 
 // A trunk goes only as far as the legs that it carries reach to where their feet stand. It looks ahead by as much as it
@@ -192,8 +289,11 @@ void LimbKeeper::hold_over_feet(const Limb& limb) {
   forward_kinematics(*stage_.character, s_.postures.shown.coords, limb.joints, s_.rules.world());
 }
 
+// A foot that an additive has lifted comes back to where it stood, too.
 bool LimbKeeper::is_carried_and_stands(const Limb& limb, int leg) const {
-  return !limb.is_its_own(stage_.legs[at(leg)]) && s_.rules.feet().is_planted(at(leg));
+  const std::size_t part = at(stage_.legs[at(leg)].part);
+  const bool comes_back = s_.rests[part] != 0 && s_.stacks[part].ik().action < 0;
+  return !limb.is_its_own(stage_.legs[at(leg)]) && (s_.rules.feet().is_planted(at(leg)) || comes_back);
 }
 
 bool LimbKeeper::has_moved(const Limb& limb) const {
@@ -209,24 +309,24 @@ bool LimbKeeper::feet_reach(const Limb& limb, double steps) {
   const Character& character = *stage_.character;
   std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
   s_.between.coords = s_.past.before.coords;
-  for (const int p : limb.parts) blend_part(character, at(p), s_.past.before, s_.wanted, steps, s_.between);
+  for (const int p : limb.parts) coast_part(character, at(p), s_.past.before, s_.wanted, steps - 1.0, s_.between);
   forward_kinematics(character, s_.between.coords, limb.joints, s_.rest_world);
   return std::ranges::all_of(limb.legs, [&](int i) {
     if (!is_carried_and_stands(limb, i)) return true;
     forward_kinematics(character, s_.between.coords, stage_.legs[at(i)].joints, s_.rest_world);
-    s_.rules.feet().plant(at(i), s_.rest_world, s_.between.coords);
+    s_.rules.feet().put_to_rest(at(i), s_.rest_world, s_.between.coords);
     return s_.rules.feet().off_m(at(i), s_.rest_world) < kReaches_m;
   });
 }
 
 bool LimbKeeper::is_smooth(const Limb& limb) const {
   return std::ranges::all_of(limb.joints, [&](int j) {
-    return moves_smoothly(stage_.character->joint(j), s_.past, s_.postures.shown);
+    return moves_smoothly(*stage_.character, j, s_.past, s_.postures.shown);
   });
 }
 
-// From where the limb was in the frame before to where it is shown now.
-bool LimbKeeper::has_room_on_the_way(const Limb& limb, double gap_m) {
+// From where the limb was in the frame before to where it is shown now. A foot that rises comes from the ground.
+bool LimbKeeper::has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising) {
   const Character& character = *stage_.character;
   const std::span<Rigid> world = s_.rules.world();
   return std::ranges::all_of(std::array{0.25, 0.5, 0.75, 1.0}, [&](double share) {
@@ -235,22 +335,32 @@ bool LimbKeeper::has_room_on_the_way(const Limb& limb, double gap_m) {
     forward_kinematics(character, s_.between.coords, limb.joints, world);
     LimbRoom& room = s_.rules.room();
     const std::size_t part = at(limb.parts.back());
-    if (share == 1.0) return room.has_room(part, world, -kTooNear_m, gap_m);
+    if (share == 1.0 && !is_rising) return room.has_room(part, world, -kTooNear_m, gap_m);
     return room.apart_m(part, world, {-kTooNear_m, -kTooNear_m, gap_m}) >= -kTooNear_m;
   });
 }
 
+// A leg whose action ended with the foot in the ground, as the action wanted it, is held on the ground instead.
 void LimbKeeper::arrive(const Limb& limb) {
+  for (const int i : limb.legs)
+    for (const int p : {stage_.legs[at(i)].part, stage_.legs[at(i)].foot_part})
+      if (is_raised_[at(i)]) copy_part(*stage_.character, at(p), s_.postures.shown, s_.postures.base);
   for (const int p : limb.parts) {
-    copy_part(*stage_.character, at(p), s_.postures.base, s_.postures.shown);
+    copy_part(*stage_.character, at(p), home_of(limb, p), s_.postures.shown);
     s_.path.pass(at(p), s_.postures.shown.coords);
   }
-  for (const int i : limb.legs) place(stage_.legs[at(i)], s_.postures.base);
+  for (const int i : limb.legs) place(stage_.legs[at(i)], s_.postures.shown);
+  stop_returning(limb);
 }
 
 void LimbKeeper::note_feet(const Playback& playback) {
-  for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg)
-    s_.rules.feet().note(leg, use_of(playback, limb_at(at(stage_.legs[leg].part))), s_.rules.world());
+  for (std::size_t leg = 0; leg < stage_.legs.size(); ++leg) {
+    const LegUse use = use_of(playback, limb_at(at(stage_.legs[leg].part)));
+    s_.rules.feet().note(leg, use, s_.rules.world());
+    if (use == LegUse::acts || use == LegUse::lands) continue;
+    for (const int p : {stage_.legs[leg].part, stage_.legs[leg].foot_part})
+      copy_part(*stage_.character, at(p), s_.postures.base, s_.rested);
+  }
 }
 
 void LimbKeeper::keep_clear(const Limb& limb, bool was_lifted) {

@@ -1,6 +1,8 @@
-// The last word on a limb once all of its parts are placed: feet that carry nothing new stay where they stand, and
-// limbs that act keep clear of bodies.
+// Corrects a limb once all of its parts are placed: standing feet stay in place, and moving limbs keep their distance
+// from bodies.
 #pragma once
+
+#include <array>
 
 #include "generator/generate.h"
 
@@ -10,15 +12,24 @@ class LimbKeeper {
  public:
   LimbKeeper(const Stage& stage, GenerateScratch& scratch) : stage_(stage), s_(scratch) {}
 
+  // Finds the posture in which a leg of this part has its foot where it rests, if a trunk carries it, and nothing has
+  // changed its base since. What carries the part is placed.
+  void rest(std::size_t p);
+
+  // Whether nothing moves this part of a leg but the trunk that carries it, over a foot that stands.
+  bool stays_planted(std::size_t p) const;
+
   void finish(const Playback& playback, const Limb& limb);
 
-  // At the end of a frame: where feet stand.
+  // Call it at the end of a frame, to record the places of standing feet.
   void note_feet(const Playback& playback);
 
  private:
   bool makes_way(const Playback& playback, std::size_t p) const;
+  bool swings_at_obstacles(const Playback& playback, std::size_t p) const;
   bool comes_back(std::size_t p) const;
   HeldObject held_by(const Playback& playback, std::size_t p) const;
+  bool is_as_rested(const Leg& leg) const;
   void note_grasp(const Playback& playback, const Limb& limb, const HeldObject& held);
   bool acts(const Playback& playback, const Limb& limb) const;
   LegUse use_of(const Playback& playback, const Limb& limb) const;
@@ -26,22 +37,31 @@ class LimbKeeper {
   void shift(const Limb& limb, Shift shift);
   void plant(const Limb& limb);
   void place(const Leg& leg, const Posture& posture);
-  bool land(const Limb& limb);
-  bool land(const Limb& limb, double gap_m);
-  Rigid rest_sole(const Leg& leg);
-  bool step_to_base(const Limb& limb, double share);
+  bool land(const Playback& playback, const Limb& limb);
+  bool land(const Playback& playback, const Limb& limb, double gap_m);
+  bool is_coming_in(const Playback& playback, const Limb& limb) const;
+  bool returns(const Limb& limb) const;
+  void stop_returning(const Limb& limb);
+  const Posture& home_of(const Limb& limb, int part) const;
+  Rigid home_sole(const Limb& limb, const Leg& leg);
+  void follow_in_joints(const Limb& limb);
+  bool step_home(const Limb& limb, LandingStep step);
+  void go_on_landing(const Limb& limb);
+  bool rise(const Limb& limb);
   void hold_over_feet(const Limb& limb);
   bool is_carried_and_stands(const Limb& limb, int leg) const;
   bool has_moved(const Limb& limb) const;
   bool feet_reach(const Limb& limb, double steps);
   bool is_smooth(const Limb& limb) const;
-  bool has_room_on_the_way(const Limb& limb, double gap_m);
+  bool has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising = false);
   void arrive(const Limb& limb);
   void keep_clear(const Limb& limb, bool was_lifted);
   void try_again(const Playback& playback, const Limb& limb);
 
   const Stage& stage_;
   GenerateScratch& s_;
+  std::array<Rigid, kMaxLegs> home_;  // of the soles of a limb that lands
+  std::array<bool, kMaxLegs> is_raised_{};  // the home lay in the ground
 };
 
 }  // namespace contort

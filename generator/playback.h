@@ -1,4 +1,4 @@
-// The queue's play in one frame of the motion: runs of sequences, and the actions in them.
+// The state of the queue in one frame of the motion: the running sequences, and the actions in them.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Playback {
   const PlannedAction& action(int index) const { return timeline_.actions[at(index)]; }
   const QueueSpan& run(int index) const { return history_[at(index)]; }
 
-  // A run, as an action sees it: what the level leaves out has been cut where the level begins.
+  // Returns a run as actions see it: the frames that a level leaves out count as cut.
   QueueSpan run_of(const PlannedAction& action, int index) const {
     QueueSpan run = history_[at(index)];
     if (level_.is_left_out(action, frame_)) run.last_frame = std::min(run.last_frame, level_.first_frame());
@@ -42,12 +42,12 @@ class Playback {
     const double begins = std::max(action.start, static_cast<double>(run.first_content));
     return action.further < 0 ? begins : std::max<double>(begins, content(run, acquired_[at(action.further)]));
   }
-  // The same on the motion's time line.
+  // The frame of the motion at which an action takes its part in a run.
   double began(const PlannedAction& action, const QueueSpan& run) const {
     return comes(action, run) - run.first_content + run.first_frame;
   }
 
-  // Whether an action moves its part in this frame of a run.
+  // Returns true if an action moves its part in this frame of a run.
   bool moves(const PlannedAction& action, const QueueSpan& run) const {
     if (level_.is_left_out(action, frame_)) return false;
     if (action.further >= 0 && frame_ < acquired_[at(action.further)]) return false;

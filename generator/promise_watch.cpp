@@ -27,7 +27,7 @@ std::optional<Shortfall> PromiseWatch::shortfall_of(const Playback& playback, st
   const LayerHold& ik = s_.stacks[p].ik();
   const bool has_ik = ik.action >= 0;
   if (told.failed) return Shortfall::rule_failed;
-  if (s_.shift[p] == Shift::held_off) return Shortfall::clearance;
+  if (s_.shift[p] == Shift::held_off || s_.shift[p] == Shift::lifted) return Shortfall::clearance;
   if (s_.shift[p] == Shift::over_feet) return Shortfall::out_of_reach;
   if (s_.behind[p] != 0 || (has_ik && told.is_slower)) return Shortfall::joint_speed;
   if (has_ik && told.at_range_end) return Shortfall::joint_range;

@@ -12,7 +12,7 @@ class PromiseWatch {
  public:
   PromiseWatch(const Stage& stage, GenerateScratch& scratch) : stage_(stage), s_(scratch) {}
 
-  // When all parts are placed.
+  // Call it when all parts are placed.
   void note(const Playback& playback, std::size_t part);
 
  private:

@@ -36,7 +36,7 @@ class RootCarry {
  private:
   const Stage* stage_ = nullptr;
   Rigid stands_at_;
-  Rigid base_stands_at_;  // where it stood when the base's root was made
+  Rigid base_stands_at_;  // its place when the base's root was made
   std::array<Rigid, kMaxLegs> soles_{};
 };
 

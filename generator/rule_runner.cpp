@@ -1,6 +1,7 @@
 #include "generator/rule_runner.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "generator/motion/blend.h"
 #include "generator/motion/joint_clamp.h"
@@ -16,11 +17,29 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
   const double u = progress(action, content);
   const double missed_s = std::min(duration_s, action.speed * (came - action.start) / action.scale / rate_hz);
   const double takes_s = (action.end - action.start) / action.speed / rate_hz;
-  return {u, u * duration_s, duration_s, u * duration_s - missed_s, duration_s - missed_s, takes_s, 1.0 / rate_hz};
+  const double comes_in_s = std::max(0.0, action.blend_in) / rate_hz;
+  return {u,       u * duration_s, duration_s,                 u * duration_s - missed_s, duration_s - missed_s,
+          takes_s, comes_in_s,     action.blend_out / rate_hz, 1.0 / rate_hz};
 }
 
 // Legs that walk must not be clamped one joint at a time: their feet would leave the ground that they stand on.
 bool keeps_ranges(const ActionDef& def) { return def.layer != Layer::overwrite && def.spread != Spread::legs; }
+
+template <class T>
+bool are_same_bits(std::span<const T> a, std::span<const T> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+std::span<const double> coords_of(const Part& part, const Posture& posture) {
+  return std::span(posture.coords).subspan(at(part.first_coord), at(part.coord_count));
+}
+
+// The joint that carries all joints of a part; -1 where there is none, or more than one.
+int carrier_joint(const Character& character, const Part& part) {
+  const std::span<const Joint> joints = character.joints().subspan(at(part.first_joint), at(part.joint_count));
+  const auto hangs_elsewhere = [&](const Joint& joint) { return joint.parent < part.first_joint; };
+  return std::ranges::count_if(joints, hangs_elsewhere) == 1 ? joints.front().parent : -1;
+}
 
 }  // namespace
 
@@ -35,6 +54,9 @@ void RuleRunner::begin(const Stage& stage) {
   for (std::vector<double>& params : computed_) params.clear();
   computed_.resize(at(stage.timeline.use_count));
   world_.resize(character.joints().size());
+  placed_.resize(character.parts().size());
+  for (std::size_t p = 0; p < placed_.size(); ++p)
+    placed_[p].hangs_on = carrier_joint(character, character.parts()[p]), placed_[p].world.clear();
   scratch_world_.resize(world_.size()), scratch_row_.resize(at(character.coord_count()));
 }
 
@@ -48,10 +70,31 @@ void RuleRunner::begin_frame() {
 }
 
 void RuleRunner::place(std::size_t part, const Posture& posture) {
-  const Part& own = stage_->character->parts()[part];
   if (part == 0) move_root(posture.root);
-  forward_kinematics(*stage_->character, posture.coords, own.first_joint, own.first_joint + own.joint_count, world_);
+  const Part& own = stage_->character->parts()[part];
+  const std::span<Rigid> joints = std::span(world_).subspan(at(own.first_joint), at(own.joint_count));
+  PlacedPart& last = placed_[part];
+  if (is_as_placed(last, own, posture)) {
+    std::ranges::copy(last.world, joints.begin());
+  } else {
+    forward_kinematics(*stage_->character, posture.coords, own.first_joint, own.first_joint + own.joint_count, world_);
+    remember(own, posture, joints, last);
+  }
   if (part == 0) room_.begin_frame(world_);
+}
+
+bool RuleRunner::is_as_placed(const PlacedPart& last, const Part& part, const Posture& posture) const {
+  if (last.hangs_on < 0 || last.world.empty()) return false;
+  return are_same_bits<Rigid>({&world_[at(last.hangs_on)], 1}, {&last.carrier, 1}) &&
+         are_same_bits<double>(coords_of(part, posture), last.coords);
+}
+
+void RuleRunner::remember(const Part& part, const Posture& posture, std::span<const Rigid> joints, PlacedPart& last) {
+  if (last.hangs_on < 0) return;
+  const std::span<const double> coords = coords_of(part, posture);
+  last.carrier = world_[at(last.hangs_on)];
+  last.coords.assign(coords.begin(), coords.end());
+  last.world.assign(joints.begin(), joints.end());
 }
 
 // All joints go along with the root until their own parts are placed.

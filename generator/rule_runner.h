@@ -22,7 +22,7 @@ struct RuleCall {
 class RuleRunner {
  public:
   void begin(const Stage& stage);
-  void start_from(const Posture& posture);  // where the character is before frame 0
+  void start_from(const Posture& posture);  // the posture before frame 0
   void begin_frame();  // forgets the feedback of the frame before
 
   // The world transforms of a part's own joints in a posture; its carrier must be placed.
@@ -46,7 +46,17 @@ class RuleRunner {
   std::span<Rigid> world() { return world_; }                       // by joint
 
  private:
+  // The last placement of a part's joints, and its inputs. It is reused, because most parts rest in most frames.
+  struct PlacedPart {
+    int hangs_on = -1;  // the joint that carries all of them; -1: they are always placed anew
+    Rigid carrier;
+    std::vector<double> coords;
+    std::vector<Rigid> world;
+  };
+
   void move_root(const Rigid& root);
+  bool is_as_placed(const PlacedPart& last, const Part& part, const Posture& posture) const;
+  void remember(const Part& part, const Posture& posture, std::span<const Rigid> joints, PlacedPart& last);
   std::span<const double> params(const PlannedAction& action, const ActionTime& time, std::size_t part);
 
   const Stage* stage_ = nullptr;
@@ -55,6 +65,7 @@ class RuleRunner {
   std::vector<WholeBody> bodies_;  // by use of an action
   std::vector<Feedback> feedback_;
   std::vector<Rigid> world_;
+  std::vector<PlacedPart> placed_;  // by part
   std::vector<Rigid> scratch_world_;
   std::vector<double> scratch_row_;
   ScriptHost scripts_;

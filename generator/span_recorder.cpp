@@ -19,8 +19,8 @@ void SpanRecorder::begin(const Timeline& timeline, Motion& motion) {
   motion_ = &motion;
   motion.spans.clear();
   motion.aims.clear();
-  // Every action may be cut once by every interrupt.
-  motion.spans.reserve(timeline.actions.size() * (1 + timeline.interrupts.size()));
+  // Every action may be cut once by every interrupt, and every action of a leg interrupts a course of legs once.
+  motion.spans.reserve(timeline.actions.size() * (2 + timeline.interrupts.size()));
   held_.assign(timeline.part_order.size(), {-1, -1});
   additives_.assign(timeline.actions.size(), -1);
   aims_.assign(timeline.actions.size(), -1);

@@ -21,16 +21,16 @@ struct Stage {
   std::vector<Leg> legs;
   std::shared_ptr<const DynamicsSetup> dynamics;  // null: kinematic
   double rate_hz = 60.0;
-  Rigid start;          // where the character stands in frame 0: a turn about +Y and a place
-  bool bends = false;   // hips before or behind the feet, or lower than at rest
-  int hold_frames = 0;  // after the queue has run dry
-  int most_frames = 1;  // >= 1; fewer where an interrupt never fires or drops what it cuts
+  Rigid start;          // place of the character in frame 0: a turn about +Y and a translation
+  bool bends = false;   // the hips begin in front of or behind the feet, or lower than at rest
+  int hold_frames = 0;  // frames after the queue is empty
+  int most_frames = 1;  // >= 1; the motion is shorter if an interrupt never fires, or drops the sequence that it cuts
 };
 
 // Codes "spec.*", "environment.*", "dynamics.*", "recording.*" and "character.*" with pointers into the spec.
 Result<Stage> build_stage(const Spec& spec, const Library& library);
 
-// The same with a character that was built from spec.character before; many specs can share one.
+// Builds a stage with a character that was built from spec.character before; many specs can share one.
 Result<Stage> build_stage(const Spec& spec, std::shared_ptr<const Character> character,
                           const Library& library = stock_library());
 

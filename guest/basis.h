@@ -19,10 +19,10 @@ class Basis {
   Vec3 axis(const Vec3& theirs) const { return handedness_ * direction(theirs); }
   Quat rotation(double x, double y, double z, double w) const;
   double unit_m() const { return unit_m_; }
-  Vec3 left() const { return left_; }  // of the figure, in their coordinates
+  Vec3 left() const { return left_; }  // the figure's left, in the generator's coordinates
 
  private:
-  Vec3 left_, up_, forward_;  // our x, y and z in their coordinates
+  Vec3 left_, up_, forward_;  // our x, y and z in the generator's coordinates
   double handedness_ = 1.0;   // det(B)
   double unit_m_ = 1.0;
 };

@@ -57,7 +57,9 @@ bool set_shape(const ColliderShape& shape, GuestCollider& out) {
   return true;
 }
 
-GuestCharacter described_character(const Character& character) {
+}  // namespace
+
+GuestCharacter describe(const Character& character) {
   GuestCharacter out;
   out.name = character.name();
   for (std::size_t j = 0; j < character.joints().size(); ++j) out.joints.push_back(described_joint(character, j));
@@ -70,6 +72,8 @@ GuestCharacter described_character(const Character& character) {
     out.may_touch.push_back({character.colliders()[at(pair.a)].name, character.colliders()[at(pair.b)].name});
   return out;
 }
+
+namespace {
 
 GuestParam described_param(const ParamDef& def) {
   GuestParam out;
@@ -124,7 +128,7 @@ Result<GuestManifest> describe(Generator& generator, std::span<const std::string
   for (const std::string& name : characters) {
     const Result<Character> character = build_character({name, {}, {}}, *generator.manifest().library);
     if (!character) return character.issue();
-    out.characters.push_back(described_character(*character));
+    out.characters.push_back(describe(*character));
     const Offers& offers = generator.offers(*character);
     for (std::size_t p = 0; p < offers.size(); ++p)
       for (const OfferedAction& offered : offers[p])

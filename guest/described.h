@@ -1,4 +1,4 @@
-// A generator of ours as a manifest of the protocol: the other way round than guest_figure.h and guest_offers.h.
+// Describes one of our generators as a manifest of the protocol. guest_figure.h and guest_offers.h do the reverse.
 #pragma once
 
 #include <span>
@@ -8,6 +8,9 @@
 #include "model/generator.h"
 
 namespace contort {
+
+// Describes one of our characters with its present parts. Convex hulls and travels are left out.
+GuestCharacter describe(const Character& character);
 
 // The named characters with their default parts. Actions whose parameters differ between parts are there once for each
 // part. What the protocol cannot express is left out: travels become fixed joints, and parameters that may be missing,

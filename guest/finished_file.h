@@ -25,19 +25,19 @@ struct FinishedFile {
 
 struct Conversion {
   Execution execution;
-  std::vector<FollowedNode> followed;  // for each joint with a node: the node, and how much of its movement is left out
+  std::vector<FollowedNode> followed;  // for each joint with a node: the node, and the movement that is left out
   std::vector<int> stray_nodes;        // indices of nodes that the clip moves and no joint follows
   std::vector<int> joints_at_rest;     // joints that follow no node
 };
 
-// Frames per second at which keys fall on frames: one frame for each of the shortest steps between keys where that
-// makes at most 240, else as many as the densest channel has keys; a whole multiple of that where it is below 30, so
-// that what happens between sparse keys is seen. 30 for clips of a single pose.
+// Returns the frames per second at which keys fall on frames: one frame for each of the shortest steps between keys if
+// that gives at most 240, else the key rate of the densest channel. A rate below 30 is multiplied by a whole number, so
+// that the motion between sparse keys is judged too. 30 for clips of a single pose.
 double own_rate_hz(const AssetClip& clip);
 
-// The ground is level, at the height where the model stands at rest. Without a node for the root the figure stays at
-// its place, and its path is unknown. It walks on the spot if the root stays within a quarter of its height at rest
-// while two feet at least are pulled the same way over the ground, each by more than a tenth of that height. Codes
+// The ground is level, at the height where the model stands at rest. Without a node for the root the figure stays in
+// place, and its path is unknown. It walks on the spot if the root stays within a quarter of its height at rest while
+// two feet at least are pulled the same way over the ground, each by more than a tenth of that height. Codes
 // "check.nothing_matches" (no joint but the root has a node), "check.too_long" (more than 100,000 frames),
 // "recording.unknown_joint" and "recording.duplicate_joint".
 Result<Conversion> convert(const FinishedFile& file);

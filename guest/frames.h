@@ -27,7 +27,8 @@ std::size_t bytes_of(const FrameLayout& layout, int frames);
 // stands for no rotation relative to rest. NaN stays NaN.
 void read_frames(std::string_view bytes, const FrameLayout& layout, int frames, Motion& motion, ForeignFacts& facts);
 
-// Sets a joint to a rotation against its parent. What a hinge cannot take of it is added to off_axis_rad.
+// Sets a joint to a rotation relative to its parent. For a hinge, the rotation that is not about its axis is added to
+// off_axis_rad.
 void set_rotation(const Joint& joint, const Quat& in_parent, int frame, Motion& motion, double& off_axis_rad);
 
 }  // namespace contort

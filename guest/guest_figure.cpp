@@ -266,4 +266,16 @@ Library library_of(const GuestManifest& manifest) {
   return library;
 }
 
+std::vector<Coupling> couplings_of(const GuestCharacter& from, const std::vector<int>& joints) {
+  std::vector<Coupling> out;
+  for (std::size_t j = 0; j < from.joints.size(); ++j)
+    if (const std::optional<GuestFollow>& follows = from.joints[j].follows)
+      out.push_back({.joint = joints[j],
+                     .leader = joints[at(find_joint(from, follows->joint))],
+                     .multiplier = follows->multiplier,
+                     .offset = follows->offset_deg * kRadPerDeg,
+                     .is_of_rotation = true});
+  return out;
+}
+
 }  // namespace contort

@@ -4,23 +4,27 @@
 #include "guest/manifest.h"
 #include "model/character/character.h"
 #include "model/character/library.h"
+#include "model/motion/execution.h"
 
 namespace contort {
 
-// The reason for which colliders that overlap at rest may touch: they always do, as joints that are not neighbours may
-// still be near each other.
+// The reason that the character's file gives for allowed contacts of colliders that overlap at rest. Such colliders
+// always touch, because joints that are not neighbours may still be near each other.
 inline constexpr std::string_view kOverlapAtRest = "They overlap at rest.";
 
 // A library that has only the manifest's characters. Each slot is a part of its own, and each of the names in `parts`
 // is a part with the same joints. Figures without colliders are drawn as thin bones.
 Library library_of(const GuestManifest& manifest);
 
-// The names of a character's joints in our library: legal, unique within their slot, and without it, in the manifest's
-// order.
+// The names of a character's joints in our library, in the manifest's order. They are valid, unique within their slot,
+// and do not contain the slot.
 std::vector<std::string> joint_names(const GuestCharacter& character);
 
 // Our joint for each joint of the manifest's character; the root is 0.
 std::vector<int> joints_of(const GuestCharacter& from, const Character& character);
+
+// The joints that the manifest says follow others, by our joints as joints_of gives them.
+std::vector<Coupling> couplings_of(const GuestCharacter& from, const std::vector<int>& joints);
 
 // Converts the name of a slot's part to the name in our library, and back: "" if our part is the slot's first.
 std::string part_name(const GuestCharacter& character, const std::string& slot, std::size_t index);

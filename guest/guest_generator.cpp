@@ -17,11 +17,34 @@ namespace {
 
 constexpr std::size_t kMostFigures = 256;  // whose offers are remembered
 
-std::shared_ptr<GuestDescription> describe(const std::string& command, const GuestLimits& limits, GuestManifest said) {
+using Models = std::map<std::string, GuestCharacter>;
+
+// Reads a model the first time, and keeps it.
+ModelReader keeping(const ModelReader& models, Models& kept) {
+  if (!models) return {};
+  return [&](const std::string& path) -> Result<GuestCharacter> {
+    if (const auto known = kept.find(path); known != kept.end()) return known->second;
+    Result<GuestCharacter> read = models(path);
+    if (read) kept[path] = *read;
+    return read;
+  };
+}
+
+// Later starts of the program name the same models, or it has another manifest.
+ModelReader kept_only(const Models& kept) {
+  return [&](const std::string& path) -> Result<GuestCharacter> {
+    if (const auto known = kept.find(path); known != kept.end()) return known->second;
+    return Issue{"generator.other_model", "", "found another model than at the first start: " + path};
+  };
+}
+
+std::shared_ptr<GuestDescription> describe(const std::string& command, const GuestLimits& limits, GuestManifest said,
+                                           Models models) {
   auto description = std::make_shared<GuestDescription>();
   description->command = command;
   description->limits = limits;
   description->said = std::move(said);
+  description->models = std::move(models);
   description->library = library_of(description->said);
   Manifest& manifest = description->manifest;
   manifest.name = description->said.name;
@@ -41,11 +64,14 @@ EqualMotion with_frames(EqualMotion equal, const Motion& motion, int first_row) 
 
 }  // namespace
 
-Result<std::unique_ptr<GuestGenerator>> GuestGenerator::start(const std::string& command, const GuestLimits& limits) {
+Result<std::unique_ptr<GuestGenerator>> GuestGenerator::start(const std::string& command, const GuestLimits& limits,
+                                                              const ModelReader& models) {
   auto program = std::make_unique<GuestProgram>(command, limits);
-  Result<GuestManifest> said = program->greet();
+  Models kept;
+  Result<GuestManifest> said = program->greet(keeping(models, kept));
   if (!said) return said.issue();
-  const std::shared_ptr<const GuestDescription> description = describe(command, limits, std::move(said).value());
+  const std::shared_ptr<const GuestDescription> description =
+      describe(command, limits, std::move(said).value(), std::move(kept));
   for (const auto& [name, desc] : description->library.characters)
     if (const Result<Character> built = build_character({name, {}, {}}, description->library); !built)
       return built.issue();
@@ -72,7 +98,7 @@ GuestProgram& GuestGenerator::program() {
   if (program_ != nullptr && description_->said.determinism != Determinism::history) return *program_;
   program_ = std::make_unique<GuestProgram>(description_->command, description_->limits);
   owner_ = ::gettid(), process_ = ::getpid();
-  const Result<GuestManifest> again = program_->greet();
+  const Result<GuestManifest> again = program_->greet(kept_only(description_->models));
   if (!again) throw ProgramEnded({Ending::Kind::crash, "does not start", {}, to_line(again.issue())});
   if (manifest_hash(*again) != manifest_hash(said()))
     throw ProgramEnded({Ending::Kind::crash, "another manifest", {}, "the manifest differs from that of its first start"});
@@ -110,7 +136,7 @@ Result<GuestAnswer> GuestGenerator::ask(const Spec& spec, const Figure& figure, 
   try {
     GuestAnswer answer = program().ask(print_request(request, said(), spec), request.id,
                                        {request.frames, bytes_of(layout, request.frames)}, said().channels);
-    if (!answer.refusal.empty()) return Issue{"guest.refused", "", answer.refusal};
+    if (answer.refusal) return Issue{std::string(kRefusedCode), "", std::string(kRefusedText) + *answer.refusal};
     return answer;
   } catch (const ProgramEnded&) {
     restart();
@@ -200,9 +226,12 @@ Result<Done> GuestGenerator::run(const Spec& spec, Execution& execution) {
   execution.motion = {};
   if (const Result<Done> asked = ask_motion(spec, figure, whole, execution.motion, facts); !asked) return asked;
   execution.character = figure.character;
+  execution.couplings = couplings_of(*find_character(said(), spec.character.name), figure.joints);
   execution.intent = intent_of(said(), whole.uses, *figure.character);
   execution.motion.spans = spans_of(*execution.intent, execution.motion.frame_count);
-  facts.jumps = jumps_of(whole.uses);
+  facts.jumps = jumps_of(whole.uses), facts.travels = travels_of(whole.uses);
+  facts.root_max_speed_rad_s =
+      kRadPerDeg * find_character(said(), spec.character.name)->joints.front().max_speed_deg_s;
   facts.contacts = contacts_of(said(), spec.character.name, figure.joints, facts.runs);
   if (const Result<Done> added = add_promised(spec, figure, whole, facts); !added) return added;
   return add_relations(spec, figure, whole, facts);

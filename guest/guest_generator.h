@@ -19,14 +19,17 @@ struct GuestDescription {
   std::string command;
   GuestLimits limits;
   GuestManifest said;
+  std::map<std::string, GuestCharacter> models{};  // the model files that the manifest names, by path
   Library library;
-  Manifest manifest;  // of ours; its library is the one above
+  Manifest manifest;  // the manifest in our terms; it refers to `library`
 };
 
 class GuestGenerator final : public Generator {
  public:
-  // Starts the program and reads its manifest. Codes of GuestProgram::greet and of build_character.
-  static Result<std::unique_ptr<GuestGenerator>> start(const std::string& command, const GuestLimits& limits = {});
+  // Starts the program, reads its manifest, and reads each model file that the manifest names once. Codes of
+  // GuestProgram::greet and of build_character.
+  static Result<std::unique_ptr<GuestGenerator>> start(const std::string& command, const GuestLimits& limits = {},
+                                                       const ModelReader& models = {});
 
   explicit GuestGenerator(std::shared_ptr<const GuestDescription> description);
   ~GuestGenerator() override;
@@ -47,7 +50,7 @@ class GuestGenerator final : public Generator {
   void restart();
 
  private:
-  struct Figure {  // of a choice of parts
+  struct Figure {  // the character for one choice of parts
     CharacterChoice choice;
     std::shared_ptr<const Character> character;
     std::vector<int> joints;
@@ -66,9 +69,9 @@ class GuestGenerator final : public Generator {
 
   std::shared_ptr<const GuestDescription> description_;
   std::map<std::uint64_t, Offers> offers_;  // by the character's hash
-  std::unique_ptr<Figure> figure_;          // of the last spec
+  std::unique_ptr<Figure> figure_;          // the figure of the last spec
   std::unique_ptr<GuestProgram> program_;
-  int owner_ = -1;  // the thread that started the program, which ends with it
+  int owner_ = -1;  // the thread that started the program; the program ends when that thread does
   int process_ = -1;
   std::int64_t id_ = 0;
 };

@@ -97,4 +97,12 @@ std::vector<int> jumps_of(const std::vector<PlacedUse>& uses) {
   return jumps;
 }
 
+std::vector<FrameSpan> travels_of(const std::vector<PlacedUse>& uses) {
+  std::vector<FrameSpan> travels;
+  for (const PlacedUse& placed : uses)
+    if (placed.action->travels)
+      travels.push_back({placed.start_frame, placed.end_frame() + placed.use->blend_out_frames});
+  return travels;
+}
+
 }  // namespace contort

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-// Actions with their frames, and the goals that they promise. Without a queue: the generator does not tell one.
+// Actions with their frames, and the goals that they promise. There is no queue, because the protocol has none.
 Intent intent_of(const GuestManifest& manifest, const std::vector<PlacedUse>& uses, const Character& character);
 
 std::vector<ActionSpan> spans_of(const Intent& intent, int frames);
@@ -18,7 +18,8 @@ std::vector<ActionSpan> spans_of(const Intent& intent, int frames);
 std::vector<ContactRun> contacts_of(const GuestManifest& manifest, const std::string& character,
                                     std::span<const int> joints, std::span<const ChannelRun> runs);
 
-// The frames into which the pose may jump.
+// The frames into which the whole pose may jump, and the frames into which only the root may jump.
 std::vector<int> jumps_of(const std::vector<PlacedUse>& uses);
+std::vector<FrameSpan> travels_of(const std::vector<PlacedUse>& uses);
 
 }  // namespace contort

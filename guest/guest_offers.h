@@ -12,7 +12,7 @@ Offers offers_of(const GuestManifest& manifest, const Character& character);
 // The action as the part of this index offers it.
 OfferedAction offer_of(const GuestManifest& manifest, const GuestAction& action, int part = 0);
 
-// The frames of a range of seconds.
+// Converts a range of seconds to frames.
 FrameRange frames_of(const std::array<double, 2>& seconds, double rate_hz);
 
 }  // namespace contort

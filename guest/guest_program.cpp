@@ -19,9 +19,19 @@ std::vector<std::string> shell_command(const std::string& command) {
   return {"/bin/sh", "-c", needs_shell ? command : "exec env " + command};
 }
 
+// Text that is too long ends before the character of UTF-8 that would be cut.
 std::string text_of(const Json& reply, const char* name) {
   const auto found = reply.find(name);
-  return found != reply.end() && found->is_string() ? found->get<std::string>().substr(0, kMostRefusal) : "";
+  std::string text = found != reply.end() && found->is_string() ? found->get<std::string>() : "";
+  if (text.size() <= kMostRefusal) return text;
+  std::size_t end = kMostRefusal;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end);
+}
+
+std::string refusal_in(const Json& reply) {
+  const std::string text = text_of(reply, "text");
+  return text.empty() ? "it gives no reason" : text;
 }
 
 Issue issue_of(const Ending& ending) {
@@ -37,21 +47,21 @@ GuestProgram::GuestProgram(const std::string& command, const GuestLimits& limits
     : limits_(limits),
       program_(shell_command(command), {limits.case_s, limits.bytes}, Messages::kept, true) {}
 
-Result<GuestManifest> GuestProgram::manifest_in(const std::string& line) {
-  Result<GuestManifest> manifest = parse_manifest(line);
+Result<GuestManifest> GuestProgram::manifest_in(const std::string& line, const ModelReader& models) {
+  Result<GuestManifest> manifest = parse_manifest(line, models);
   if (manifest && program_.has_connected() && manifest->token != program_.token())
     return Issue{"generator.bad_token", "/token", "found another value than CONTORT_TOKEN has"};
   return manifest;
 }
 
 // A program that connects is greeted a second time, on the connection. Other lines before the manifest are its log.
-Result<GuestManifest> GuestProgram::greet() {
+Result<GuestManifest> GuestProgram::greet(const ModelReader& models) {
   program_.send_line(kHello);
   bool has_connected = false;
   for (;;) {
     const Ending heard = program_.read_line({}, limits_.start_s);
     if (heard.kind != Ending::Kind::finished) return issue_of(heard);
-    if (heard.result.starts_with("{")) return manifest_in(heard.result);
+    if (heard.result.starts_with("{")) return manifest_in(heard.result, models);
     if (program_.has_connected() && !has_connected) program_.send_line(kHello);
     has_connected = program_.has_connected();
     program_.keep_message(heard.result + "\n");
@@ -77,7 +87,7 @@ GuestAnswer GuestProgram::ask(const std::string& request, std::int64_t id, const
   if (const auto found = reply->find("id"); found == reply->end() || *found != id)
     fail(kWrongId, "found another id than " + std::to_string(id) + " in: " + line.substr(0, kMostRefusal));
   const std::string error = text_of(*reply, "error");
-  if (error == "refused") return {"the generator refuses: " + text_of(*reply, "text"), {}, {}};
+  if (error == "refused") return {refusal_in(*reply), {}, {}};
   if (!error.empty()) fail(kFailed, text_of(*reply, "text"));
   const auto count = reply->find("bytes");
   if (count == reply->end() || !count->is_number_integer() || *count != size.bytes)

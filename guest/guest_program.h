@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,22 +12,22 @@
 
 namespace contort {
 
-// The ways in which a program can break the protocol: each is the signal of the ending that it then has.
+// The ways in which a program can break the protocol. A ProgramEnded has one of them as its signal.
 inline constexpr char kNoJson[] = "no JSON";
 inline constexpr char kWrongId[] = "wrong id";
 inline constexpr char kWrongLength[] = "wrong length";
 inline constexpr char kWrongChannels[] = "wrong channels";
-inline constexpr char kFailed[] = "failed";  // it says so itself
+inline constexpr char kFailed[] = "failed";  // the program reports its own failure
 
 struct GuestLimits {
-  double start_s = 60.0;  // until the manifest
-  double case_s = 10.0;   // for a motion
+  double start_s = 60.0;  // time limit for the manifest
+  double case_s = 10.0;   // time limit for a motion
   std::int64_t bytes = std::int64_t{4} << 30;
 };
 
 // One line of the generator's answer to a request.
 struct GuestAnswer {
-  std::string refusal;  // why the generator refuses the request; "" if it does not
+  std::optional<std::string> refusal;  // why the generator refuses the request, in its own words
   std::string bytes;    // the frames
   ChannelFacts channels{};
 };
@@ -39,11 +40,11 @@ struct AnswerSize {
 
 class GuestProgram {
  public:
-  // Starts the program, with a shell only if the command has characters that mean something to one.
+  // Starts the program, with a shell only if the command has special characters of a shell.
   GuestProgram(const std::string& command, const GuestLimits& limits);
 
   // Exchanges the greeting. Codes generator.ended, generator.silent, generator.bad_token and those of parse_manifest.
-  Result<GuestManifest> greet();
+  Result<GuestManifest> greet(const ModelReader& models = {});
 
   // Asks for a motion of this size, with the channels that the manifest declares. Throws ProgramEnded if the program ends, is silent, fails, or answers what the
   // protocol does not allow. It is over after that.
@@ -51,7 +52,7 @@ class GuestProgram {
                   std::span<const GuestChannel> channels);
 
  private:
-  Result<GuestManifest> manifest_in(const std::string& line);
+  Result<GuestManifest> manifest_in(const std::string& line, const ModelReader& models);
   [[noreturn]] void fail(const std::string& what, const std::string& details);
   std::string read(Ending ending);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "guest/manifest_check.h"
+#include "guest/model_joints.h"
 #include "model/core/hash.h"
 #include "model/core/json_fields.h"
 
@@ -83,6 +84,13 @@ void fields(V& v, const GuestConvention*) {
 }
 
 template <class V>
+void fields(V& v, const GuestFollow*) {
+  v.field("joint", &GuestFollow::joint, kGuestLabel, "The hinge that leads.");
+  v.field("multiplier", &GuestFollow::multiplier, {.low = -1000, .high = 1000}, "Of the leader's angle.");
+  v.field("offset_deg", &GuestFollow::offset_deg, {.low = -3600, .high = 3600}, "Angle that is added.");
+}
+
+template <class V>
 void fields(V& v, const GuestJoint*) {
   v.field("name", &GuestJoint::name, kGuestLabel, "Name, unique in the character.");
   v.field("parent", &GuestJoint::parent, {.text = Text::label, .may_be_empty = true},
@@ -105,6 +113,8 @@ void fields(V& v, const GuestJoint*) {
   v.field("max_speed_deg_s", &GuestJoint::max_speed_deg_s, {.low = 1, .high = 1e5}, "Greatest angular speed.");
   v.field("body", &GuestJoint::body, {.text = Text::label, .may_be_empty = true},
           "Name of the body that moves with the joint; empty: the name of the joint.");
+  v.field("follows", &GuestJoint::follows, {},
+          "For a hinge: its angle is multiplier * the angle of another hinge + offset_deg, both against rest.");
 }
 
 template <class V>
@@ -124,7 +134,9 @@ void fields(V& v, const GuestCollider*) {
 template <class V>
 void fields(V& v, const GuestCharacter*) {
   v.field("name", &GuestCharacter::name, kGuestName, "Unique name.");
-  v.field("joints", &GuestCharacter::joints, {.max_count = 1000, .required = true}, "Joints, parents first.");
+  v.field("model", &GuestCharacter::model, kGuestText, "Model file that has the joints and colliders.");
+  v.field("joints", &GuestCharacter::joints, {.max_count = 1000},
+          "Joints, parents first; required without a model. With a model, they select its joints by name.");
   v.field("colliders", &GuestCharacter::colliders, {.max_count = 1000}, "Shapes that must not overlap.");
   v.field("may_touch", &GuestCharacter::may_touch, {.max_count = 1000, .text = Text::label},
           "Pairs of colliders that may overlap.");
@@ -169,6 +181,7 @@ void fields(V& v, const GuestAction*) {
   v.field("returns_s", &GuestAction::returns_s, {.low = 0.0, .high = 60.0},
           "Time after the end of the action from which the motion is as if the action had not been requested.");
   v.field("mirror", &GuestAction::mirror, {.may_be_empty = true}, "The action of the other side; empty: itself.");
+  v.field("travels", &GuestAction::travels, {}, "While it is in force the root may jump, though the pose may not.");
 }
 
 template <class V>
@@ -201,8 +214,74 @@ bool GuestManifest::declares(std::string_view relation) const {
   return std::ranges::find(relations, relation) != relations.end();
 }
 
-Result<GuestManifest> parse_manifest(std::string_view json) {
-  Result<GuestManifest> manifest = json_fields::read_document<GuestManifest>(json, "generator");
+namespace {
+
+using json_fields::Json;
+
+// The names of the joints that a character asks for, "" for entries that are none; the strict reader tells those.
+std::vector<std::string> names_in(const Json& joints) {
+  std::vector<std::string> names;
+  for (const Json& joint : joints) {
+    const bool is_named = joint.is_object() && joint.contains("name") && joint["name"].is_string();
+    names.push_back(is_named ? joint["name"].get<std::string>() : "");
+  }
+  return names;
+}
+
+template <class T>
+Json listed(const std::vector<T>& items) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(json_fields::Codec<T>::write(item, {}));
+  return list;
+}
+
+// What the manifest says itself is kept.
+void fill_character(const GuestCharacter& model, Json& character) {
+  Json joints = listed(model.joints);
+  if (const auto own = character.find("joints"); own != character.end())
+    for (std::size_t j = 0; j < own->size(); ++j)
+      if ((*own)[j].is_object()) joints[j].update((*own)[j]);
+  character["joints"] = std::move(joints);
+  if (character.contains("colliders")) return;
+  character["colliders"] = listed(model.colliders);
+  if (!character.contains("may_touch")) character["may_touch"] = listed(model.may_touch);
+}
+
+Result<Done> fill_from_model(const std::string& at, const ModelReader& models, Json& character) {
+  const auto path = character.find("model");
+  if (path == character.end() || !path->is_string() || path->get<std::string>().empty()) return Done{};
+  if (!models) return Issue{"generator.no_models", at + "/model", "found a model, but no model files are read here"};
+  const Result<GuestCharacter> read = models(path->get<std::string>());
+  if (!read) return Issue{read.issue().code, at + "/model", read.issue().text};
+  const auto own = character.find("joints");
+  if (own == character.end() || !own->is_array() || own->empty()) {
+    character.erase("joints");
+    return fill_character(*read, character), Done{};
+  }
+  const Result<GuestCharacter> chosen = with_joints(*read, names_in(*own));
+  if (!chosen) return Issue{chosen.issue().code, at + chosen.issue().pointer, chosen.issue().text};
+  return fill_character(*chosen, character), Done{};
+}
+
+Result<Json> filled_from_models(Json manifest, const ModelReader& models) {
+  if (!manifest.is_object() || !manifest.contains("characters") || !manifest["characters"].is_array()) return manifest;
+  Json& characters = manifest["characters"];
+  for (std::size_t c = 0; c < characters.size(); ++c) {
+    if (!characters[c].is_object()) continue;
+    const Result<Done> filled = fill_from_model("/characters/" + std::to_string(c), models, characters[c]);
+    if (!filled) return filled.issue();
+  }
+  return manifest;
+}
+
+}  // namespace
+
+Result<GuestManifest> parse_manifest(std::string_view json, const ModelReader& models) {
+  Result<Json> tree = json_fields::parse_document(json);
+  if (!tree) return tree.issue();
+  const Result<Json> filled = filled_from_models(std::move(tree).value(), models);
+  if (!filled) return filled.issue();
+  Result<GuestManifest> manifest = json_fields::read_tree<GuestManifest>(*filled, "generator");
   if (!manifest) return manifest;
   if (const Result<Done> sound = check_manifest(*manifest); !sound) return sound.issue();
   return manifest;
@@ -215,6 +294,7 @@ std::string print_manifest(const GuestManifest& manifest) { return json_fields::
 std::string manifest_hash(const GuestManifest& manifest) {
   GuestManifest same = manifest;
   same.build.clear(), same.token.clear();
+  for (GuestCharacter& character : same.characters) character.model.clear();
   return content_id(json_fields::write_pretty(same)).substr(0, 16);
 }
 

@@ -1,8 +1,9 @@
-// The manifest that a generator sends which is a program of its own (contort.generator/1, docs/reference/guests.md), as
-// plain values. Positions, axes and rotations are in the generator's own convention.
+// The manifest of a generator that is a program of its own (contort.generator/1, docs/reference/guests.md), as plain
+// values. Positions, axes and rotations are in the generator's own convention.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,14 @@ using NumberOrThree = std::variant<double, Vec3>;
 
 enum class GuestJointType { ball, hinge, fixed };
 
+// How a hinge follows another one: its angle from rest is multiplier * the leader's angle from rest + offset.
+struct GuestFollow {
+  std::string joint{};  // the leader
+  double multiplier = 1.0;
+  double offset_deg = 0.0;
+  bool operator==(const GuestFollow&) const = default;
+};
+
 struct GuestJoint {
   std::string name;
   std::string parent;  // "" for the first joint, which is the root
@@ -47,9 +56,10 @@ struct GuestJoint {
   double high_deg = 180.0;
   NumberOrTwo swing_deg = 180.0;  // about swing_axis, and at a right angle to it and to the axis
   std::optional<Vec3> swing_axis{};
-  Vec3 swing_center_deg{0.0};  // rotation vector: the middle of the swing against rest
+  Vec3 swing_center_deg{0.0};  // rotation vector: the middle of the swing relative to rest
   double max_speed_deg_s = 720.0;
   std::string body{};  // that moves with the joint; "": named like the joint
+  std::optional<GuestFollow> follows{};
   bool operator==(const GuestJoint&) const = default;
 };
 
@@ -59,10 +69,10 @@ struct GuestCollider {
   std::string name;
   std::string joint;
   GuestShape type = GuestShape::capsule;
-  Vec3 from{0.0};  // of a capsule; a sphere where both ends are in one place
+  Vec3 from{0.0};  // end of a capsule; if both ends are equal, it is a sphere
   Vec3 to{0.0};
   double radius = 0.05;
-  Vec3 center{0.0};  // of a box
+  Vec3 center{0.0};  // centre of a box
   Vec3 half{0.05};
   std::array<double, 4> rotation{0.0, 0.0, 0.0, 1.0};  // x y z w
   bool operator==(const GuestCollider&) const = default;
@@ -74,7 +84,8 @@ struct GuestCharacter {
   std::vector<GuestCollider> colliders;
   std::map<std::string, std::vector<std::string>> parts;  // by slot, the first is the default
   std::vector<std::array<std::string, 2>> may_touch{};    // names of colliders
-  std::map<std::string, std::string> mirror{};  // joints and those of the other side; the others are in the middle
+  std::map<std::string, std::string> mirror{};  // pairs of left and right joints; all other joints are in the middle
+  std::string model{};  // file from which joints and colliders come; "": the manifest has them all
   bool operator==(const GuestCharacter&) const = default;
 };
 
@@ -109,7 +120,7 @@ struct GuestGoal {
 struct GuestAction {
   std::string name;
   std::string help;
-  std::vector<std::string> slots;  // none: that of the root
+  std::vector<std::string> slots;  // empty: the root's slot
   Layer layer = Layer::overwrite;
   std::array<double, 2> duration_s{0.1, 1.5};
   std::array<double, 2> blend_in_s{0.0, 0.0};
@@ -117,8 +128,10 @@ struct GuestAction {
   Effect effect = Effect::continuous;
   std::map<std::string, GuestParam> params;
   std::optional<GuestGoal> goal;
-  std::optional<double> returns_s{};  // so long after its end the motion is as if the action had not been asked for
-  std::string mirror{};               // the action of the other side; "": itself
+  std::optional<double> returns_s{};  // from this time after its end on, the motion equals one without the action
+  std::string mirror{};               // the mirrored action, such as "wave_right" for "wave_left"; "": the action
+                                      // itself
+  bool travels = false;               // while it is in force the root may jump, as in a loop that carries it
   bool operator==(const GuestAction&) const = default;
 };
 
@@ -127,7 +140,7 @@ enum class ChannelType { number, flag, text };
 struct GuestChannel {
   std::string name;
   ChannelType type = ChannelType::number;
-  std::string contact{};  // of a flag: the joint that stands still in the world while it is set
+  std::string contact{};  // for a flag: the joint that stands still in the world while the flag is set
   bool operator==(const GuestChannel&) const = default;
 };
 
@@ -143,7 +156,7 @@ struct GuestManifest {
   std::vector<GuestCharacter> characters;
   std::vector<GuestAction> actions;
   std::vector<GuestChannel> channels;
-  std::vector<std::string> relations;  // some of kRelations
+  std::vector<std::string> relations;  // names from kRelations
   bool operator==(const GuestManifest&) const = default;
 
   bool declares(std::string_view relation) const;
@@ -151,12 +164,20 @@ struct GuestManifest {
 
 inline constexpr std::string_view kRelations[] = {"history", "rate", "gain", "mirror"};
 
-// Checks the text, the limits of each field, and that names refer to existing items. Codes json.* and generator.*.
-Result<GuestManifest> parse_manifest(std::string_view json);
+// Reads a character's model file. Positions, axes and rotations are those of the file, which must be in the manifest's
+// convention.
+using ModelReader = std::function<Result<GuestCharacter>(const std::string& path)>;
+
+// Checks the text, the limits of each field, and that names refer to existing items. A character with a model gets all
+// joints of the model, or only those that it lists; the fields that it gives for a joint replace those of the model. It
+// gets the model's colliders unless it lists its own. Codes json.* and generator.*, generator.no_models if no reader is
+// given, and the codes of the reader.
+Result<GuestManifest> parse_manifest(std::string_view json, const ModelReader& models = {});
 std::string print_manifest(const GuestManifest& manifest);  // one line
 std::string manifest_schema();
 
-// Hash of the canonical text without build and token: 16 hex digits. Another hash means another generator.
+// Hash of the canonical text without build, token and names of models: 16 hex digits. Another hash means another
+// generator.
 std::string manifest_hash(const GuestManifest& manifest);
 
 }  // namespace contort

@@ -63,6 +63,35 @@ void check_joint(const GuestCharacter& character, std::size_t index, const std::
                 "the range must hold 0, which is the rest pose: choose a rest pose within the range");
 }
 
+// Followers of followers are fine, as long as somebody leads.
+bool is_in_ring(const GuestCharacter& character, std::size_t index) {
+  std::size_t at = index;
+  for (std::size_t steps = 0; steps <= character.joints.size(); ++steps) {
+    const std::optional<GuestFollow>& follows = character.joints[at].follows;
+    const int leader = follows ? find_joint(character, follows->joint) : -1;
+    if (leader < 0) return false;
+    at = contort::at(leader);
+    if (at == index) return true;
+  }
+  return false;  // the ring does not hold this joint, and is told where it does
+}
+
+void check_follower(const GuestCharacter& character, std::size_t index, const std::string& at,
+                    ManifestFaults& faults) {
+  const GuestJoint& joint = character.joints[index];
+  if (!joint.follows) return;
+  const int leader = find_joint(character, joint.follows->joint);
+  faults.expect(index > 0 && joint.type == GuestJointType::hinge, "bad_follower", at,
+                in_quotes(joint.name) + " is the root, or no hinge: it cannot follow another joint");
+  faults.expect(leader >= 0, "unknown_joint", at + "/joint",
+                "found " + in_quotes(joint.follows->joint) + ", which is no joint of " + character.name);
+  if (leader < 0) return;
+  faults.expect(leader > 0 && character.joints[contort::at(leader)].type == GuestJointType::hinge, "bad_follower",
+                at + "/joint", in_quotes(joint.follows->joint) + " is the root, or no hinge: it cannot lead");
+  faults.expect(!is_in_ring(character, index), "bad_follower", at + "/joint",
+                in_quotes(joint.name) + " follows itself, or a joint that follows it");
+}
+
 // A slot hangs on one joint of another one, by one joint or by several, such as fingers.
 void check_slots(const GuestCharacter& character, const std::string& at, ManifestFaults& faults) {
   const std::vector<std::string> slots = slots_of(character);
@@ -101,6 +130,8 @@ void check_character(const GuestCharacter& character, const std::string& at, Man
   expect_unique(character.joints, at + "/joints", faults);
   for (std::size_t j = 0; j < character.joints.size(); ++j)
     check_joint(character, j, at + "/joints/" + std::to_string(j), faults);
+  for (std::size_t j = 0; j < character.joints.size(); ++j)
+    check_follower(character, j, at + "/joints/" + std::to_string(j) + "/follows", faults);
   if (!faults.outcome()) return;
   check_slots(character, at, faults);
   check_colliders(character, at, faults);

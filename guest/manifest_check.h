@@ -10,7 +10,7 @@ namespace contort {
 // .split_slot, .bad_axis, .bad_rotation, .bad_range, .bad_convention, .bad_choice, .bad_relation, with pointers.
 Result<Done> check_manifest(const GuestManifest& manifest);
 
-// The slot of each joint, in their order. The joints must be parents first.
+// Returns the slot of each joint, in the order of joints. Parents must come before their children.
 std::vector<std::string> slots_of(const GuestCharacter& character);
 
 // Index of the joint, or -1 if there is no such joint.

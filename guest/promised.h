@@ -6,22 +6,22 @@
 
 namespace contort {
 
-// A request, and where its motion should be equal to the whole one. A motion of rest is not asked for.
+// A request, and the frames in which its motion should equal the original one. The rest pose needs no request.
 struct Promised {
   GuestRequest request;
-  EqualMotion equal;   // without frames
+  EqualMotion equal;   // its frames are not filled in
   int first_row = 0;   // frames of the answer before this one are not compared
 };
 
-// For each use with the effect `rest`, or `equals` after another use, the frames up to the next use; for each with
-// `none` all frames; for each that returns the frames after that. At most kMostPromised. The use of an `equals` begins
-// in frame 1 of its request: frame 0 is the state before it.
+// Returns the requests for a spec, at most kMostPromised. A use with the effect `rest`, or with `equals` after another
+// use, promises the frames up to the next use; a use with `none` promises all frames; a use with `returns_s` promises
+// the frames after that time. The use of an `equals` begins in frame 1 of its request: frame 0 is the state before it.
 std::vector<Promised> promises_of(const GuestRequest& whole);
 inline constexpr std::size_t kMostPromised = 4;
 
 EqualMotion rest_motion(const Character& character, const Rigid& root, const Promised& promised);
 
-// Every action once, one after another, with its parameters at their defaults.
+// Returns a request that plays every action once, one after another, with default parameters.
 Spec spec_of_all_actions(const CharacterChoice& choice, const Character& character, const Offers& offers,
                          double rate_hz);
 

@@ -16,7 +16,7 @@ namespace contort {
 struct PlacedUse {
   const ActionUse* use = nullptr;
   const GuestAction* action = nullptr;
-  const OfferedAction* offer = nullptr;  // the same action on this use's part
+  const OfferedAction* offer = nullptr;  // the offer of this action on this use's part
   int sequence = 0;  // indices into the spec
   int clip = 0;
   int index = 0;
@@ -24,14 +24,15 @@ struct PlacedUse {
   int end_frame() const { return start_frame + use->duration_frames; }
 };
 
-// All uses of a spec that admit_request() accepts, by their starts.
+// Returns all uses of a spec that admit_request() accepts, in the order of their starts.
 std::vector<PlacedUse> placed_uses(const GuestManifest& manifest, const Spec& spec, const Character& character,
                                    const Offers& offers);
 
-// Frames of the whole motion: to the end of the last use, the hold, and the frame at time 0.
+// Returns the number of frames of the whole motion: the frame at time 0, the frames to the end of the last use, and the
+// hold.
 int frames_of(const Spec& spec);
 
-// True if a parameter may have the value.
+// Returns true if a parameter may have the value.
 bool allows(const ParamDef& def, const ParamValue& value);
 
 // Refuses specs that the generator does not offer. Codes guest.unsupported, .unknown_action, .unknown_param,
@@ -45,7 +46,7 @@ struct GuestRequest {
   std::vector<PlacedUse> uses;
 };
 
-// One line of JSON. Uses keep their times in seconds if the rate is not that of the spec.
+// Prints the request as one line of JSON. Uses keep their times in seconds if the rate differs from the spec's rate.
 std::string print_request(const GuestRequest& request, const GuestManifest& manifest, const Spec& spec);
 
 }  // namespace contort

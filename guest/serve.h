@@ -1,4 +1,4 @@
-// Speaks contort.generator/1 for a generator of ours: the other side of guest_program.h.
+// Serves one of our generators over contort.generator/1; guest_program.h is the client.
 #pragma once
 
 #include <cstdio>

@@ -24,7 +24,7 @@ bool weighs_as_human(const RiggedFigure& figure);
 // Fills in the masses.
 void weigh(const RiggedFigure& figure, std::vector<BoneBody>& bodies);
 
-// The lowest point of the shapes, in the bone's frame.
+// Returns the lowest point of the shapes, in the bone's frame.
 double lowest_of(const std::vector<ColliderShape>& shapes);
 
 }  // namespace contort

@@ -61,7 +61,7 @@ void hang_feet_on_legs(RiggedFigure& figure) {
     const int leg = leg_for(figure, bone);
     if (leg < 0) continue;
     bone.parent = leg;
-    figure.notes.push_back("\"" + bone.label + "\" hangs on no leg in the file; here it hangs on \"" +
+    figure.notes.push_back("\"" + bone.label + "\" is not attached to a leg in the file; here it is attached to \"" +
                            bone_at(figure, leg).label + "\".");
   }
 }
@@ -82,7 +82,7 @@ void hang_trees_on(RiggedFigure& figure, int root) {
     Bone& bone = figure.bones[at(b)];
     if (bone.parent >= 0 || b == root) continue;
     bone.parent = root;
-    figure.notes.push_back("\"" + bone.label + "\" has no parent in the file; here it hangs on the root.");
+    figure.notes.push_back("\"" + bone.label + "\" has no parent in the file; here it is attached to the root.");
   }
 }
 

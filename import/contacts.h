@@ -13,12 +13,12 @@ namespace contort {
 struct OwnContacts {
   std::vector<AllowedPairDesc> pairs;  // deepest first
   int at_rest = 0;
-  int in_poses = 0;  // of clips, or sampled
-  int left_out = 0;  // more than a character may list
+  int in_poses = 0;  // pairs that overlap in poses of clips, or in sampled poses
+  int left_out = 0;  // pairs beyond the number that a character may list
 };
 
 // Returns the pairs of colliders that overlap at rest, or in a tenth of the poses of the model's own clips. `joints`
-// gives the character's joint for a node's label, including the root's.
+// maps the labels of nodes, including the root's, to joints of the character.
 OwnContacts find_contacts(const Character& character, const Asset& asset,
                           const std::map<std::string, std::string>& joints);
 

@@ -1,5 +1,5 @@
-// A rigged model on its way to a character: the joints that matter, in metres, upright, facing +Z, with the vertices
-// that each owns. Stages fill it one after another: skeleton.h, roles.h, then limits.h, fit.h, bodies.h and parts.h
+// A rigged model between file and character: the relevant joints, in metres, upright, facing +Z, with the vertices that
+// each joint owns. Stages fill it one after another: skeleton.h, roles.h, then limits.h, fit.h, bodies.h and parts.h
 // read it.
 #pragma once
 
@@ -56,22 +56,22 @@ enum class BoneRole : std::uint8_t {
 struct Bone {
   int node = 0;
   int parent = -1;    // an earlier bone; -1 for the first one, which is the root
-  std::string label;  // of the node, as the file has it
-  std::string name;   // legal, and unique in the figure
+  std::string label;  // the node's label in the file
+  std::string name;   // a valid name, unique in the figure
   BoneFamily family = BoneFamily::unknown;
-  bool from_vrm = false;  // family and side are those of VRM's map
+  bool from_vrm = false;  // family and side come from VRM's map
   Side side = Side::center;
   BoneRole role = BoneRole::other;
-  Vec3 position_m{0.0};        // from the root
-  std::vector<Vec3> points_m;  // of the surface that it owns, spread evenly; from the bone's own position
+  Vec3 position_m{0.0};        // relative to the root
+  std::vector<Vec3> points_m;  // evenly spread points of the surface that it owns, relative to the bone's position
 };
 
 struct RiggedFigure {
   std::vector<Bone> bones;              // parents first
   Quat world_from_model = kNoRotation;  // the turn that makes it face +Z
   double metres_per_unit = 1.0;
-  double height_m = 0.0;      // of all vertices
-  double ground_m = 0.0;      // the lowest vertex, from the root
+  double height_m = 0.0;      // height of all vertices
+  double ground_m = 0.0;      // height of the lowest vertex relative to the root
   bool is_humanoid = false;   // two arms and two legs of two bones, spine upright
   bool is_quadruped = false;  // four legs on the ground
   int vertex_count = 0;
@@ -79,10 +79,10 @@ struct RiggedFigure {
 };
 
 struct ImportOptions {
-  std::string name;              // of the character; a legal name
+  std::string name;              // the character's name, a valid one
   double metres_per_unit = 0.0;  // 0: guessed
-  double height_m = 0.0;         // 0: what the scale makes of it
-  int skin = -1;                 // of the file; -1: the one that most vertices hang on
+  double height_m = 0.0;         // 0: follows from the scale
+  int skin = -1;                 // index in the file; -1: the skin that most vertices follow
   bool draw_mesh = false;        // parts are drawn as the model's triangles
   bool wears_model = false;      // skins/NAME.json is written, for the model's copy skins/NAME.glb
 };

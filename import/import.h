@@ -7,7 +7,7 @@
 namespace contort {
 
 struct ImportFile {
-  std::string name;  // in the library folder
+  std::string name;  // path in the library folder
   std::string text;
 };
 
@@ -25,7 +25,7 @@ Result<Imported> import_model(const SkinnedAsset& asset, const ImportOptions& op
 // Refuses a name that a character cannot have, or that is a stock character's. Code import.bad_name.
 Result<Done> check_import_name(const std::string& name);
 
-// Makes a legal name from a file's path, such as "Knight" from "models/Knight.glb".
+// Makes a valid name from a file's path, such as "Knight" from "models/Knight.glb".
 std::string name_of_file(const std::string& path);
 
 // Returns the text of the report, NAME.import.md.

@@ -1,5 +1,5 @@
-// Determines how each bone turns and how far: the kind of its joint, axes, ranges. The values come from a table for
-// humans, from the model's own clips, or from defaults.
+// Determines the joint of each bone: its type, axes and ranges. The values come from a table for humans, from the
+// model's own clips, or from defaults.
 #pragma once
 
 #include <vector>
@@ -37,14 +37,14 @@ struct BoneJoint {
   double second_low_deg = 0.0;
   double second_high_deg = 0.0;
   LimitSource source = LimitSource::generic;
-  bool leaves_table = false;  // some pose of the clips is out of the table's range
+  bool leaves_table = false;  // some pose of the clips is outside of the range in the table
 };
 
-// The joint of a bone of the left side or the middle; mirror the figure for others.
+// Returns the joint of a bone of the left side or the middle; for the right side, mirror the figure first.
 BoneJoint joint_of(const RiggedFigure& figure, int bone, const std::vector<Quat>& poses);
 
-// Returns the poses as far as the joints can follow them: the rotation of a bone that a hinge or an ankle cannot
-// follow is passed on to the bones attached to it.
+// Returns the poses that the joints can follow: the part of a bone's rotation that its hinge or ankle cannot follow is
+// passed on to the bones attached to it.
 ClipPoses followed(const RiggedFigure& figure, const ClipPoses& poses);
 
 // Returns true if the bone is a foot that stands on the ground at rest.

@@ -31,6 +31,8 @@ constexpr std::array<std::string_view, 13> kNoise = {"mixamorig", "skeleton", "j
 constexpr std::array<std::string_view, 12> kWordsOfCmu = {"femur", "tibia", "foot",  "toes",     "humerus", "radius",
                                                           "wrist", "hand",  "thumb", "clavicle", "fingers", "hipjoint"};
 
+constexpr std::array<std::string_view, 3> kTurnsOfCmu = {"rx", "ry", "rz"};
+
 // The first row that fits decides: "forearm" before "arm".
 struct FamilyRow {
   std::string_view part;
@@ -98,8 +100,9 @@ std::vector<std::string> words_of(std::string_view name) {
 
 namespace {
 
-// "lfemur" gives "l" and "femur".
+// "lfemur" gives "l" and "femur", and so does the degree of freedom "lfemur_rz".
 std::vector<std::string> split_cmu(std::vector<std::string> words) {
+  if (words.size() == 2 && is_one_of(words[1], kTurnsOfCmu)) words.pop_back();
   if (words.size() != 1 || words[0].size() < 2) return words;
   const std::string side = words[0].substr(0, 1), rest = words[0].substr(1);
   if ((side == "l" || side == "r") && is_one_of(rest, kWordsOfCmu)) return {side, rest};

@@ -25,7 +25,7 @@ NameSense sense_of(std::string_view name);
 // Returns the meaning of a bone in VRM's list, such as "leftUpperArm"; unknown for other names.
 NameSense sense_of_vrm(std::string_view bone);
 
-// Makes a legal name, [a-z0-9_]{1,32}, from any bytes; `fallback` if nothing remains.
+// Makes a valid name, [a-z0-9_]{1,32}, from any bytes; `fallback` if nothing remains.
 std::string legal_name(std::string_view any, std::string_view fallback);
 
 // Returns the name, or "<name>_2", "<name>_3" if it is taken already, and adds it to `taken`.

@@ -65,7 +65,7 @@ Result<OwnedSurface> surface_of(const SkinnedAsset& asset, const std::vector<int
   }
   take_vertices(vertices, out);
   if (out.vertex_count > 0) return out;
-  return Issue{"import.no_vertices", "/meshes", "no vertex hangs on the skin: there is nothing to fit a body to"};
+  return Issue{"import.no_vertices", "/meshes", "no vertex follows the skin, so there is no surface to fit bodies to"};
 }
 
 }  // namespace contort

@@ -9,7 +9,7 @@
 
 namespace contort {
 
-inline constexpr double kMaxModelCoordinate = 1e6;  // of vertices and joints, in the file's units
+inline constexpr double kMaxModelCoordinate = 1e6;  // for vertices and joints, in the file's units
 
 // The box around points; empty at first.
 struct ModelBox {
@@ -21,8 +21,8 @@ struct ModelBox {
 
 // The surface in the file's units, in the rest pose.
 struct OwnedSurface {
-  std::vector<std::vector<Vec3>> points;  // by node, those that hang on it most
-  ModelBox box;                           // of all vertices
+  std::vector<std::vector<Vec3>> points;  // by node: the points on which this node has the greatest weight
+  ModelBox box;                           // box around all vertices
   int vertex_count = 0;
 };
 

@@ -16,7 +16,7 @@ struct PartPlan {
   std::string slot;  // "arm_left"
   std::string kind;  // "arm"
   Side side = Side::center;
-  int carrier = -1;  // an earlier plan; -1 for the root's
+  int carrier = -1;  // index of an earlier plan; -1 for the root part
   std::vector<int> bones;
 };
 
@@ -26,15 +26,16 @@ Result<std::vector<PartPlan>> cut(const RiggedFigure& figure);
 // The decisions about a bone, for the report.
 struct BoneReport {
   std::string joint;    // "arm_left/elbow"; "root" for the first one
-  std::string carries;  // the last joint of several in one place, which moves the body
+  std::string carries;  // the joint that moves the body: the last one if several are in one place
   BoneJoint limits;
 };
 
 struct CutFigure {
   std::vector<PartDesc> parts;
   CharacterDesc character;
-  std::map<std::string, std::string> joint_of_node;  // labels; without the root
-  std::map<std::string, std::string> carrier_of_node;  // the joint that a node's skin moves with; with the root
+  std::map<std::string, std::string> joint_of_node;  // by node label; without the root
+  std::map<std::string, std::string> carrier_of_node;  // by node label: the joint with which the node's skin moves;
+                                                       // includes the root
   std::vector<BoneReport> bones;
 };
 

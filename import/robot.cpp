@@ -1,6 +1,7 @@
 #include "import/robot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -112,20 +113,30 @@ double height_of(const Character& character) {
   return character.colliders().empty() ? 0.0 : high - low;
 }
 
-void take_over(Linkage linkage, const RobotModel& robot, const RobotParts& parts, const std::string& name,
+void take_over(const Linkage& linkage, const RobotModel& robot, const RobotParts& parts, const std::string& name,
                ImportedRobot& out) {
   out.parts = parts.parts;
   out.character.name = name;
-  out.character.help = "Imported from a robot's description; " + name + ".import.md says what was guessed.";
+  const char* source = robot.is_skeleton ? "a skeleton of motion capture" : "a robot's description";
+  out.is_skeleton = robot.is_skeleton;
+  out.character.help = std::string("Imported from ") + source + "; " + name + ".import.md says what was guessed.";
   out.character.slots = parts.slots;
   for (std::size_t i = 0; i < robot.bodies.size(); ++i)
     if (const std::string& body = robot.bodies[i].name; body.size() <= 200)
       out.joint_of_body[body] = parts.joint_of_link[at(linkage.link_of_body[i])];
-  out.joints = std::move(linkage.reports);
-  out.notes = std::move(linkage.notes);
+  out.joints = linkage.reports;
+  out.notes = linkage.notes;
   if (!robot.has_free_root)
     out.notes.push_back("The file does not say that body " + robot.bodies.front().name +
                         " moves freely, so it may be bolted to the ground; the root of a character moves freely.");
+}
+
+// Hinges in one point share the turn of their body, beginning with the first; else the body is at the last joint.
+std::string joint_of_body(const Linkage& linkage, std::size_t link, const std::string& last) {
+  const RobotLink& own = linkage.links[link];
+  for (std::size_t i = 0; i < own.joints.size(); ++i)
+    if (own.joints[i].type != JointType::hinge || (i > 0 && own.joints[i].position_m != Vec3(0.0))) return last;
+  return own.joints.empty() ? last : linkage.reports[at(own.reports.front())].joint;
 }
 
 // Bodies that are fixed to their parents have no joint of their own, so only one body of a joint is in the map.
@@ -133,15 +144,36 @@ std::map<std::string, std::string> map_of_bodies(const ImportedRobot& robot, con
                                                  const RobotParts& parts) {
   std::map<std::string, std::string> out;
   for (std::size_t i = 0; i < linkage.links.size(); ++i)
-    if (robot.joint_of_body.contains(linkage.links[i].body)) out[linkage.links[i].body] = parts.joint_of_link[i];
+    if (robot.joint_of_body.contains(linkage.links[i].body)) 
+      out[linkage.links[i].body] = joint_of_body(linkage, i, parts.joint_of_link[i]);
   return out;
 }
 
-void write_robot_files(const std::map<std::string, std::string>& map, ImportedRobot& out) {
+// Joints that have several freedoms, or no name of their own, have no single value.
+FileJoints values_of(const std::vector<RobotJointReport>& joints) {
+  constexpr double kMostValue = 1e6;
+  FileJoints out;
+  std::set<std::string> taken;
+  for (const RobotJointReport& report : joints) {
+    const RobotJoint& joint = report.in_file;
+    const std::string& name = report.file_name;
+    if (name.empty() || name.size() > 200 || !taken.insert(name).second) {
+      out.erase(name);
+      continue;
+    }
+    const double greatest = std::max({std::fabs(report.rest), std::fabs(joint.multiplier), std::fabs(joint.offset)});
+    if (joint.kind != RobotJointKind::ball && greatest <= kMostValue)
+      out[name] = {report.joint, report.rest, joint.follows, joint.multiplier, joint.offset};
+  }
+  return out;
+}
+
+void write_robot_files(const std::map<std::string, std::string>& map, const Quat& root, ImportedRobot& out) {
+  const std::array<double, 4> root_rotation{root.x, root.y, root.z, root.w};
   const std::string& name = out.character.name;
   for (const PartDesc& part : out.parts) out.files.push_back({part.name + ".json", print_part(part)});
   out.files.push_back({name + ".json", print_character(out.character)});
-  out.files.push_back({"maps/" + name + ".json", print_joint_map({map})});
+  out.files.push_back({"maps/" + name + ".json", print_joint_map({map, values_of(out.joints), root_rotation})});
   out.files.push_back({name + ".import.md", write_robot_report(out)});
 }
 
@@ -180,7 +212,7 @@ Result<ImportedRobot> import_robot(const RobotModel& robot, const std::string& n
   if (!character) return character.issue();
   for (const Joint& joint : character->joints()) out.mass_kg += joint.mass_kg;
   out.height_m = height_of(*character);
-  write_robot_files(map_of_bodies(out, linkage, *parts), out);
+  write_robot_files(map_of_bodies(out, linkage, *parts), robot.bodies.front().parent_from_body.q, out);
   return out;
 }
 

@@ -13,7 +13,7 @@
 
 namespace contort {
 
-// A joint of the character, with what its file says about it, for the report.
+// A joint of the character with the data of the robot's file, for the report.
 struct RobotJointReport {
   std::string file_name;
   std::string joint;  // "arm/elbow"; "" if it is not a joint of the character
@@ -26,12 +26,13 @@ struct ImportedRobot {
   std::vector<PartDesc> parts;
   CharacterDesc character;
   std::vector<RobotJointReport> joints;
-  std::map<std::string, std::string> joint_of_body;  // bodies of the file; the root's is "root"
+  std::map<std::string, std::string> joint_of_body;  // by body of the file; "root" for the root's body
   std::vector<std::string> notes;
-  int pairs_of_file = 0;  // allowed because the file says so
-  int pairs_at_rest = 0;  // allowed because no motion can avoid them
+  bool is_skeleton = false;  // the file is a skeleton of motion capture
+  int pairs_of_file = 0;  // pairs that the file allows
+  int pairs_at_rest = 0;  // pairs that are allowed because no motion can avoid them
   double mass_kg = 0.0;
-  double height_m = 0.0;          // of the colliders, at rest
+  double height_m = 0.0;          // height of the colliders at rest
   std::vector<ImportFile> files;  // the report is the last one
 };
 

@@ -1,5 +1,6 @@
-// A robot's bodies as the joints of a character: bodies that are fixed to each other become one, and each joint's frame
-// is where its motion happens. Vectors are in a character's axes: +Y up, +Z forward, +X to the left.
+// Converts a robot's bodies to the joints of a character. Bodies that are fixed to each other become one, and the
+// origin of each joint's frame lies on the joint's axis. Vectors are in a character's axes: +Y up, +Z forward, +X to
+// the left.
 #pragma once
 
 #include <string>
@@ -12,19 +13,19 @@
 namespace contort {
 
 struct LinkageShape {
-  std::string body;  // of the file
+  std::string body;  // name of the body in the file
   ColliderShape shape;
   unsigned groups = 1;
   unsigned partners = 1;
-  bool is_guessed = false;  // from the body's inertia, as its mesh was not read
+  bool is_guessed = false;  // made from the body's inertia, because its mesh was not read
 };
 
-// Bodies that move as one: the joints between it and its carrier, and what is fixed to the last one.
+// Bodies that move as one: the joints between them and their carrier, and everything that is fixed to the last joint.
 struct RobotLink {
-  std::string body{};               // of the file, the first one
+  std::string body{};               // name of the first body in the file
   int parent = -1;                  // an earlier link; -1 for the root
   std::vector<JointDesc> joints{};  // without names and parents; none for the root
-  std::vector<int> reports{};       // of each joint, into Linkage::reports
+  std::vector<int> reports{};       // for each joint its index in Linkage::reports
   BodyInertia inertia{};
   std::vector<LinkageShape> shapes{};
 };

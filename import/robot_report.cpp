@@ -43,7 +43,8 @@ std::string row_of(const RobotJointReport& report) {
 
 std::string write_robot_report(const ImportedRobot& robot) {
   std::string out = "# " + robot.character.name + ": what was read and what was guessed\n\n";
-  out += "A robot of " + number_text(robot.mass_kg) + " kg and " + number_text(robot.height_m) + " m, with " +
+  out += robot.is_skeleton ? "A skeleton of " : "A robot of ";
+  out += number_text(robot.mass_kg) + " kg and " + number_text(robot.height_m) + " m, with " +
          std::to_string(robot.joints.size()) + " joints in " + std::to_string(robot.parts.size()) + " parts.\n\n";
   for (const std::string& text : robot.notes) out += "* " + safe_cell(text, 600) + "\n";
   out +=

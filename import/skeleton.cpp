@@ -52,7 +52,7 @@ Result<int> choose_skeleton(const SkinnedAsset& asset, const std::vector<int>& s
   const auto most = std::max_element(vertices.begin(), vertices.end());
   const int chosen = wanted_skin >= 0 ? skeletons[at(wanted_skin)] : static_cast<int>(most - vertices.begin());
   if (vertices[at(chosen)] == 0)
-    return Issue{"import.no_vertices", "/meshes", "no vertex hangs on the skin: there is nothing to fit a body to"};
+    return Issue{"import.no_vertices", "/meshes", "no vertex follows the skin, so there is no surface to fit bodies to"};
   return chosen;
 }
 

@@ -10,7 +10,7 @@ namespace contort {
 // Returns world_from_node of all nodes at rest, in the file's units.
 std::vector<Mat4> world_of(const Asset& asset);
 
-// The vertices of one mesh in the rest pose, and for each the node of greatest weight; -1 for none.
+// The vertices of one mesh in the rest pose, and for each vertex the node of greatest weight; -1 for none.
 struct PlacedMesh {
   std::vector<Vec3> positions;
   std::vector<int> owners;
@@ -18,8 +18,8 @@ struct PlacedMesh {
 
 PlacedMesh place(const SkinnedAsset& asset, const SkinnedMesh& mesh, const std::vector<Mat4>& world);
 
-// A point spread evenly over the triangles, one for every `quantum` of area, with the node of greatest weight. Shapes
-// are fitted to these points, so that fine and coarse meshes give the same result.
+// A point on the triangles, with the node of greatest weight. Points are spread evenly, one for every `quantum` of
+// area. Shapes are fitted to them, so that fine and coarse meshes give the same result.
 struct SurfacePoint {
   Vec3 position{0.0};
   int owner = -1;

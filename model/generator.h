@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/character/character.h"
@@ -17,13 +18,18 @@
 
 namespace contort {
 
-inline constexpr int kMaxFrames = 36000;  // of one motion: ten minutes at 60 Hz
+inline constexpr int kMaxFrames = 36000;  // longest motion: ten minutes at 60 Hz
+
+// A program under test may refuse a request that its manifest allows. Such an issue has this code, and its text begins
+// like this, followed by the program's own words.
+inline constexpr std::string_view kRefusedCode = "guest.refused";
+inline constexpr std::string_view kRefusedText = "the generator refuses the request: ";
 
 // A goal is reached at the end of the action's period; a course is a posture as a function of time
 // (docs/reference/timeline.md).
 enum class Timing { goal, course };
 
-// The goal that an action sets to the limb that it moves; the intent says it to checks (model/motion/intent.h).
+// The goal that an action sets for the limb that it moves. Checks read it from the intent (model/motion/intent.h).
 enum class Promise {
   none,
   arrives,  // at its end the part's tip is at its first parameter, a point in the character's frame
@@ -68,30 +74,30 @@ using Offers = std::vector<std::vector<OfferedAction>>;
 // The features that specs may ask for. The fuzzer draws no others.
 struct Capabilities {
   bool interrupts = true;
-  bool grounds = true;  // other than level
+  bool grounds = true;  // grounds that are not level
   bool obstacles = true;
   bool dynamics = true;
-  bool speeds = true;  // of uses, clips and sequences, other than 1; durations of clips and sequences
+  bool speeds = true;  // speeds of uses, clips and sequences other than 1; durations of clips and sequences
   bool operator==(const Capabilities&) const = default;
 };
 
 struct Manifest {
   std::string name;                  // "contort"
   const Library* library = nullptr;  // characters and their parts; never null, and outlives the generator
-  std::vector<std::string> actions;  // names of all
-  double rate_hz = 60.0;             // of the motions that a search asks for
-  std::string build{};               // tells builds of a generator that is a program of its own apart
+  std::vector<std::string> actions;  // the names of all actions
+  double rate_hz = 60.0;             // the frame rate of the motions that a search asks for
+  std::string build{};               // version or commit of a generator that is a program of its own
   Capabilities can{};
 };
 
-// True if motions are made by a program of its own, which may end without ending ours.
+// True if a separate program makes the motions, which may crash without ending this one.
 inline bool is_own_program(const Manifest& manifest) { return !manifest.build.empty(); }
 
 struct Admission {
-  int most_frames = 1;  // >= 1; the motion may be shorter, as where an interrupt never fires
+  int most_frames = 1;  // >= 1; the motion may be shorter, for example if an interrupt never fires
 };
 
-// One thread at a time may use a generator; `another` makes one for each thread.
+// Only one thread at a time may use a generator; `another` makes one for each further thread.
 class Generator {
  public:
   virtual ~Generator() = default;

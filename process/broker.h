@@ -1,5 +1,6 @@
-// The way to the worker processes. The front has threads and must not fork, so a process with one thread, the broker,
-// is split off before the first of them; it keeps the workers (process/worker_pool.h) and hands tasks on.
+// The server's connection to its worker processes. The server has threads and must not fork. So a process with one
+// thread, the broker, is forked before the first thread starts; it owns the workers (process/worker_pool.h) and passes
+// tasks to them.
 #pragma once
 
 #include <condition_variable>
@@ -16,13 +17,13 @@
 
 namespace contort {
 
-// Tasks that a terminal waits for go before those that it can do without for a moment.
+// The priority of a task: tasks for which a client waits come before those that may be late.
 enum class Urgency : std::uint8_t { now, later };
 
 struct BrokerLimits {
   int workers = 2;
-  WorkerLimits each;      // of one task
-  int most_waiting = 64;  // tasks without a worker
+  WorkerLimits each;      // limits of one task
+  int most_waiting = 64;  // the most tasks that wait for a worker
 };
 
 // The outcome of a task, and the time for which a worker had it.
@@ -35,14 +36,14 @@ struct BrokerLoad {
   int waiting = 0;
   int running = 0;
   std::int64_t done = 0;
-  std::int64_t ended_badly = 0;  // crashed, over the time, over the memory
-  double worker_s = 0.0;         // of all tasks
+  std::int64_t ended_badly = 0;  // tasks that crashed, or exceeded the limit of time or memory
+  double worker_s = 0.0;         // time of workers for all tasks
 };
 
 class Broker {
  public:
-  // `work` runs in the workers. To be called before the process has threads. Throws std::system_error where the system
-  // gives no more processes.
+  // `work` runs in the workers. Call it before the process has threads. Throws std::system_error if no process can be
+  // started.
   Broker(const BrokerLimits& limits, WorkerPool::Work work);
   ~Broker();  // ends broker and workers
   Broker(const Broker&) = delete;

@@ -1,15 +1,17 @@
 #include "process/ended.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace contort {
 
-std::string ProgramEnded::describe(const Ending& ending) {
+std::string describe(const Ending& ending, std::size_t most_printed) {
   std::string text = ending.kind == Ending::Kind::timeout  ? "the program did not answer in time"
                      : ending.kind == Ending::Kind::memory ? "the program used too much memory"
                                                            : "the program ended: " + ending.signal;
-  if (!ending.printed.empty()) text += "; it printed: " + ending.printed;
-  return text;
+  if (ending.printed.empty()) return text;
+  const std::size_t left_out = ending.printed.size() - std::min(ending.printed.size(), most_printed);
+  return text + "; it printed: " + (left_out > 0 ? "..." : "") + ending.printed.substr(left_out);
 }
 
 std::string print_ending(const Ending& ending) {

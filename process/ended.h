@@ -4,12 +4,17 @@
 #include <exception>
 #include <string>
 
+#include "model/core/result.h"
 #include "process/isolate.h"
 
 namespace contort {
 
+// A sentence without its full stop: "the program ended: exit 1; it printed: ...". It has only the last characters that
+// the program printed, because errors come last.
+std::string describe(const Ending& ending, std::size_t most_printed = kMostPrinted);
+
 // Work throws this when a program that it needs has ended, so that the work has no result. A worker pool and `isolate`
-// tell it as if the process of the work had ended in the same way.
+// report it as if the process of the work had ended in the same way.
 class ProgramEnded : public std::exception {
  public:
   // `ending` is not `finished`.
@@ -18,10 +23,19 @@ class ProgramEnded : public std::exception {
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:
-  static std::string describe(const Ending& ending);
   Ending ending_;
   std::string text_;
 };
+
+// The result of work that a program does for us; if that program ends, an issue with the code generator.ended.
+template <class Work>
+auto unless_it_ends(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const ProgramEnded& ended) {
+    return Issue{"generator.ended", "", ended.what()};
+  }
+}
 
 // One line of text for a socket or shared memory, and back. Text that is no ending gives a crash without a signal.
 std::string print_ending(const Ending& ending);

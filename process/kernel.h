@@ -6,10 +6,10 @@
 
 namespace contort {
 
-// Memory that the process of this number has; 0 where it has ended.
+// Returns the resident memory of a process in bytes; 0 if it has ended.
 std::int64_t resident_bytes(int pid);
 
-// "SIGSEGV"
+// Returns the name of a signal: "SIGSEGV".
 std::string signal_name(int number);
 
 }  // namespace contort

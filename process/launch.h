@@ -16,7 +16,7 @@ struct Streams {
 };
 
 // Starts a program in a process group of its own, without a shell, with no signal blocked. It is killed when the
-// calling thread ends. Gives the process number, or -1 where the system has no process. A program that cannot be run
+// calling thread ends. Returns the process number, or -1 if no process can be started. A program that cannot be run
 // ends with kNotStarted. The caller closes its copies of the descriptors.
 int launch(const std::vector<std::string>& command, const Streams& streams);
 

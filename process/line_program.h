@@ -11,7 +11,7 @@
 
 namespace contort {
 
-// The way of a program's standard error: to ours, nowhere, or into `Ending::printed`.
+// The destination of a program's standard error: ours, none, or `Ending::printed`.
 enum class Messages { shown, dropped, kept };
 
 class LineProgram {
@@ -21,7 +21,7 @@ class LineProgram {
   // The program is started at once and is killed when this object or the calling thread ends. If it cannot be started,
   // the first read_line() says so. With `listens`, it may connect to a port of ours on 127.0.0.1, which it finds as
   // CONTORT_PORT in its environment, and speak there from then on; what it writes to its standard output is then kept
-  // as a message. CONTORT_TOKEN is a word that nobody else knows.
+  // as a message. CONTORT_TOKEN is a secret word by which the program is recognised.
   LineProgram(const std::vector<std::string>& command, const WorkerLimits& limits, Messages messages,
               bool listens = false);
   ~LineProgram();
@@ -37,7 +37,7 @@ class LineProgram {
   // gives the same ending. `on_wait` is called about ten times a second.
   Ending read_line(const std::function<void()>& on_wait = {}, double seconds = 0.0);
 
-  // The same for a number of bytes, at most kMostLine.
+  // Waits for a number of bytes, at most kMostLine, in the same way.
   Ending read_bytes(std::size_t count);
 
   // Ends the program as if it had crashed, with these words as its signal, and gives the ending.
@@ -64,14 +64,14 @@ class LineProgram {
   WorkerLimits limits_;
   int pid_ = -1;
   int socket_ = -1;
-  int messages_ = -1;    // its standard error
-  int listener_ = -1;    // until it has connected
-  int connection_ = -1;  // over TCP
+  int messages_ = -1;    // the program's standard error
+  int listener_ = -1;    // listens until the program has connected
+  int connection_ = -1;  // the TCP connection
   std::string token_;
-  bool is_stuck_ = false;  // it did not take what was sent
+  bool is_stuck_ = false;  // the program did not read its input in time
   std::string received_;
   std::string printed_;
-  Ending ending_;  // of the program; `finished` while it runs
+  Ending ending_;  // the ending of the program; `finished` while it runs
 };
 
 }  // namespace contort

@@ -5,7 +5,7 @@
 
 namespace contort {
 
-// Listens on a free port, which it tells. -1 where the system has no socket.
+// Listens on a free port and returns its number in `port`. Returns -1 if no socket can be opened.
 int listen_on_loopback(int& port);
 
 // The first connection that waits, without Nagle's delay, or -1 if none does.

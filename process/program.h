@@ -11,10 +11,10 @@ namespace contort {
 
 struct ProgramResult {
   int code = 0;         // exit code; 128 + signal
-  bool killed = false;  // it took too long, or was no longer wanted
-  std::string out;      // the end of what it printed, each
+  bool killed = false;  // it was ended, because it took too long or `stop` asked for that
+  std::string out;      // the last output on each stream
   std::string err;
-  double cpu_s = 0.0;  // its own, and that of its children that ended before it
+  double cpu_s = 0.0;  // CPU time of the program, and of its children that ended before it
 };
 
 // Arguments as they are, without a shell. Ends the program after `seconds`, or when `stop` says so; it also ends when

@@ -1,11 +1,11 @@
-// All of some bytes through a socket, however many calls that takes.
+// Sends or receives all of the bytes through a socket, with as many calls as needed.
 #pragma once
 
 #include <cstddef>
 
 namespace contort {
 
-// False where the other end is gone.
+// Return false if the other end has closed the socket.
 bool send_all(int socket, const void* bytes, std::size_t size);
 bool receive_all(int socket, void* bytes, std::size_t size);
 

@@ -1,5 +1,5 @@
-// Work in processes of their own. What crashes, hangs or eats memory there ends that process alone; the pool says how,
-// and what it was doing, and starts another. The caller must have no other threads.
+// Runs work in worker processes. Work that crashes, hangs or uses too much memory ends only its process; the pool
+// reports the ending and the last note of the work, and starts another worker. The caller must have no other threads.
 #pragma once
 
 #include <atomic>
@@ -19,9 +19,9 @@ class WorkerSlot {
  public:
   static constexpr std::size_t kMostNote = 1 << 20;
 
-  // Notes what is being done now; longer notes are kept empty. Written before the work begins.
+  // Notes the present work, before it begins. A note that is too long is replaced by an empty one.
   void note(std::string_view text);
-  // Still alive: the time limit counts from here.
+  // A sign of life: the time limit counts from here.
   void beat() { beats_.fetch_add(1, std::memory_order_relaxed); }
 
   std::string note() const { return std::string(text_, length_); }
@@ -49,12 +49,12 @@ enum class WorkerEnd { replied, crashed, timed_out, out_of_memory };
 struct WorkerEvent {
   int worker = 0;
   WorkerEnd end = WorkerEnd::replied;
-  std::string text;  // the reply; of a crash the signal: "SIGSEGV", or "exit 3"
-  std::string note;  // where it did not reply: what it was doing
+  std::string text;  // the reply; for a crash the signal, "SIGSEGV", or "exit 3"
+  std::string note;  // if it did not reply: the last note of its work
   std::string printed{};  // the last output of a program that ended and took the worker with it
 };
 
-// Not of a reply.
+// The outcome must not be a reply.
 Ending ending_of(const WorkerEvent& event);
 
 // The same limits for one process.
@@ -64,7 +64,7 @@ class WorkerPool {
  public:
   using Work = std::function<std::string(const std::string& task, WorkerSlot& slot)>;
 
-  // Throws std::system_error where the system gives no more processes.
+  // Throws std::system_error if no process can be started.
   WorkerPool(int workers, const WorkerLimits& limits, Work work);
   ~WorkerPool();  // kills workers that still run
   WorkerPool(const WorkerPool&) = delete;
@@ -75,8 +75,8 @@ class WorkerPool {
   // `patience` times the limit of seconds is allowed.
   void give(int worker, const std::string& task, double patience = 1.0);
 
-  // The next worker that replied or ended, or nothing within the time. Comes back at once where there is something to
-  // read on `other`, a socket of the caller's.
+  // Returns the next worker that replied or ended, or nothing if none does within the time. Returns at once if there is
+  // something to read on `other`, a socket of the caller.
   std::optional<WorkerEvent> wait(int milliseconds, int other = -1);
 
  private:
@@ -87,7 +87,7 @@ class WorkerPool {
     bool busy = false;
     std::string received;
     std::uint64_t beats = 0;
-    double since_s = 0.0;  // of the last beat
+    double since_s = 0.0;  // time of the last beat
     double patience = 1.0;
   };
 

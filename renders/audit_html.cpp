@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <span>
 
-#include "model/core/hash.h"
 #include "renders/html.h"
-#include "renders/page_files.h"
+#include "renders/static_page.h"
 
 namespace contort {
 
@@ -23,12 +22,6 @@ std::string percent_of(int count, int of) {
   return text;
 }
 
-std::string style_sheet() {
-  for (const StockFile& file : page_files())
-    if (file.name == "page.css") return std::string(file.text);
-  return "";
-}
-
 constexpr std::string_view kOwnStyle =
     "table.audit { border-collapse: collapse; width: 100%; background: var(--card); }\n"
     "table.audit th, table.audit td { text-align: left; vertical-align: top; padding: .4rem .6rem; border-bottom: 1px solid var(--line); }\n"
@@ -39,16 +32,6 @@ constexpr std::string_view kOwnStyle =
     "td img { display: block; max-width: 26rem; width: 100%; height: auto; margin-top: .4rem; }\n"
     "details summary { color: var(--accent); cursor: pointer; }\n"
     ".scroll { overflow-x: auto; }\n";
-
-std::string head_of(const std::string& title, const std::string& nonce) {
-  return "<!doctype html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
-         "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src 'self' file: data:; style-src "
-         "'nonce-" + nonce + "'; base-uri 'none'; form-action 'none'\">\n"
-         "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
-         "<meta name='color-scheme' content='light dark'>\n<title>" + html_text(title) +
-         "</title>\n<link rel='icon' href='data:,'>\n<style nonce='" + nonce + "'>\n" + style_sheet() +
-         std::string(kOwnStyle) + "</style>\n</head>\n";
-}
 
 std::string worst_html(const AuditPageRow& row) {
   if (row.spec.empty()) return "";
@@ -113,8 +96,7 @@ std::string audit_html(const AuditPage& page) {
   for (const auto& group : by_character(page.rows)) body += table_html(group);
   body += "<h2>Again</h2>\n<pre><code>" + html_text(page.command) + "</code></pre>\n<p>Made by Contort " +
           html_text(page.tool) + ".</p>\n</main>\n";
-  const std::string nonce = content_id(body);
-  return head_of("Contort audit", nonce) + "<body>\n" + body + "</body>\n</html>\n";
+  return static_page("Contort audit", kOwnStyle, body);
 }
 
 }  // namespace contort

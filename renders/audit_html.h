@@ -11,16 +11,17 @@ struct AuditPageRow {
   std::string part;    // "arm_left, rifle at hand_left/grip"
   std::string action;  // "aim muzzle"
   int draws = 0;       // > 0
-  int clean = 0;       // without a finding
-  int unmet = 0;       // with a request that was not met
-  int still = 0;       // in which nothing moved
+  int clean = 0;       // motions without a finding
+  int unmet = 0;       // motions with a request that was not met
+  int still = 0;       // motions in which nothing moved
   std::string details;  // "self_collision 2; unmet: joint_speed 5"
-  std::string spec;     // of the worst motion, relative to the page; "" if every motion is clean and met
-  std::string picture;  // the same
+  std::string spec;     // path of the worst motion's spec, relative to the page; "" if every motion is clean and its
+                        // request met
+  std::string picture;  // path of its picture; the same
 };
 
 struct AuditPage {
-  std::string command;  // that makes the page again
+  std::string command;  // the command that makes the page again
   std::string tool;     // the version
   std::vector<AuditPageRow> rows;
 };

@@ -1,4 +1,4 @@
-// The view that a picture is taken from. Plain geometry; the choice among several views is made in raster/auto_camera.
+// The view from which a picture is taken. Plain geometry; the choice among several views is made in raster/auto_camera.
 #pragma once
 
 #include <span>
@@ -12,9 +12,9 @@ struct Camera {
   Vec3 eye_m{0.0, 1.0, 4.0};
   Vec3 right{1.0, 0.0, 0.0};  // Unit vectors at right angles, right x up = back.
   Vec3 up{0.0, 1.0, 0.0};
-  Vec3 back{0.0, 0.0, 1.0};  // Against the direction of view.
+  Vec3 back{0.0, 0.0, 1.0};  // Opposite to the direction of view.
   double tan_half_height = 0.27;
-  Vec3 center_m{0.0};  // The point that it looks at: the middle of what was framed, on the axis of view.
+  Vec3 center_m{0.0};  // The target: the middle of the framed points, on the axis of view.
 };
 
 // A direction of view. Azimuth 0 looks at the front of a character at rest (from +Z), positive from its left (+X);
@@ -36,7 +36,7 @@ Camera frame_points(std::span<const Vec3> points, const View& view, double aspec
 // `anchors` are the positions of the figure on the ground.
 struct StripCamera {
   Camera camera;
-  bool follows = false;  // true: it stands as far from a frame's anchor as `camera` from the origin.
+  bool follows = false;  // true: the camera keeps the distance from a frame's anchor that `camera` has from the origin.
   Camera at(const Vec3& anchor_m) const;
 };
 StripCamera frame_strip(std::span<const std::vector<Vec3>> points, std::span<const Vec3> anchors, const View& view,

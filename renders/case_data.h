@@ -18,7 +18,7 @@ struct ShownCase {
   const Case& stored;
 };
 
-// The number of margin curves of a motion: the failure's, and those nearest to their limits.
+// The number of margin curves of a motion: that of the failure, and those nearest to their limits.
 inline constexpr std::size_t kMostCurves = 16;
 
 // Returns JSON in one line, safe inside of a <script>. The first of `shown` describes the failure. `strip` is the

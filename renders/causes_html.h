@@ -1,5 +1,4 @@
-// The causes of the failures of a report (docs/reference/causes.md): what is wrong, in how many ways, and what matters
-// most.
+// The causes of the failures of a report (docs/reference/causes.md): a table with the most severe cause first.
 #pragma once
 
 #include <string>

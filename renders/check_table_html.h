@@ -1,4 +1,4 @@
-// The checks that fail on each character: where the trouble is.
+// Makes the table of the checks that fail on each character.
 #pragma once
 
 #include <string>

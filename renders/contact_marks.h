@@ -14,10 +14,11 @@
 namespace contort {
 
 inline constexpr Vec3 kContactColor{1.0, 0.93, 0.05};
-inline constexpr Vec3 kContactRimColor{0.004, 0.004, 0.008};  // around it: it stands out from anything
+inline constexpr Vec3 kContactRimColor{0.004, 0.004, 0.008};  // a rim around the mark, so that it stands out from any
+                                                              // background
 
-// Returns the points of a highlighted pair's nearest judged colliders. Nothing without a pair, or if a transform is
-// not finite.
+// Returns the points of a highlighted pair's nearest judged colliders. Returns nothing if there is no pair, or if a
+// transform is not finite.
 std::optional<NearestPoints> contact_of_pair(const Character& character, const Highlight& highlight,
                                              std::span<const Rigid> world);
 

@@ -17,14 +17,14 @@ inline constexpr double kSamePlace_m = 0.001;
 struct Divergence {
   struct At {
     int frame = -1;
-    std::string joint;     // that is farthest from where it is in the other motion
-    double apart_m = 0.0;  // greater than the tolerance, or NaN where one of the two has no place
+    std::string joint;     // the joint that is farthest from its place in the other motion
+    double apart_m = 0.0;  // greater than the tolerance; NaN if one of the two positions is not finite
   };
-  At first, worst;                  // of frames that both have; frame -1: no difference there
-  int last_frame = -1;              // the last one that is different
-  int frames = 0;                   // that both have
-  int frames_a = 0, frames_b = 0;   // that each has
-  int joints = 0;                   // that both have
+  At first, worst;                  // the first and the greatest difference in frames that both have; frame -1: none
+  int last_frame = -1;              // the last frame that differs
+  int frames = 0;                   // number of frames that both motions have
+  int frames_a = 0, frames_b = 0;   // number of frames of each motion
+  int joints = 0;                   // number of joints that both characters have
   std::vector<std::string> only_a;  // joints that the other one lacks
   std::vector<std::string> only_b;
 
@@ -34,7 +34,7 @@ struct Divergence {
 
 struct Performance {
   const Character& character;
-  const Motion& motion;  // of this character
+  const Motion& motion;  // a motion of this character
 };
 
 // Compares two motions. Positions no farther apart than `tolerance_m` >= 0 are equal. Code compare.other_rate if the

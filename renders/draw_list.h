@@ -2,7 +2,7 @@
 //
 //   Figure figure = make_figure(character, highlighted(character, finding));   // once: triangles, colours
 //   DrawList list;
-//   add_figure(list, figure, world);                                           // per frame: where everything is
+// add_figure(list, figure, world); // per frame: the place of everything
 #pragma once
 
 #include <span>
@@ -19,16 +19,18 @@ struct DrawInstance {
   Rigid world_from_mesh;  // Finite, within kWorldReach_m.
   Vec3 color{0.7};        // Linear RGB, each in [0, 1].
   int highlight =
-      0;  // 0: none. n > 0: a thing that a finding is about (see highlight_groups); it shines through what hides it.
+      0;  // 0: none. n > 0: a subject of the finding (see highlight_groups), which is visible through everything in
+          // front of it.
   bool ghost = false;   // Translucent.
-  bool mark = false;    // A sign: it has no shadow, and shines through what hides it unless it is translucent.
-  bool on_top = false;  // With `mark`: nothing hides it; of several the later one is above.
+  bool mark = false;    // A sign: it has no shadow, and unless it is translucent it is visible through everything in
+                        // front of it.
+  bool on_top = false;  // With `mark`: drawn in front of everything; of several the later one is in front.
 };
 
 // Positions beyond this are treated as not finite: nothing would be visible, and floats would lose centimetres.
 inline constexpr double kWorldReach_m = 1e4;
 
-// The things around the figure. They do not count for framing, and they never hide the figure.
+// The objects around the figure. They do not count for framing, and they never hide the figure.
 struct Scenery {
   std::vector<DrawInstance> ground;  // Empty: a level plane.
   double level_m = 0.0;              // The height of that plane.
@@ -38,10 +40,10 @@ struct Scenery {
 struct DrawList {
   std::vector<DrawInstance> instances;
   Scenery scenery;
-  bool complete = true;  // false: something had a place that is not finite and was left out.
+  bool complete = true;  // false: something was left out because its place is not finite.
 };
 
-// A character as it is drawn, in the coordinates of its joints.
+// A character's triangles and colours, in the frames of its joints.
 struct FigurePiece {
   int mesh = 0;
   int joint = 0;
@@ -74,7 +76,7 @@ double figure_size_m(const Character& character);
 
 enum class Look {
   solid,  // in its own colours
-  pale,   // nearly white, but for what is highlighted: the figure that a ghost belongs to
+  pale,   // nearly white except for highlights: the figure to which a ghost belongs
   ghost,  // grey and translucent, without highlight
 };
 

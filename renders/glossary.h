@@ -1,5 +1,5 @@
-// The words of a report, each with one meaning everywhere. They are explained where they stand, and once more in a list
-// at the end of the page.
+// The words of a report, each with one meaning everywhere. The page explains each word where it occurs, and all of them
+// in a list at its end.
 #pragma once
 
 #include <string>

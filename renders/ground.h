@@ -14,9 +14,9 @@ struct GroundRegion {  // A rectangle in world x and z.
 // A limit for every spec; a height field is sampled more coarsely to keep it.
 inline constexpr int kMostGroundTriangles = 50'000;
 
-// The ground in world coordinates. Normals point up, those of risers against the direction of climbing.
+// The ground in world coordinates. Normals point up; normals of risers point against the direction of climbing.
 struct GroundMesh {
-  Triangles surface;  // Without what is in `nosings`.
+  Triangles surface;  // All of the ground except for `nosings`.
   Triangles nosings;  // The front edges of treads, a hand's width or less: they show a step seen from its upper side.
 };
 

@@ -1,4 +1,4 @@
-// Finds the places on the body that the name of a finding's subject means.
+// Finds the parts of the body to which the name of a finding's subject refers.
 #pragma once
 
 #include <vector>

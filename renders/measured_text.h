@@ -1,4 +1,4 @@
-// Says what was measured where a check failed, and how much is allowed.
+// Prints the measured value of a failed check, with its limit.
 #pragma once
 
 #include <string>

@@ -9,7 +9,8 @@
 
 namespace contort {
 
-inline constexpr double kLeastRange_m = 0.08;  // radius of what is drawn, by the length of the limb
+inline constexpr double kLeastRange_m = 0.08;  // smallest radius of the drawing, which otherwise follows from the
+                                               // length of the limb
 inline constexpr double kMostRange_m = 0.35;
 
 // Draws, for a hinge, the sector in which the limb may turn, green and translucent, and in red the angle beyond it;

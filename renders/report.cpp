@@ -81,6 +81,9 @@ std::string report_json(const ReportModel& model) {
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
   for (const ReportCause& cause : model.causes) json["causes"].push_back(cause_json(cause));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});
+  if (model.refused > 0) json["refused"] = model.refused, json["refusals"] = Json::array();
+  for (const RefusalCount& count : by_frequency(model.refusals))
+    json["refusals"].push_back({{"reason", count.text}, {"cases", count.cases}});
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checks/family.h"
+#include "corpus/refusals.h"
 #include "corpus/search_progress.h"
 #include "model/core/result.h"
 
@@ -19,37 +20,38 @@ struct ReportRow {
   std::string family;   // rows of one family share a card
   std::string check;    // "self_collision"
   std::string subject;  // "arm_left/forearm ~ torso/chest"
-  std::string unit;     // of worst_margin
+  std::string unit;     // unit of worst_margin
   double worst_margin = 0.0;
   std::string measured;  // value and limit in the worst frame, "turns 3 600 °/s, limit 733 °/s"; "" if unknown
-  std::int64_t cases_seen = 0;  // of the family: its buckets are told apart only after shrinking
-  std::string bucket;           // id
-  std::string key;              // names its files: strips/<key>-*.png, cases/<key>.js
-  std::string character;        // that moves
+  std::int64_t cases_seen = 0;  // cases of the family, because its buckets can be distinguished only after shrinking
+  std::string bucket;           // the bucket's id
+  std::string key;              // the name in its files: strips/<key>-*.png, cases/<key>.js
+  std::string character;        // name of the character
   bool has_motion = true;       // false: there is nothing for the viewer to play
   std::string printed;          // the last words of a generator that ended; "" if it is no program of its own
   std::string state;            // "new", "open", "regressed", …
   bool gating = false;
   std::string spec_json;       // the minimal spec, laid out for reading
-  std::string replay_command;  // exactly what to type
-  std::string strip;           // film strip of the minimal case: a path relative to the page, "" where there is none
-  std::string clip;            // the failing half second of it, moving; the same
+  std::string replay_command;  // the complete command
+  std::string strip;           // film strip of the minimal case: a path relative to the page; "" if there is none
+  std::string clip;            // animation of its failing half second: the same kind of path
   int first_frame = 0;
   int worst_frame = 0;
   int last_frame = 0;
-  int frame_count = 0;  // of the minimal motion; 0: not known
+  int frame_count = 0;  // frames of the minimal motion; 0: unknown
   double rate_hz = 60.0;
-  std::string features;   // of the bucket: what its id is made of beside the family
-  std::string cause;      // headline of its cause; "" where it has none
-  std::string needs;      // of the minimal spec, in words (renders/needs.h)
-  std::vector<Family> co_failures;  // that its minimal spec shows too: they have no row for that
-  std::string case_file;  // of the minimal case: a relative path, as code hosts want it
+  std::string features;   // features of the bucket, which together with the family determine its id
+  std::string cause;      // headline of its cause; "" if it has none
+  std::string needs;      // the needs of the minimal spec, in words (renders/needs.h)
+  std::vector<Family> co_failures;  // other families that its minimal spec shows, too; they have no row of their own
+                                    // for that
+  std::string case_file;  // file of the minimal case: a relative path, as code hosts require
   std::string since_base;  // result of the base for the same spec (docs/reference/against.md); "" without a comparison
-  std::string meaning;    // of the check, in a sentence; may be ""
-  std::string note;       // the knowledge of people: "ana, ticket 12"
-  std::string phase;      // of the worst frame: "interrupt" (checks/circumstances.h); "" where it is not known
-  std::vector<std::string> actions;  // of the minimal spec
-  double depth = 0.0;                // of the failure, comparable between checks
+  std::string meaning;    // meaning of the check, in a sentence; may be ""
+  std::string note;       // owner, ticket and notes of people: "ana, ticket 12"
+  std::string phase;      // phase of the worst frame: "interrupt" (checks/circumstances.h); "" if it is unknown
+  std::vector<std::string> actions;  // actions of the minimal spec
+  double depth = 0.0;                // depth of the failure, comparable between checks
 };
 
 // A cause of failures (docs/reference/causes.md). Its texts are untrusted, too.
@@ -57,13 +59,13 @@ struct ReportCause {
   std::string id;
   std::string headline;                 // "Left hand goes through right thigh during aim"
   double severity = 0.0;                // [0, 100]
-  std::int64_t cases = 0;               // that showed its most frequent family
+  std::int64_t cases = 0;               // cases that showed its most frequent family
   std::vector<std::string> characters;  // sorted
   std::vector<std::string> buckets;     // ids, the deepest first
-  std::string key;                      // of the row of its deepest case, if that has a motion; else ""
-  // Sentences that say when it fails, by character (docs/reference/conditions.md); empty where none were learned.
+  std::string key;                      // key of the row of its deepest case, if that has a motion; else ""
+  // Sentences that say when it fails, by character (docs/reference/conditions.md); empty if none were learned.
   std::map<std::string, std::string> conditions{};
-  bool is_new = false;  // not in the baseline; without one, nobody has looked at any of its failures
+  bool is_new = false;  // not in the baseline; without a baseline: nobody has acknowledged any of its failures
 };
 
 struct ReportModel {
@@ -74,12 +76,15 @@ struct ReportModel {
   std::int64_t findings = 0;
   std::int64_t families = 0;
   std::int64_t buckets = 0;
-  std::string elapsed;  // "12 min"; "" where the page has to be the same every time
+  std::string elapsed;  // "12 min"; "" if the page must be the same every time
   std::vector<ReportRow> rows;
   std::vector<ReportCause> causes;  // the most severe first
-  bool has_baseline = false;        // by which causes are told to be new
-  SearchProgress search;            // of all runs together
+  bool has_baseline = false;        // true: is_new of causes compares with a baseline
+  bool has_engine = false;          // true: the page plays specs with viewer/engine.js (docs/internals/wasm.md)
+  SearchProgress search;            // progress of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
+  std::int64_t refused = 0;  // cases that the generator refused, so that nothing was judged
+  RefusalCounts refusals{};  // the generator's reasons
 };
 
 // The files of a page that contains everything, by their paths from it ("viewer/viewer.js", "strips/x.png"), and the

@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// Rows of one family, in the order of the model.
+// A card: the rows of one family, in the order of the model.
 struct FamilyCard {
   std::vector<const ReportRow*> rows;
   bool gating() const;
@@ -24,18 +24,18 @@ std::vector<FamilyCard> cards_of(const ReportModel& model);
 // The limits of a page. Most of a page's bytes would be in rows that nobody reads. After the first 80 buckets, rows
 // show no picture until they are opened, and the viewer shows their specs.
 struct Room {
-  std::size_t buckets = 80;      // that may still be shown with everything
-  std::size_t spec_bytes = 0;    // that they may still write out
-  std::size_t bytes = 0;         // of markup; 0: what is left goes elsewhere
+  std::size_t buckets = 80;      // number of buckets that may still be shown with all details
+  std::size_t spec_bytes = 0;    // bytes of specs that may still be written
+  std::size_t bytes = 0;         // bytes of markup that may still be written; 0: the remaining rows go into other files
   void take(std::size_t written) { bytes -= written < bytes ? written : bytes; }
 };
 
 // The rows of a card that are not on the page.
 struct LateCard {
-  int number = 0;  // of the card
+  int number = 0;  // number of the card
   const FamilyCard* card = nullptr;
   std::vector<const ReportRow*> rows;
-  bool begun = false;  // its head is on the page, and these rows belong to it
+  bool begun = false;  // the page has the head of this card, to which these rows belong
 };
 
 // Returns the card with as many of its rows as fit, at least the first; the others go into `late`.
@@ -54,7 +54,7 @@ bool can_be_opened(const ReportRow& row, const PageFiles& inside);
 // Returns a command to copy, with the button that copies it; "" if there is none.
 std::string command_html(const std::string& command);
 
-// One attribute with its leading space.
+// Returns one attribute with a leading space.
 std::string attribute(std::string_view name, std::string_view value);
 
 }  // namespace contort

@@ -54,6 +54,9 @@ Verdict verdict_of(const ReportModel& model) {
   const std::string others = known.empty() ? "" : "Known, not gating: " + states_text(known) + ".";
   if (count == 0 && model.cases == 0 && model.rows.empty())
     return {"idle", "Nothing was tested", "No case was run, so this says nothing about the animation."};
+  if (count == 0 && model.cases == model.refused && model.rows.empty())
+    return {"idle", "Nothing was tested",
+            "The generator refused every request, so this says nothing about the animation."};
   if (count == 0) return {"good", "Nothing gating", others.empty() ? "No failure is known." : others};
   const bool all_new = gating.size() == 1 && gating.contains("new");
   const std::int64_t causes = gating_causes(model, gating_buckets);
@@ -74,8 +77,8 @@ std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
                     html_text(model.title) + "</p>\n<h1>" + html_text(verdict.text) + "</h1>\n<p class='detail'>" +
                     html_text(verdict.detail) + "</p>\n<dl class='numbers'>\n";
   out += number_item(count_text(model.cases), "cases", "case");
-  if (model.search.cases > 0)
-    out += number_item(clean_share(model.search.cases, model.search.failing), "of them clean");
+  if (model.search.cases > model.refused)
+    out += number_item(clean_share(model.search.cases - model.refused, model.search.failing), "of them clean");
   out += number_item(count_text(std::ssize(model.causes)), "causes", "cause") +
          number_item(count_text(std::ssize(model.rows)), "failures", "failure") +
          number_item(count_text(model.frames), "frames");
@@ -143,10 +146,10 @@ std::string head_html(const ReportModel& model, const Verdict& verdict, const st
   // The nonce is made from the content: an injected script, if escaping ever failed, would have to name the hash of the
   // page that it is part of.
   const std::string by_nonce = "'nonce-" + nonce + "'", here = attribute("nonce", nonce);
-  return "<!doctype html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
+  return "<!doctype html>\n<html lang='en'" + std::string(model.has_engine ? " data-engine" : "") + ">\n<head>\n<meta charset='utf-8'>\n"
          "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src 'self' file: data:; "
          "style-src " +
-         by_nonce + "; script-src " + by_nonce +
+         by_nonce + "; script-src " + by_nonce + (model.has_engine ? " 'wasm-unsafe-eval'" : "") +
          "; base-uri 'none'; form-action 'none'\">\n"
          "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
          "<meta name='color-scheme' content='light dark'>\n<meta name='referrer' content='no-referrer'>\n<title>" +

@@ -16,10 +16,10 @@ namespace contort {
 inline constexpr double kArrow_m_per_rad_s2 = 0.01;
 inline constexpr double kArrow_m_per_m_s2 = 0.2;
 inline constexpr double kArrow_m_per_N_s = 0.06;
-inline constexpr double kLeastArrow_m = 0.01;  // Shorter ones would be specks, and are left out.
+inline constexpr double kLeastArrow_m = 0.01;  // Shorter arrows are left out, because they would be specks.
 inline constexpr double kLongestArrow_m = 0.4;
 
-inline constexpr double kImpactShown_s = 0.3;  // From the frame in which it struck.
+inline constexpr double kImpactShown_s = 0.3;  // Time for which an impact is shown, from its frame on.
 
 inline constexpr Vec3 kControlColor{1.0, 0.38, 0.01};
 inline constexpr Vec3 kImpactColor{0.75, 0.01, 0.30};
@@ -30,7 +30,7 @@ inline constexpr Vec3 kUnbalancedColor{0.80, 0.03, 0.03};
 // A frame of a motion with a response, and its pose.
 struct ResponseFrame {
   const Character& character;
-  std::span<const Leg> legs;  // of that character
+  std::span<const Leg> legs;  // the character's legs
   const Motion& motion;
   int frame = 0;
   std::span<const Rigid> world;  // world_from_joint

@@ -22,13 +22,13 @@ constexpr std::int64_t kFewCases = 30;  // of which nothing can be said about th
 
 std::string what_is_left(const SearchProgress& search) {
   const std::string odds = one_in(unseen_share(search));
-  if (search.cases < kFewCases) return "These are too few cases to say what is left.";
+  if (search.cases < kFewCases) return "These are too few cases to say how many families are left.";
   if (search.failing == 0)
     return "With 95 % confidence, fewer than " + odds + " of the cases that this run draws would.";
   if (search.lone_cases == 0)
     return "Each was met by two cases or more, so probably fewer than " + odds +
            " further cases would show another one.";
-  return counted(search.lone_cases, "case", "cases") + " showed what no other did, so about " + odds +
+  return counted(search.lone_cases, "case", "cases") + " showed a family that no other case showed, so about " + odds +
          " further cases should show a family that none has shown yet.";
 }
 

@@ -1,4 +1,4 @@
-// Prepares the pictures of some frames of a motion, except the pixels. Nothing here knows OpenGL.
+// Prepares the pictures of some frames of a motion, up to the drawing itself. Nothing here knows OpenGL.
 #pragma once
 
 #include <span>
@@ -18,21 +18,21 @@ namespace contort {
 // show what happened (renders/response_marks.h).
 struct Story {
   const Character& character;
-  const Motion& motion;                      // of this character
+  const Motion& motion;                      // a motion of this character
   const Finding* finding = nullptr;          // highlighted
-  const Motion* ghost = nullptr;             // instead of the response's target
+  const Motion* ghost = nullptr;             // replaces the response's target as the ghost
   const Environment* environment = nullptr;  // null: a level plane at height 0
   const DynamicsDesc* dynamics = nullptr;    // source of the loads that are drawn; null: no loads
-  bool colliders = false;                    // as wires around the figure
-  const Skin* skin = nullptr;                // of this character; null: its parts' meshes are drawn
+  bool colliders = false;                    // true: draws colliders as wires around the figure
+  const Skin* skin = nullptr;                // skin of this character; null: its parts' meshes are drawn
 };
 
 struct Shots {
-  std::vector<Triangles> meshes;  // of the figure, the signs and the scenery
+  std::vector<Triangles> meshes;  // meshes of the figure, the signs and the scenery
   std::vector<int> frames;
   std::vector<DrawList> lists;              // by frame, as all below
   std::vector<std::vector<Vec3>> outlines;  // for framing
-  std::vector<Vec3> anchors;                // the place on the ground below the root: what a following camera follows
+  std::vector<Vec3> anchors;                // the places on the ground below the root, which a moving camera follows
 };
 
 // Checks the input. Codes: render.no_frames, render.wrong_motion, render.bad_frame.

@@ -69,7 +69,7 @@ class Tailor {
     skin_.first.push_back(0);
     for (const SkinnedMesh& mesh : asset_.meshes)
       if (hangs_on_figure(mesh)) add(mesh);
-    if (skin_.indices.empty()) return Issue{"skin.empty", "/joints", "nothing of the model hangs on these joints"};
+    if (skin_.indices.empty()) return Issue{"skin.empty", "/joints", "no part of the model follows these joints"};
     if (skin_.owners.size() > kMostSkinTriangles)
       return Issue{"skin.too_large", "/model",
                    "found " + std::to_string(skin_.owners.size()) + " triangles, drawn are at most " +

@@ -13,29 +13,29 @@
 
 namespace contort {
 
-// The limit of triangles. A model with more is a scan, and would take longer to draw than the rest of a strip
-// together.
+// The limit of triangles. A model with more triangles is probably a scan, and would take longer to draw than everything
+// else in a strip.
 inline constexpr std::size_t kMostSkinTriangles = 60'000;
 
 struct Skin {
   struct Influence {
-    int joint = 0;  // of the character
+    int joint = 0;  // joint of the character
     double weight = 0.0;
     Vec3 point_m{0.0};  // the vertex in the joint's frame
   };
-  std::vector<Influence> influences;  // of all vertices, in their order
-  std::vector<int> first;             // of vertex i: influences [first[i], first[i + 1])
-  std::vector<int> shared;            // of vertex i: the first one in the same place, which shares its normal
+  std::vector<Influence> influences;  // influences of all vertices, in their order
+  std::vector<int> first;             // vertex i has influences [first[i], first[i + 1])
+  std::vector<int> shared;            // for vertex i: the first vertex in the same place, which has the same normal
   std::vector<int> indices;           // three to a triangle, counter-clockwise seen from outside
-  std::vector<int> owners;            // of each triangle: the joint that it hangs on most
-  std::vector<bool> moved;            // by joint: it owns a triangle
+  std::vector<int> owners;            // for each triangle the joint with the greatest weight
+  std::vector<bool> moved;            // by joint: true if it owns a triangle
 };
 
 // Binds a skin to a character. Codes skin.*: no node of the model is the root, no vertex follows the character's
 // joints, or there are too many triangles.
 Result<Skin> bind_skin(const SkinDesc& desc, const SkinnedAsset& asset, const Character& character);
 
-// Triangles of one group, around `origin_m`.
+// The triangles of one group, relative to `origin_m`.
 struct SkinPiece {
   int group = 0;
   Triangles triangles;
@@ -45,7 +45,7 @@ struct SkinPiece {
 // owns. Triangles without a finite position near the origin are left out, and `complete` is then false.
 struct PosedSkin {
   Vec3 origin_m{0.0};
-  std::vector<SkinPiece> pieces;  // by rising group, none of them empty
+  std::vector<SkinPiece> pieces;  // sorted by group; none is empty
   bool complete = true;
 };
 PosedSkin pose_skin(const Skin& skin, std::span<const Rigid> world, const std::vector<int>& group_of_joint);

@@ -12,7 +12,7 @@ namespace contort {
 struct StripTile {
   int frame = 0;
   Camera camera{};
-  int x = 0, y = 0, width = 0, height = 0;  // of the picture without its caption, in the strip's pixels
+  int x = 0, y = 0, width = 0, height = 0;  // place of the picture without its caption, in the strip's pixels
 };
 
 // Returns contort.strip/1 (docs/reference/report.md): JSON in one line, safe inside of a <script>. All tiles have the

@@ -1,4 +1,4 @@
-// Writes the part of the page that says what the cases contained, and what they never did.
+// Writes the part of the page that lists what the cases contained, and what never occurred in them.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace contort {
 
 // Returns tables of actions by slot, priority and phase, of their pairs, and of characters, parts, grounds and the
-// rest. "" if nothing ran.
+// rest, and the reasons of the generator for the cases that it refused. "" if nothing ran.
 std::string tested_html(const ReportModel& model);
 
 // Returns a bar whose length is the share of a count in the largest one.

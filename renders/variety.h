@@ -18,9 +18,9 @@ struct FailureTraits {
   std::string subject;
   std::string phase;
   std::string character;
-  std::vector<std::string> actions;  // of the minimal spec; order and repetition mean nothing
+  std::vector<std::string> actions;  // actions of the minimal spec; order and repetition mean nothing
   double depth = 0.0;                // comparable between checks
-  std::string name;                  // of its own: the last word on ties
+  std::string name;                  // a unique name, which decides ties
 };
 
 // A metric in [0, 1]: 0 for equal traits. Check and subject weigh most, then actions, phase and character. Subjects and

@@ -205,7 +205,7 @@ Result<std::string> App::register_library(const std::map<std::string, std::strin
   const std::string folder = config_.scratch + "/" + id;
   const std::lock_guard lock(libraries_mutex_);
   if (libraries_.contains(id)) return id;
-  if (libraries_.size() >= 64) return Issue{"full.libraries", "", "as many libraries are registered as may be"};
+  if (libraries_.size() >= 64) return Issue{"full.libraries", "", "the greatest number of libraries is registered"};
   if (const Result<Done> made = make_folder(folder); !made) return made.issue();
   int number = 0;
   for (const auto& [name, text] : files)

@@ -26,6 +26,7 @@ struct AppConfig {
   std::string corpus;                  // folder; "": none
   std::string report;                  // folder of the page that is made of it
   std::string pages;                   // folder of play.html and what it loads
+  std::string library;                 // the script library.js, if pages play specs themselves (docs/internals/wasm.md)
   std::string scratch;                 // folder for registered libraries and for files that pass
   std::string catalogue;               // JSON: what there is; docs/reference/server.md
   std::vector<std::string> program;    // the command line of contort

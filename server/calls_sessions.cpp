@@ -119,7 +119,7 @@ Answer change(App& app, const Call& call) {
       if (body.character) spec.character = *body.character;
       if (body.environment) spec.environment = *body.environment;
       if (body.loads) spec.dynamics.loads = *body.loads;
-      if (body.modes && body.modes->empty()) return Issue{"call.no_mode", "/modes", "one mode is needed at least"};
+      if (body.modes && body.modes->empty()) return Issue{"call.no_mode", "/modes", "at least one mode is needed"};
       if (body.modes) modes = *body.modes;
       return Done{};
     });
@@ -179,7 +179,7 @@ Answer keep_case(App& app, const Call& call) {
   if (!corpus) return refusal(corpus.issue());
   const int take = body->take == 0 ? (*session)->take() : body->take;
   const std::optional<Spec> spec = (*session)->spec_of(take, body->mode);
-  if (!spec) return refusal({"take.gone", "", "that take is not here any more, or not in that mode"});
+  if (!spec) return refusal({"take.gone", "", "that take does not exist any more, or not in that mode"});
   if (!(*session)->desc().library.empty())
     return refusal({"session.own_library", "",
                     "cases of registered libraries cannot be replayed from a corpus; start the "

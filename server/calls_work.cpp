@@ -111,7 +111,7 @@ Answer generate_file(App& app, const Call& call) {
 // A library that does not fit is refused here, not when it is used.
 Answer register_library(App& app, const Call& call) {
   if (call.request.body.size() > static_cast<std::size_t>(app.engine().limits().library_bytes))
-    return refusal({"call.too_large", "", "a library may have as many bytes as /api/catalogue says"});
+    return refusal({"call.too_large", "", "the library is larger than the limit in /api/catalogue"});
   const Result<Json> body = json_fields::parse_document(call.request.body);
   if (!body) return refusal(body.issue());
   if (!body->is_object() || body->size() != 1 || !body->contains("files") || !(*body)["files"].is_object() ||
@@ -140,11 +140,21 @@ Answer front_page(App& app, const Call& call) {
 }
 
 Answer play_page(App& app, const Call&) {
-  const Result<std::string> page = read_below(app.config().pages, "play.html");
-  return page ? page_answer(*page, kPolicy) : refusal(page.issue());
+  const Result<std::string> read = read_below(app.config().pages, "play.html");
+  if (!read) return refusal(read.issue());
+  std::string page = *read, policy = kPolicy;
+  if (!app.config().library.empty()) {
+    replace_once(page, "<html ", "<html data-engine ");
+    replace_once(policy, "script-src 'self'", "script-src 'self' 'wasm-unsafe-eval'");
+  }
+  return page_answer(std::move(page), std::move(policy));
 }
 
-Answer page_file(App& app, const Call& call) { return file_answer(app.config().pages, call.id("rest")); }
+Answer page_file(App& app, const Call& call) {
+  const std::string& path = call.id("rest");
+  if (path == "library.js" && !app.config().library.empty()) return text_answer(app.config().library, type_of(path));
+  return file_answer(app.config().pages, path);
+}
 
 // The report says itself what its scripts may do.
 Answer report_file(App& app, const Call& call) {

@@ -67,7 +67,7 @@ Result<Done> Engine::may_work(const std::string& client) {
   const double wait = wait_s(client);
   if (wait <= 0.0) return Done{};
   return Issue{"limit.cpu", "",
-               "this client has used the time of the CPU that it may; there is more in " +
+               "this client has used all of its CPU time; more is available in " +
                    std::to_string(static_cast<int>(std::ceil(wait))) + " s"};
 }
 

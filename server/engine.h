@@ -1,4 +1,4 @@
-// Shared by sessions and calls: workers, limits, and the thread that judges.
+// The engine that sessions and calls share: workers, limits, and the thread that judges.
 #pragma once
 
 #include <condition_variable>
@@ -29,10 +29,10 @@ struct Limits {
   double most_s = 60.0;        // its greatest length, if more is queued
   int frame_bytes = 64 << 20;  // of one motion
   double idle_s = 600.0;       // after which a session that nobody uses ends
-  int jobs = 16;               // that wait
+  int jobs = 16;               // the most jobs that wait
 };
 
-// Every code that a task can end with, and what it took of a worker's CPU: of its time, where it did not end well.
+// The result of a task, with the worker's CPU time; if the task ended abnormally, its whole time in the worker.
 struct Worked {
   Result<Reply> reply;
   double cpu_s = 0.0;
@@ -45,8 +45,8 @@ class Engine {
          const std::string& tool);
   ~Engine();
 
-  // The time that it takes is on the client's account. Codes of Broker::run and Worker::run; limit.cpu for what is
-  // urgent, where nothing is left (what can wait is a part of something that was begun).
+  // The time that it takes is on the client's account. Codes of Broker::run and Worker::run; limit.cpu for urgent tasks
+  // of a client without CPU time left; other tasks continue work that was begun, and run.
   Worked run(const Task& task, const std::string& client, Urgency urgency = Urgency::now);
 
   // For work outside of the workers. Code limit.cpu.

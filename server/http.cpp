@@ -51,8 +51,8 @@ Issue issue_of(int status) {
   switch (status) {
     case 413: return {"call.too_large", "", "the body is too large"};
     case 414: return {"call.too_long", "", "the address is too long"};
-    case 404: return {"call.wrong_method", "", "no call has this method"};
-    default: return {"call.bad_request", "", "this is no request that HTTP knows"};
+    case 404: return {"call.wrong_method", "", "no call accepts this method"};
+    default: return {"call.bad_request", "", "this is not a valid HTTP request"};
   }
 }
 

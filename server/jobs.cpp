@@ -48,7 +48,7 @@ Result<std::string> Jobs::add(const std::string& kind, const std::string& about,
     for (const auto& [id, other] : jobs_)
       if (other.state == JobState::queued && other.kind == kind && other.about == about) return id;
     if (static_cast<int>(queue_.size()) >= most_waiting_)
-      return Issue{"full.jobs", "", "as many jobs wait as may; try again in a while"};
+      return Issue{"full.jobs", "", "the greatest number of jobs is waiting; try again later"};
     job.id = std::to_string(next_++), job.kind = kind, job.about = about, job.client = client;
     jobs_[job.id] = job;
     queue_.emplace_back(job.id, std::move(work));

@@ -36,7 +36,7 @@ Result<Done> Sessions::room_for(const std::string& client) const {
   if (theirs >= limits.sessions_of_client)
     return Issue{"limit.sessions", "", "this client has " + std::to_string(theirs) + " sessions already"};
   if (static_cast<int>(sessions_.size()) + sum(opening_) >= limits.sessions)
-    return Issue{"full.sessions", "", "the server has as many sessions as it may"};
+    return Issue{"full.sessions", "", "the server has its greatest number of sessions"};
   return Done{};
 }
 
@@ -58,7 +58,7 @@ Result<std::shared_ptr<Session>> Sessions::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const auto found = sessions_.find(id);
   if (found != sessions_.end()) return found->second;
-  return Issue{"session.not_found", "", "there is no such session; it ends when nobody uses it for a while"};
+  return Issue{"session.not_found", "", "there is no such session; a session ends when it is not used for a while"};
 }
 
 Result<Done> Sessions::close(const std::string& id) {
@@ -111,9 +111,9 @@ Result<std::shared_ptr<void>> Sessions::count_stream(const std::string& client) 
   const std::lock_guard lock(mutex_);
   if (const auto theirs = streams_.find(client);
       theirs != streams_.end() && theirs->second >= engine_.limits().streams_of_client)
-    return Issue{"limit.streams", "", "this client has as many streams as it may"};
+    return Issue{"limit.streams", "", "this client has its greatest number of streams"};
   if (sum(streams_) >= engine_.limits().streams)
-    return Issue{"full.streams", "", "the server has as many streams as it may"};
+    return Issue{"full.streams", "", "the server has its greatest number of streams"};
   ++streams_[client];
   return std::shared_ptr<void>(nullptr, [this, client](void*) {
     const std::lock_guard again(mutex_);

@@ -53,7 +53,7 @@ std::string print_reply(const Result<Reply>& reply) {
 
 Result<Reply> parse_reply(const std::string& text) {
   const std::size_t end = text.find('\n');
-  const Issue damaged{"work.damaged", "", "a worker answered something that is no answer"};
+  const Issue damaged{"work.damaged", "", "the answer of a worker cannot be read"};
   if (end == std::string::npos) return damaged;
   if (text.starts_with("issue\n")) {
     const Result<Json> json = json_fields::parse_document(std::string_view(text).substr(end + 1));

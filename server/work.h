@@ -47,12 +47,16 @@ Result<Task> parse_task(const std::string& text);
 std::string print_reply(const Result<Reply>& reply);
 Result<Reply> parse_reply(const std::string& text);
 
-// Heads:
-//   model     {joints: [{name, parent, slot}], glb, colliders, ground, obstacles, aims: [{slot, action, points}], rest:
-//   [x, y, z, w]} play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes:
-//   compact frames judge     {curves, findings} evaluate  {motion_hash, frame_count, rate_hz, findings} make_case the
-//   case as corpus files have it
-// docs/reference/server.md has their fields and what a compact frame is.
+// The JSON text of a reply, by kind of task:
+//
+//   model     {joints: [{name, parent, slot}], glb, colliders, ground, obstacles, aims: [{slot, action, points}],
+//              rest: [x, y, z, w]}
+//   play      {rate_hz, frame_count, joint_count, hold_frames, motion_hash, queue, spans, marks}; bytes: compact frames
+//   judge     {curves, findings}
+//   evaluate  {motion_hash, frame_count, rate_hz, findings}
+//   make_case the case as corpus files have it
+//
+// docs/reference/server.md describes their fields and the form of a compact frame.
 class Worker {
  public:
   // `tool` is written into cases.

@@ -6,6 +6,7 @@
 
 #include "formats/gltf/container.h"
 #include "formats/mocap/words.h"
+#include "formats/table/joint_table.h"
 #include "model/core/file_kind.h"
 #include "model/core/files.h"
 #include "model/core/json_fields.h"
@@ -20,12 +21,14 @@ struct Ending {
   std::string_view text;
   FileFormat format;
 };
-constexpr std::array<Ending, 6> kEndings = {{{".glb", FileFormat::gltf},
+constexpr std::array<Ending, 8> kEndings = {{{".glb", FileFormat::gltf},
                                              {".gltf", FileFormat::gltf},
                                              {".vrm", FileFormat::gltf},
                                              {".vrma", FileFormat::gltf},
                                              {".bvh", FileFormat::bvh},
-                                             {".amc", FileFormat::amc}}};
+                                             {".amc", FileFormat::amc},
+                                             {".csv", FileFormat::joint_table},
+                                             {".tsv", FileFormat::joint_table}}};
 
 std::string_view without_mark_and_blanks(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
@@ -61,7 +64,8 @@ FileFormat format_of_bytes(std::string_view bytes) {
   if (is_glb(std::as_bytes(std::span(bytes)))) return FileFormat::gltf;
   const std::string_view text = without_mark_and_blanks(bytes);
   if (is_same_word(text.substr(0, text.find_first_of(" \t\r\n")), "HIERARCHY")) return FileFormat::bvh;
-  return acclaim_format(text);
+  if (const FileFormat acclaim = acclaim_format(text); acclaim != FileFormat::none) return acclaim;
+  return is_joint_table(bytes) ? FileFormat::joint_table : FileFormat::none;
 }
 
 FileFormat format_of_ending(const std::string& path) {

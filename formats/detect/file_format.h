@@ -1,4 +1,4 @@
-// Tells which reader a file of animation is for: by what it holds, whatever its name.
+// Tells which reader an animation file is for, by its contents and not by its name.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,16 @@
 
 namespace contort {
 
-enum class FileFormat : std::uint8_t { none, gltf, bvh, amc, asf };
+enum class FileFormat : std::uint8_t { none, gltf, bvh, amc, asf, joint_table };
 
-// By the first bytes (kKindBytes of them are enough). A glTF model as text is not recognised.
+// Decides by the first bytes (kKindBytes of them are enough). A glTF model as text is not recognised.
 FileFormat format_of_bytes(std::string_view bytes);
 
-// By the ending of the name; for files that hold something else, so that their reader says what.
+// Decides by the ending of the name. It is for files with other contents, whose reader then names the fault.
 FileFormat format_of_ending(const std::string& path);
 
-// By what the file holds, else by its ending. It never waits: what is no plain file goes by its ending.
+// Decides by the contents of the file, else by its ending. It never waits: anything but a plain file is decided by its
+// ending.
 FileFormat format_of_file(const std::string& path);
 
 }  // namespace contort

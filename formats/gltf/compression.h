@@ -20,7 +20,7 @@ inline Issue bad_compression(const std::string& pointer, const std::string& text
 // Codes gltf.bad_index, .truncated, .too_large, and .bad_compression for what the decoder refuses or what does not fit.
 Result<Done> fill_views(std::span<const CompressedView> views, tinygltf::Model& model);
 
-// The same; for the primitives of meshes that hang on a skin. Their indices go back to their places.
+// Does the same for the primitives of meshes with a skin. Their indices go back to their places.
 Result<Done> fill_primitives(std::span<const DracoPrimitive> primitives, tinygltf::Model& model);
 
 }  // namespace contort

@@ -36,7 +36,7 @@ struct GltfExtensions {
   int pointers_not_read = 0;  // channels of KHR_animation_pointer that move no node
 };
 
-// Whether a file that requires this extension can be read without it, or is read with it.
+// Returns true if the extension is supported, or can be ignored even if a file requires it.
 bool is_known_extension(const std::string& name);
 
 }  // namespace contort

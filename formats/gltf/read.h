@@ -1,11 +1,11 @@
 // Reads .glb and .gltf: nodes, skins and clips. Files are hostile until proven otherwise: whatever the bytes are, the
 // answer is a checked Asset or one Issue, within the limits of limits.h. Images are never opened.
 //
-// Stricter than most viewers: what the standard leaves no meaning for is refused by name, not repaired. What it forbids
-// and we let through, because it has one harmless meaning and exporters do it: accessors of 0 elements (a channel of 0
-// keys is left out), animation data with a byte stride, joints without a common root. Left out as well are channels
-// without a node, with morph weights, or whose times have no data. Not looked at: materials, textures, cameras, and
-// meshes only where they are asked for.
+// The reader is stricter than most viewers: content without a meaning in the standard is refused with a code, not
+// repaired. Some content is accepted although the standard forbids it, because exporters write it and its meaning is
+// clear: accessors of 0 elements (a channel of 0 keys is left out), animation data with a byte stride, joints without a
+// common root. Left out as well are channels without a node, with morph weights, or whose times have no data.
+// Materials, textures and cameras are ignored, and meshes are read only on request.
 #pragma once
 
 #include <cstddef>

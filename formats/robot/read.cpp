@@ -1,10 +1,13 @@
 #include "formats/robot/read.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "formats/robot/meshes.h"
 #include "formats/robot/mjcf.h"
+#include "formats/robot/srdf_beside.h"
 #include "formats/robot/urdf.h"
+#include "formats/robot/xml.h"
 #include "model/core/file_kind.h"
 #include "model/core/files.h"
 #include "model/core/inside_folder.h"
@@ -45,11 +48,61 @@ Result<RobotModel> parse_any(const std::string& file, const std::string& text) {
       text, [&](const std::string& name) { return read_inside(folder.empty() ? "." : folder, name, kMaxRobotBytes); });
 }
 
+std::string seen_from(const std::string& robot_file, const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(robot_file).parent_path();
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  return normal.lexically_relative(folder.empty() ? "." : folder.lexically_normal()).string();
+}
+
+// The note comes first, as it decides what self_collision judges.
+Result<Done> add_srdf_file(const std::string& robot_file, const std::string& srdf_file, RobotModel& robot) {
+  const Result<std::string> text = read_xml(srdf_file);
+  if (!text) return about_file(srdf_file, text.issue());
+  const std::size_t before = robot.may_touch.size();
+  if (const Result<Done> added = add_srdf(*text, robot); !added) return about_file(srdf_file, added.issue());
+  robot.srdf = srdf_file;
+  const std::string name = seen_from(robot_file, srdf_file);
+  robot.notes.insert(robot.notes.begin(), std::to_string(robot.may_touch.size() - before) + " disabled pairs from " +
+                                              (name.empty() ? srdf_file : name) + ": these links may touch.");
+  const std::string about = *robot_of_srdf(*text);
+  if (about != robot.name)
+    note(robot, "The SRDF is about a robot " + quoted_name(about) + ", and the robot's own file says " +
+                    quoted_name(robot.name) + ".");
+  return Done{};
+}
+
+Issue several_fit(const std::string& robot_file, const std::vector<std::string>& fitting,
+                  std::string_view how_to_choose) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(fitting.size(), 5); ++i) names += (i > 0 ? ", " : "") + fitting[i];
+  if (fitting.size() > 5) names += " and " + std::to_string(fitting.size() - 5) + " more";
+  return {"srdf.several", "",
+          std::to_string(fitting.size()) + " SRDF files lie beside " + robot_file + " and have its robot's name: " +
+              names + "; " + std::string(how_to_choose)};
+}
+
+void note_unfit(const std::string& robot_file, const SrdfsBeside& found, RobotModel& robot) {
+  std::vector<std::string> others;
+  for (const std::string& file : found.of_others) others.push_back(seen_from(robot_file, file));
+  if (found.fitting.empty())
+    note_all(robot, "SRDF files that lie beside the file but are about robots of other names were not used", others);
+  for (const auto& [file, issue] : found.unreadable)
+    note(robot, seen_from(robot_file, file) + " lies beside the file and was not used: " + issue.text + ".");
+}
+
 }  // namespace
 
 bool is_robot_text(std::string_view text) {
   const std::string_view tag = outermost_tag(text);
   return tag == "robot" || tag == "mujoco";
+}
+
+bool is_robot_file(const std::string& path) {
+  constexpr std::size_t kBeginning = 65536;  // of a file that may begin with a long licence
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const char* robot : {".urdf", ".xacro", ".srdf", ".mjcf", ".xml"})
+    if (ending == robot) return true;
+  return is_robot_text(beginning_of(path, kBeginning));
 }
 
 Result<RobotModel> read_robot(const std::string& file, const std::string& srdf_file) {
@@ -58,12 +111,21 @@ Result<RobotModel> read_robot(const std::string& file, const std::string& srdf_f
   Result<RobotModel> robot = parse_any(file, *text);
   if (!robot) return about_file(file, robot.issue());
   RobotModel out = std::move(robot).value();
-  if (!srdf_file.empty()) {
-    const Result<std::string> srdf = read_xml(srdf_file);
-    if (!srdf) return about_file(srdf_file, srdf.issue());
-    if (const Result<Done> added = add_srdf(*srdf, out); !added) return about_file(srdf_file, added.issue());
-  }
+  if (!srdf_file.empty())
+    if (const Result<Done> added = add_srdf_file(file, srdf_file, out); !added) return added.issue();
   load_meshes(file, out);
+  return out;
+}
+
+Result<RobotModel> read_robot_with_srdf_beside(const std::string& file, std::string_view how_to_choose) {
+  Result<RobotModel> robot = read_robot(file, "");
+  if (!robot || outermost_tag(*read_xml(file)) != "robot") return robot;
+  RobotModel out = std::move(robot).value();
+  const SrdfsBeside found = srdfs_beside(file, out.name);
+  if (found.fitting.size() > 1) return several_fit(file, found.fitting, how_to_choose);
+  note_unfit(file, found, out);
+  if (found.fitting.empty()) return out;
+  if (const Result<Done> added = add_srdf_file(file, found.fitting.front(), out); !added) return added.issue();
   return out;
 }
 

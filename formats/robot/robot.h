@@ -71,7 +71,9 @@ struct RobotModel {
   std::vector<RobotBody> bodies;  // parents first
   bool has_free_root = false;     // the file lets the root move; else it is bolted to the ground
   std::vector<RobotPair> may_touch;
+  std::string srdf{};              // path of the SRDF that was read, too; "" for none
   std::vector<std::string> notes;  // what a character cannot express, and what was guessed
+  bool is_skeleton = false;        // it is a skeleton of motion capture, and no robot
   bool operator==(const RobotModel&) const = default;
 };
 

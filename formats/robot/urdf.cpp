@@ -358,4 +358,10 @@ Result<Done> add_srdf(std::string_view text, RobotModel& robot) {
   return Done{};
 }
 
+Result<std::string> robot_of_srdf(std::string_view text) {
+  const Result<XmlText> document = parse_robot_element(text, "srdf");
+  if (!document) return document.issue();
+  return attribute_of(document->root(), "name");
+}
+
 }  // namespace contort

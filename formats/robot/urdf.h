@@ -2,6 +2,7 @@
 // companion SRDF says may touch (wiki.ros.org/srdf).
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "formats/robot/robot.h"
@@ -17,5 +18,9 @@ Result<RobotModel> parse_urdf(std::string_view text);
 // Adds the pairs of an SRDF's text to the robot. Codes srdf.wrong_kind, .xacro, .too_large, .bad_xml, .entities,
 // .unknown_link, .no_name.
 Result<Done> add_srdf(std::string_view text, RobotModel& robot);
+
+// Returns the name of the robot that an SRDF's text is about; "" if it says none. Codes srdf.wrong_kind, .xacro,
+// .too_large, .bad_xml, .entities.
+Result<std::string> robot_of_srdf(std::string_view text);
 
 }  // namespace contort

@@ -30,8 +30,9 @@ namespace contort {
 // The parts that one use of an action moves.
 enum class Spread {
   own,   // the part that the spec names
-  limb,  // and the parts that hang on it, one after another: arm and hand; a torso, on which several hang, alone
-  legs,  // it must be the root part: and all legs and feet
+  limb,  // that part and the parts that it carries in a chain, such as arm and hand; a torso, which carries several
+         // parts, moves alone
+  legs,  // the root part, which the spec must name, and all legs and feet
 };
 
 // The event that an action may bring about on the parts that it moves.
@@ -39,29 +40,32 @@ enum class Tells {
   nothing,
   contact,      // of feet, or of the part that the spec names
   aim_reached,  // of the part that the spec names
-  impact,       // the same
+  impact, // of the part that the spec names
 };
 
-// The report of a rule to those who wait for it, beside the posture (events of interrupts).
+// The report of a rule in addition to the posture; events of interrupts depend on it.
 struct Feedback {
   bool contact = false;
   bool aim_reached = false;
   bool impact = false;
-  double shortfall = 0.0;  // of what was asked for, in its own unit (m, rad, m/s, share); 0: met
-  bool at_range_end = false;  // a joint was wanted farther than it goes
-  bool is_slower = false;     // joints cannot go as fast as was asked for
+  double shortfall = 0.0;  // the unmet part of the request, in the request's unit (m, rad, m/s, fraction); 0: met
+  bool at_range_end = false;  // a joint would have to leave its range
+  bool is_slower = false;     // joints cannot move as fast as requested
   bool failed = false;        // the script of the action stopped
 };
 
 // The progress of an action at a frame, in time of its content.
 struct ActionTime {
-  double progress = 0.0;    // of its period, [0, 1]
+  double progress = 0.0;    // fraction of its period, [0, 1]
   double time_s = 0.0;      // since its start
-  double duration_s = 0.0;  // of its period
-  double since_s = 0.0;     // since it took the part; later than its start where it was cut and went on
-  double left_s = 0.0;      // from then to its end
+  double duration_s = 0.0;  // length of its period
+  double since_s = 0.0;     // since it took the part; after an interrupt this is later than its start
+  double left_s = 0.0;      // from taking the part to its end
   double takes_s = 0.0;     // from its start to its end, as it is played
-  double frame_s = 0.0;     // of the motion; each takes duration_s / takes_s times as much of the content
+  double comes_in_s = 0.0;  // over which its use has it blend in and fade out, as it is played; 0: it does not say
+  double fades_s = 0.0;
+  double frame_s = 0.0;     // duration of a frame of the motion; a frame plays duration_s / takes_s times as much
+                            // content
 };
 
 // The other hand that is to hold the object that is aimed.
@@ -99,23 +103,26 @@ struct WholeBody {
   int begun = -1;    // frame in which the root was taken
   int made_in = -1;  // frame of `frame`
   std::array<bool, kMaxLegs> lands{};
-  std::array<Rigid, kMaxLegs> seen_soles{};   // where the feet are when it begins, world
-  std::array<Rigid, kMaxLegs> first_soles{};  // where the course wants them at its begin
-  double swivel_rad = 0.0;                    // of a limb whose request leaves it open
+  std::array<Rigid, kMaxLegs> seen_soles{};   // places of the feet when it begins, in the world
+  std::array<Rigid, kMaxLegs> first_soles{};  // places at which the course wants the feet when it begins
+  double swivel_rad = 0.0;                    // turn of a limb about the line to its target, if the request leaves it
+                                              // open
   int way_chosen_in = -1;                     // frame in which the part was taken
-  Vec3 detour_rad{0.0};                       // round bodies on the way in (limb_way.h)
-  double wanted_swivel_rad = 0.0;             // to which it turns while its target moves
-  bool chooses_swivel = false;                // again, as bodies are too near where the limb is wanted
+  Vec3 detour_rad{0.0};                       // detour round bodies on the way to the target (limb_way.h)
+  double wanted_swivel_rad = 0.0;             // swivel to which it turns while its target moves
+  bool chooses_swivel = false;                // the swivel is chosen again, because bodies are too near at the target
+                                              // posture
   Vec3 swivel_chosen_for_m{0.0};              // the target then, from the limb's shoulder, in its carrier's frame
-  Quat faced = kNoRotation;                   // where a course faced at its first begin, in the world
+  Quat faced = kNoRotation;                   // direction of the root when a course began first, in the world
   std::array<double, kMaxAimCoords> aimed{};  // coordinates of the chain, in the frame before
   bool has_help = false;                      // a torso or legs are turning for this aim
   bool had_help = false;                      // in the frame before
-  Pace pace;                                  // as much of its gait as legs can go
+  Pace pace;                                  // the share of the requested gait that the legs can make
   GaitParams gait_params;                     // at this pace
-  double lasts_s = 0.0;                       // of content: then it stands
-  bool is_slower = false;                     // than it was asked for, or it turns less
-  double deepest_bend = 1.0;                  // share of the way down that legs can go, [0, 1]
+  double lasts_s = 0.0;                       // duration of the walk, s of content; then the figure stands
+  bool is_slower = false;                     // it walks more slowly than requested, or turns less
+  Vec3 over_feet_m{0.0};                      // offset of lowered hips that balances the figure's mass over its feet
+  double deepest_bend = 1.0;                  // fraction of the way down that the legs allow, [0, 1]
 };
 
 // The data that a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the
@@ -127,21 +134,21 @@ struct RuleInput {
   std::span<Rigid> world;
   TrialSpace scratch;
   const ActionTime& time;
-  const Rigid& world_from_start;  // where the character stood at first
+  const Rigid& world_from_start;  // the place where the character stood at first
   const Environment& environment;
   std::span<const Leg> legs;
   const Rigid& stands_at;  // a turn about +Y and a place on the plane y = 0: where legs have carried it by now
-  const AimPlan* aim;  // of actions with an own_point
-  const KeyPlan* keys;  // of key poses from a file
-  const ScriptPlan* script;  // of a script that sets joints; `params` is then its row
-  Vec3 easy_grip_m;    // of the named part, in the character's frame; arms only
-  const Posture& from;  // where it took its part over; the part's own coordinates only, of an aim those of its limb
+  const AimPlan* aim;  // only for actions with an own_point
+  const KeyPlan* keys;  // only for key poses from a file
+  const ScriptPlan* script;  // only for a script that sets joints; `params` is then its row
+  Vec3 easy_grip_m;    // comfortable grip place of the named part, in the character's frame; arms only
+  const Posture& from;  // the posture when it took its part: only the part's coordinates; for an aim, its limb's
   int frame;
   int took_over;  // frame in which it took the part
-  double came_in;  // how far a course has blended in, [0, 1]; those that move legs do it themselves
+  double came_in;  // fraction to which a course has blended in, [0, 1]; courses of legs blend by themselves
   WholeBody& body;
   Feedback& feedback;
-  LimbRoom& room;  // how near bodies are
+  LimbRoom& room;  // measures the distances of bodies
   bool has_mass;   // dynamics will move it: the motion is a target, which strength and balance must allow
 };
 
@@ -155,7 +162,7 @@ struct ActionDef {
   std::string_view help;
   // The parameters on a given part; they may depend on its joints.
   std::vector<ParamDef> (*params)(const Character&, const Part&);
-  // Whether the part has what the action needs.
+  // Returns true if the part has everything that the action needs.
   bool (*supports)(const Character&, const Part&);
   // Writes the part's coordinates (and, on the root part, the root) of the target posture into one that holds what is
   // beneath: the present posture for overwrite, the base for ik, everything below for additive.
@@ -172,7 +179,7 @@ struct Action {
   std::string_view name;
   std::string_view help;
   const ActionDef* def = nullptr;
-  const ActionDesc* desc = nullptr;  // where it is from a file
+  const ActionDesc* desc = nullptr;  // for an action from a file; else null
 };
 
 // The rule of an action of a file; nullptr where `of` names none.
@@ -193,7 +200,7 @@ std::vector<ParamDef> params_of(const Action& action, const Character& character
 
 ParamValue mirrored(Mirrored how, const ParamValue& value);
 
-// Whether each action of the library's files can be done by each part that it names, and by some part of each kind.
+// Checks that each part that an action file names, and some part of each kind that it names, can perform the action.
 // Scripts are tried once. Codes action.unknown_action, .unsupported, .unknown_part, .stock_part, .duplicate_name,
 // .fits_nothing, .unknown_param, .wrong_type, .out_of_range, .bad_script, .script_failed, with pointers into the file.
 Result<Done> check_actions(const Library& library);
@@ -204,13 +211,13 @@ std::vector<std::string> object_points(const Character& character, const Part& p
 // Points that this part or one that hangs on it carries.
 std::vector<std::string> own_points(const Character& character, const Part& part);
 
-// Whether several parts hang on a part, as on a torso: they are no limb of its own.
+// Returns true if a part carries several parts, as a torso does. They do not form one limb with it.
 bool is_trunk(const Character& character, int part);
 
 // The parts that one use moves, carriers first.
 std::vector<int> parts_moved(const ActionDef& action, const Character& character, int named_part);
 
-// Whether a number, vector or choice is allowed. Codes spec.wrong_type, .out_of_range.
+// Returns true if a number, vector or choice is allowed. Codes spec.wrong_type, .out_of_range.
 Result<Done> check_value(const ParamDef& def, const ParamValue& value);
 
 // Looks up and checks the parameters of one use. Codes spec.unknown_param, .wrong_type, .out_of_range, .unknown_point;

@@ -5,7 +5,7 @@
 
 namespace contort {
 
-// Whether a part reaches and does not stand: it has a reach chain and no sole.
+// Returns true if a part can reach but does not stand on the ground: it has a reach chain and no sole.
 bool is_arm(const Character& character, const Part& part);
 
 // The grip of an arm: its own, or that of the part that hangs on it; else the tip of its reach chain.
@@ -20,14 +20,14 @@ HeldObject held_object(const Character& character, int arm, int point);
 
 void rest_part(const Character& character, const Part& part, Posture& posture);
 
-// Brings the grip of an arm to a point with the hand's joints at rest. For the hand, which is moved after the arm: rest.
-// Answers how far the grip is from the point.
+// Brings the grip of an arm to a point with the hand's joints at rest. For the hand, which is moved after the arm, it
+// sets the rest posture. Returns the distance of the grip from the point.
 double bring_grip_to(const RuleInput& in, const Vec3& point_world_m, Posture& posture);
 
 // Brings the grip of an arm to a surface and turns the wrist so that the palm (the grip's +Z) faces it as nearly as it
 // can; the swivel is chosen for both when the action takes the arm. The grip is `gap_m` from the surface, or as much
-// farther as hand and forearm need, which may not enter it. For the hand, which is moved after the arm: as the arm found
-// it. Answers how far the grip is from its place.
+// farther as hand and forearm need, which may not enter it. For the hand, which is moved after the arm: as the arm
+// found it. Returns the distance of the grip from its place.
 double lay_hand_on(const RuleInput& in, const Vec3& point_m, const Vec3& normal, double gap_m, Posture& posture);
 
 }  // namespace contort

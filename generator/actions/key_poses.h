@@ -12,7 +12,7 @@ struct ActionDef;
 // The keys as they are for one part.
 struct KeyPlan {
   struct Node {
-    double at = 1.0;  // share of the period
+    double at = 1.0;  // fraction of the period
     KeyEase ease = KeyEase::smooth;
     double value = 0.0;          // hinge: rad, prismatic: m
     Quat turn = kNoRotation;     // ball
@@ -24,7 +24,7 @@ struct KeyPlan {
   std::vector<Path> paths;
 };
 
-// The rule of all of them: overwrite, a course, the part alone, no parameters.
+// The rule of all key poses: a course on the overwrite layer that moves one part and has no parameters.
 const ActionDef& key_pose_def();
 
 // For a part that can do the action (find_action).

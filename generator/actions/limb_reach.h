@@ -10,13 +10,14 @@ namespace contort {
 
 // Brings the chain's tip to a point of the world. The swivel is chosen when the action takes the part: one that keeps
 // joints in their ranges and bodies apart, as near to the given one as that allows; where none is given, one that holds
-// the elbow low and is near to where the limb is. The part's travels come out as far as they must. Answers how far the
-// tip is from the point, m.
+// the elbow low and is near to where the limb is. The part's travels come out as far as they must. Returns the distance
+// of the tip from the point, m.
 double reach_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m,
                           std::optional<double> swivel_rad, Posture& posture);
 
-// The same for a target that moves: the swivel is chosen again where the target has moved by more than 3 cm against the
-// limb's shoulder, and where bodies are too near there; and the limb turns to it at up to 150 degrees a second.
+// Brings the chain's tip to a target that moves: the swivel is chosen again if the target has moved by more than 3 cm
+// relative to the limb's shoulder, or if bodies are too near there; and the limb turns to it at up to 150 degrees a
+// second.
 double follow_with_travels(const RuleInput& in, const ReachChain& chain, const Vec3& target_world_m, Posture& posture);
 
 // The turn of a limb about its line to the target, rad, with the least cost: 24 turns, the first one 0, then to either

@@ -1,12 +1,12 @@
-// The way of a limb from where an action found it to where the action wants it: a blend of joints, which may lead
-// through other bodies, or round them.
+// The movement of a limb from its posture at an action's start to the target posture: a blend of joints, which may pass
+// through other bodies, or a detour round them.
 #pragma once
 
 #include "generator/actions/action.h"
 
 namespace contort {
 
-// Whether bodies have room at seven stops on the blend of the limb from in.from to the posture.
+// Returns true if bodies have room at seven stops on the blend of the limb from in.from to the posture.
 bool has_way(const RuleInput& in, Posture& posture);
 
 // Takes the limb round bodies that are on its way: when the action takes the part, it chooses the least detour that is

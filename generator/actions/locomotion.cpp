@@ -1,12 +1,16 @@
 // walk, run, turn, crouch and squat: the root, all legs and all feet in one course (motion/gait.h).
 #include <algorithm>
+#include <cmath>
 
 #include "generator/actions/action.h"
+#include "generator/motion/joint_clamp.h"
 #include "generator/motion/place_foot.h"
 #include "generator/motion/foot_roll.h"
 #include "generator/motion/pace.h"
 #include "generator/motion/stand_on.h"
+#include "generator/motion/weighty_bend.h"
 #include "model/core/detmath.h"
+#include "model/core/index.h"
 
 namespace contort {
 
@@ -36,12 +40,12 @@ std::vector<ParamDef> params_of_gait(double fastest_m_s, double preset_m_s) {
       lead(), number("speed_m_s", 0.0, fastest_m_s, preset_m_s, "Speed between the start and the stop."),
       number(
           "heading_deg", -180.0, 180.0, 0.0,
-          "Direction of the way against the direction that the character faces; 90 is to its left. The character turns "
-          "there as it starts; slow walks go sideways or backward.")};
+          "Direction of travel relative to the direction that the character faces; 90 is to its left. The character "
+          "turns there as it starts; slow walks go sideways or backward.")};
 }
 
 std::vector<ParamDef> params_of_bend() {
-  return {number("share", 0.0, 0.6, 0.3, "Distance by which the hips go down, as a share of the legs' length."),
+  return {number("share", 0.0, 0.6, 0.3, "Distance by which the hips go down, as a fraction of the legs' length."),
           number("lean_deg", -30.0, 90.0, 0.0, "Angle by which the hips lean forward at the lowest point."),
           number("back_m", -0.5, 0.5, 0.0,
                  "Distance by which the hips go back there, so that a figure that leans forward stays over its feet.")};
@@ -93,6 +97,18 @@ const GaitFrame& frame_of(const RuleInput& in, Make make) {
   return body.frame;
 }
 
+// A foot on a leg that has another action is nowhere near its sole, and only turns as far as its ankle goes.
+void level(const RuleInput& in, const Leg& leg, const Rigid& sole, Posture& posture) {
+  constexpr double kNear_m = 0.001;
+  level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
+  const auto ankles = std::span(leg.ankles).first(at(leg.ankle_count));
+  if (ankles.empty()) return;
+  const Joint& first = in.character.joint(ankles.front());
+  const Vec3 ankle_m = in.world[at(first.parent)] * first.parent_from_joint.p_m;
+  if (length(ankle_m - sole * leg.sole_from_ankle) < kNear_m) return;
+  for (const int j : ankles) clamp_to_range(in.character.joint(j), &posture.coords[at(in.character.joint(j).coord)]);
+}
+
 template <class Make>
 void follow(const RuleInput& in, Posture& posture, Make make) {
   const GaitFrame& frame = frame_of(in, make);
@@ -102,8 +118,7 @@ void follow(const RuleInput& in, Posture& posture, Make make) {
     const Leg& leg = in.legs[i];
     Rigid& sole = in.body.frame.feet[i].world_from_sole;
     if (leg.part == part) sole = stand_on(in.character, leg, in.world, sole, posture.coords).world_from_sole;
-    if (leg.foot_part == part && leg.part != part)
-      level_foot(in.character, leg, in.world, sole.q * Vec3(0, 1, 0), posture.coords);
+    if (leg.foot_part == part && leg.part != part) level(in, leg, sole, posture);
     if (leg.part == part || leg.foot_part == part) in.feedback.contact = in.body.lands[i];
   }
 }
@@ -193,23 +208,61 @@ void go(const RuleInput& in, ParamsAt params_at, Posture& posture) {
 // bones of one length and a knee of angle k reach cos(k/2) of their length.
 GaitFrame bent(const RuleInput& in, Gait& gait, double share) {
   GaitFrame frame = gait.stand(1.0 - det::cos(share * det::acos(1.0 - in.params[0])));
-  frame.root.p_m += frame.root.q * Vec3(0.0, 0.0, -share * in.params[2]);
+  frame.root.p_m += frame.root.q * Vec3(0.0, 0.0, -share * in.params[2]) + share * in.body.over_feet_m;
   frame.root.q = frame.root.q * axis_angle(Vec3(1, 0, 0), share * in.params[1] * kRadPerDeg);
   return frame;
 }
 
-// `peak` is the greatest rate of `share`, in whole ways for each duration.
-void bend(const RuleInput& in, double share, double peak, Posture& posture) {
-  WholeBody& body = in.body;
-  if (is_root(in) && body.begun != in.took_over) {
-    begin_course(in);
-    const auto frame_at = [&](double part) { return bent(in, body.gait, part); };
-    body.deepest_bend = deepest_bend(in.character, in.room, {frame_at, in.time.takes_s, peak}, in.world, in.scratch,
-                                     posture.coords);
-  }
-  follow(in, posture, [&](Gait& gait) { return bent(in, gait, body.deepest_bend * share); });
-  if (is_root(in)) in.feedback.at_range_end = body.deepest_bend < 1.0;
+// How a bend goes with the progress of its course.
+struct BendShape {
+  double (*share_at)(double progress);
+  double peak;  // the greatest rate of the share, in whole ways for each duration
+};
+
+double ramp(double time_s, double length_s) {
+  return length_s > 0.0 ? minimum_jerk(std::min(1.0, time_s / length_s)) : 1.0;
 }
+
+// The peak of the share that is seen: a course that comes in while it bends makes both ways at once.
+double peak_with_blends(const BendShape& shape, const ActionTime& time) {
+  if (!(time.takes_s > 0.0) || (time.comes_in_s <= 0.0 && time.fades_s <= 0.0)) return shape.peak;
+  const int frames = static_cast<int>(std::ceil(time.takes_s / time.frame_s));
+  double before = 0.0, most = 0.0;
+  for (int n = 1; n <= frames; ++n) {
+    const double at_s = std::min(n * time.frame_s, time.takes_s);
+    const double share = shape.share_at(at_s / time.takes_s) * ramp(at_s, time.comes_in_s) *
+                         ramp(time.takes_s - at_s, time.fades_s);
+    most = std::max(most, std::fabs(share - before)), before = share;
+  }
+  return std::max(shape.peak, most * time.takes_s / time.frame_s);
+}
+
+void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
+  WholeBody& body = in.body;
+  begin_course(in);
+  body.over_feet_m = Vec3(0.0), body.is_slower = false;
+  const auto frame_at = [&](double part) { return bent(in, body.gait, part); };
+  const Bend whole{frame_at, in.time.takes_s, peak_with_blends(shape, in.time)};
+  if (in.has_mass)
+    body.over_feet_m = shift_over_feet_m(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
+  body.deepest_bend = deepest_bend(in.character, in.room, whole, in.world, in.scratch, posture.coords);
+  if (!in.has_mass) return;
+  const double calm = calm_bend({whole, shape.share_at});
+  body.is_slower = calm < body.deepest_bend;
+  body.deepest_bend = std::min(body.deepest_bend, calm);
+}
+
+void bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
+  WholeBody& body = in.body;
+  if (is_root(in) && body.begun != in.took_over) begin_bend(in, shape, posture);
+  const double share = shape.share_at(in.time.progress);
+  follow(in, posture, [&](Gait& gait) { return bent(in, gait, body.deepest_bend * share); });
+  if (!is_root(in)) return;
+  in.feedback.is_slower = body.is_slower;
+  in.feedback.at_range_end = body.deepest_bend < 1.0 && !body.is_slower;
+}
+
+double squat_share(double progress) { return 0.5 - 0.5 * det::cos(2.0 * kPi * progress); }
 
 }  // namespace
 
@@ -246,13 +299,13 @@ void turn_rule(const RuleInput& in, Posture& posture) {
 std::vector<ParamDef> crouch_params(const Character&, const Part&) { return params_of_bend(); }
 bool crouch_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void crouch_rule(const RuleInput& in, Posture& posture) {
-  bend(in, minimum_jerk(in.time.progress), 1.875, posture);
+  bend(in, {minimum_jerk, 1.875}, posture);
 }
 
 std::vector<ParamDef> squat_params(const Character&, const Part&) { return params_of_bend(); }
 bool squat_supports(const Character& character, const Part& part) { return is_root_with_legs(character, part); }
 void squat_rule(const RuleInput& in, Posture& posture) {
-  bend(in, 0.5 - 0.5 * det::cos(2.0 * kPi * in.time.progress), kPi, posture);
+  bend(in, {squat_share, kPi}, posture);
 }
 
 }  // namespace contort

@@ -21,8 +21,8 @@ ParamDef optional_param(const std::string& name, double most, const char* help) 
 ParamDef param_of(const Joint& joint) {
   if (joint.kind == JointKind::prismatic) return optional_param(joint.local_name + "_m", 10.0, "Travel, m.");
   const std::string name = joint.local_name + "_deg";
-  if (joint.kind != JointKind::ball) return optional_param(name, 360.0, "Angle against rest, degrees.");
-  ParamDef def = optional_param(name, 360.0, "Rotation vector against rest, degrees.");
+  if (joint.kind != JointKind::ball) return optional_param(name, 360.0, "Angle relative to rest, degrees.");
+  ParamDef def = optional_param(name, 360.0, "Rotation vector relative to rest, degrees.");
   def.type = ParamType::vector;
   def.preset = Vec3(0.0);
   def.mirrored = Mirrored::rotation;

@@ -1,4 +1,4 @@
-// The course of a blow in time.
+// The strength of a blow over time.
 #pragma once
 
 namespace contort {

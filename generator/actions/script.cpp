@@ -124,12 +124,6 @@ Issue script_issue(const char* code, std::string text) {
 
 }  // namespace
 
-std::string script_text(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line, text += '\n';
-  return text;
-}
-
 struct ScriptHost::State {
   std::size_t used_bytes = 0;
   lua_State* lua = nullptr;

@@ -1,8 +1,8 @@
 // Rules that users write in Lua, in action files (docs/reference/own_actions.md): a script computes joints of a part,
 // or parameters of a built-in action, from time, parameters and surroundings.
 //
-// A script is run from its first line to its last in every frame, and keeps nothing from one run to the next: what it
-// is given alone decides what it says. It has no files, no clock and no random numbers, and the functions that Contort
+// A script is run from its first line to its last in every frame, and keeps nothing from one run to the next, so its
+// result depends only on its input. It has no files, no clock and no random numbers, and the functions that Contort
 // gives it have the same bits everywhere; a run may take kMaxScriptSteps instructions and kMaxScriptBytes of memory.
 #pragma once
 
@@ -33,7 +33,8 @@ struct ScriptPlan {
     std::string name;  // "elbow_deg"
     Kind kind = Kind::number;
     int source = 0;  // its place among the action's parameters, or the joint's coordinate in a posture
-    int first = 0;   // its place in the row of what the script sets; of what it only reads: as source
+    int first = 0;   // its place in the row of values that the script sets; for a value that it only reads, equal to
+                     // `source`
     double low = 0.0;
     double high = 0.0;
     Mirrored mirrored = Mirrored::same;  // on the right side; same on the left
@@ -46,7 +47,7 @@ struct ScriptPlan {
   bool adds = false;  // its values are added to the joints' present values
 };
 
-// The rest of what a script may look at, beside parameters.
+// The data that a script may read in addition to parameters.
 struct ScriptInput {
   double time_s = 0.0;
   double period_s = 0.0;
@@ -63,7 +64,7 @@ class ScriptHost {
   ScriptHost(ScriptHost&&) noexcept;
   ScriptHost& operator=(ScriptHost&&) noexcept;
 
-  // Whether lines compile. Code action.bad_script.
+  // Checks that the lines compile. Code action.bad_script.
   static Result<Done> check(const std::vector<std::string>& lines);
 
   // Forgets all scripts that it has compiled.
@@ -85,12 +86,13 @@ std::string script_text(const std::vector<std::string>& lines);
 // The rule of scripts that set joints: ik, or additive, a course, the part alone.
 const ActionDef& script_def(bool adds);
 
-// A built-in action as a course: what a script computes for it is where the part is, not where it is once the time is
-// over.
+// Returns a built-in action as a course: a script computes the place of the part in the present frame, not at the end
+// of the action.
 const ActionDef& course_of(const ActionDef& def);
 
-// Whether a script may compute parameters of an action while it is in force. Walks plan their steps, and aims their
-// ways, from what they know when they begin; the joints of `pose` and `extend` a script can set by itself.
+// Returns true if a script may compute parameters of the action in each frame. Walks plan their steps, and aims their
+// motion, from the parameters that they have when they begin, so they cannot. For `pose` and `extend` it is not needed,
+// because a script can set joints directly.
 bool takes_computed_params(const ActionDef& def, const Character& character, const Part& part);
 
 // For an action whose script can be done by the part (can_do in own_actions.cpp).

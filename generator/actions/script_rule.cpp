@@ -88,6 +88,12 @@ ActionDef def_on(Layer layer) {
 
 }  // namespace
 
+std::string script_text(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line, text += '\n';
+  return text;
+}
+
 const ActionDef& script_def(bool adds) {
   static const ActionDef replaces = def_on(Layer::ik), added = def_on(Layer::additive);
   return adds ? added : replaces;

@@ -11,7 +11,7 @@ std::vector<ParamDef> touch_params(const Character&, const Part&) {
   within.name = "within_m";
   within.low = 0.0, within.high = 3.0;
   within.preset = 0.6;
-  within.help = "Greatest distance from the hand of a surface that is touched.";
+  within.help = "Greatest distance between the hand and a surface that it touches.";
   ParamDef gap;
   gap.name = "gap_m";
   gap.low = 0.0, gap.high = 0.5;

@@ -1,4 +1,4 @@
-// The postures in which two hands can hold one object (docs/internals/aim.md): what an aim asks before it chooses one.
+// Rates the postures in which two hands can hold one object (docs/internals/aim.md), so that an aim can choose one.
 #pragma once
 
 #include "generator/actions/action.h"
@@ -10,8 +10,8 @@ namespace contort {
 double awkwardness_of_two_hands(const RuleInput& in);
 
 // The faults that the other arm has where its hand holds the object, in the best turn of its elbow; 0 where it holds it
-// without any: in reach, joints in their ranges, and room for its bodies. The aiming limb is placed in in.world; what the
-// other arm has in `posture` is scratch.
+// without any: in reach, joints in their ranges, and room for its bodies. The aiming limb is placed in in.world; the
+// other arm's coordinates in `posture` are scratch.
 double fault_of_second_hand(const RuleInput& in, Posture& posture);
 
 }  // namespace contort

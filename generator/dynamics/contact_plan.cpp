@@ -65,6 +65,7 @@ ContactPlan::ContactPlan(const Character& character, const DynamicFigure& figure
       for (int k = 0; k < 4; ++k) highest_m = std::max(highest_m, places[at(f * per_frame + 4 * s + k)].gap_m);
       bearings_[index(f, s)].depth = highest_m > kGives_m ? kGives_m / highest_m : 1.0;
     }
+  count_airborne();
 }
 
 std::uint8_t ContactPlan::standing(int frame) const {
@@ -74,13 +75,40 @@ std::uint8_t ContactPlan::standing(int frame) const {
   return soles;
 }
 
-// Catmull and Rom's, a frame: ends have none.
+// From the frames before, and then from those after.
+void ContactPlan::count_airborne() {
+  airborne_.assign(bearings_.size(), frame_count_);
+  for (int s = 0; s < sole_count_; ++s) {
+    int away = frame_count_;
+    const auto count = [&](int frame) {
+      away = bearing(frame, s).corners != 0 ? 0 : std::min(away + 1, frame_count_);
+      airborne_[index(frame, s)] = std::min(airborne_[index(frame, s)], away);
+    };
+    for (int f = 0; f < frame_count_; ++f) count(f);
+    away = frame_count_;
+    for (int f = frame_count_; f-- > 0;) count(f);
+  }
+}
+
+void ContactPlan::move_airborne(const Character& character, const DynamicFigure& figure, const Motion& motion) {
+  std::vector<Rigid> world(character.joints().size());
+  for (int f = 0; f < frame_count_; ++f) {
+    if (standing(f) == (1U << sole_count_) - 1) continue;
+    forward_kinematics(character, motion.root[at(f)], motion.row(f), world);
+    for (int s = 0; s < sole_count_; ++s)
+      if (bearing(f, s).corners == 0)
+        soles_[index(f, s)] = world[at(figure.soles[at(s)].link)] * figure.soles[at(s)].link_from_sole;
+  }
+}
+
+// Catmull and Rom's, a frame. At its ends a sole goes on as it goes beside them, as joints do (TargetMotion).
 SoleMotion ContactPlan::slope(int frame, int s) const {
   SoleMotion out;
-  if (frame <= 0 || frame >= frame_count_ - 1) return out;
-  const Rigid &before = sole(frame - 1, s), &after = sole(frame + 1, s);
-  out.linear = 0.5 * (after.p_m - before.p_m);
-  out.angular = 0.5 * to_rotation_vector(after.q * glm::conjugate(before.q));
+  const int first = std::max(frame - 1, 0), last = std::min(frame + 1, frame_count_ - 1);
+  if (first == last) return out;
+  const Rigid &before = sole(first, s), &after = sole(last, s);
+  out.linear = (after.p_m - before.p_m) / static_cast<double>(last - first);
+  out.angular = to_rotation_vector(after.q * glm::conjugate(before.q)) / static_cast<double>(last - first);
   return out;
 }
 
@@ -109,7 +137,7 @@ SoleMotion ContactPlan::sole_at(double frame, int s) const {
   const double clamped = std::clamp(frame, 0.0, last);
   const int before = std::min(static_cast<int>(std::floor(clamped)), std::max(frame_count_ - 2, 0));
   const int after = std::min(before + 1, frame_count_ - 1);
-  const double u = clamped - before, per_s = frame < 0.0 || frame > last ? 0.0 : rate_hz_;
+  const double u = clamped - before, per_s = rate_hz_;
   const Rigid &from = sole(before, s), &to = sole(after, s);
   const SoleMotion m0 = slope(before, s), m1 = slope(after, s);
   const double a0 = u * (1 - u) * (1 - u), a1 = -u * u * (1 - u), b = u * u * (3 - 2 * u);

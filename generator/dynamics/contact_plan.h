@@ -26,13 +26,19 @@ class ContactPlan {
   // Bit i: sole i bears on any corner.
   std::uint8_t standing(int frame) const;
   const Rigid& sole(int frame, int sole) const { return soles_[index(frame, sole)]; }
-  // At a time in frames, between frames by cubics; before the first frame and after the last one it rests.
+  // Frames to the nearest one in which the sole bears: 0 while it does.
+  int airborne(int frame, int sole) const { return airborne_[index(frame, sole)]; }
+  // Takes over where a motion has the soles that do not bear.
+  void move_airborne(const Character& character, const DynamicFigure& figure, const Motion& motion);
+  // At a time in frames, between frames by cubics; before the first frame and after the last one it stays there, with
+  // the rates that it has beside them.
   SoleMotion sole_at(double frame, int sole) const;
   // m/s^2, rad/s^2, world axes: between those of the frames, from their neighbours.
   void acceleration_at(double frame, int sole, Vec3& linear, Vec3& angular) const;
 
  private:
   std::size_t index(int frame, int sole) const { return static_cast<std::size_t>(frame * sole_count_ + sole); }
+  void count_airborne();
   SoleMotion slope(int frame, int sole) const;
   SoleMotion bend(int frame, int sole) const;
 
@@ -40,6 +46,7 @@ class ContactPlan {
   int frame_count_ = 0;
   int sole_count_ = 0;
   std::vector<Bearing> bearings_;  // frames x soles
+  std::vector<int> airborne_;      // frames x soles
   std::vector<Rigid> soles_;       // frames x soles
 };
 

@@ -104,6 +104,20 @@ void ContactSolver::add_touch(const TouchedPoint& touch) {
   }
 }
 
+void ContactSolver::add_pair(const BodyContact& pair, double least_m_s) {
+  if (is_stiff_) return;  // nothing parts two bodies of a stiff figure
+  jacobians_.resize(jacobians_.size() + size_, 0.0);
+  const std::span<double> row = std::span(jacobians_).last(size_);
+  std::size_t first = size_, end = kRootDofs;
+  for_openings(equation_->body(), equation_->dynamics, pair, [&](std::size_t dof, double opens) {
+    row[dof] = opens;
+    first = std::min(first, dof), end = std::max(end, dof + 1);
+  });
+  answers_.insert(answers_.end(), jacobians_.end() - static_cast<std::ptrdiff_t>(size_), jacobians_.end());
+  solve_answer(std::span(answers_).last(size_));
+  add_row({.least_speed = least_m_s, .is_own = true, .first_dof = std::min(first, end), .end_dof = end});
+}
+
 void ContactSolver::add_stop(int dof, double sense, double least_speed) {
   add_stop_row({.least_speed = least_speed, .stop_dof = dof, .stop_sense = Vec3(sense, 0.0, 0.0)});
 }
@@ -114,8 +128,7 @@ void ContactSolver::add_ball_stop(int dof, const Vec3& sense, double least_speed
 
 void ContactSolver::add_stop_row(const Row& row) {
   jacobians_.resize(jacobians_.size() + size_, 0.0);
-  for (int i = 0; i < row.stop_dofs; ++i)
-    std::span(jacobians_).last(size_)[at(row.stop_dof + i)] = row.stop_sense[i];
+  for (int i = 0; i < row.stop_dofs; ++i) std::span(jacobians_).last(size_)[at(row.stop_dof + i)] = row.stop_sense[i];
   answers_.insert(answers_.end(), jacobians_.end() - static_cast<std::ptrdiff_t>(size_), jacobians_.end());
   solve_answer(std::span(answers_).last(size_));
   add_row(row);
@@ -167,7 +180,7 @@ void ContactSolver::solve(std::span<double> velocity) {
 
 bool ContactSolver::pushes(bool soles) const {
   return std::ranges::any_of(rows_, [&](const Row& row) {
-    return row.stop_dof < 0 && row.normal < 0 && row.is_sole == soles && row.impulse > 0.0;
+    return row.stop_dof < 0 && row.normal < 0 && !row.is_own && row.is_sole == soles && row.impulse > 0.0;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "generator/dynamics/body_contacts.h"
 #include "generator/dynamics/equation_of_motion.h"
 
 namespace contort {
@@ -29,6 +30,8 @@ class ContactSolver {
   void begin(const EquationOfMotion& equation, bool is_stiff);
 
   void add_touch(const TouchedPoint& touch);
+  // Two bodies of the figure that part with at least this speed, m/s. They slide along each other without friction.
+  void add_pair(const BodyContact& pair, double least_m_s);
   // A joint's freedom that shall have at least this speed in a sense of 1 or -1.
   void add_stop(int dof, double sense, double least_speed);
   // The same for a ball: along a unit vector in the axes of the moved body.
@@ -51,6 +54,7 @@ class ContactSolver {
     int stop_dofs = 1;
     Vec3 stop_sense{0.0};
     bool is_sole = false;
+    bool is_own = false;    // of two bodies of the figure
     std::size_t first_dof = kRootDofs, end_dof = kRootDofs;  // of a contact: behind the root's, those that move it
   };
   void add_row(const Row& row);

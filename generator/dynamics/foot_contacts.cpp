@@ -22,11 +22,11 @@ SoleMotion moved(const Rigid& offset, const SoleMotion& motion) {
 }  // namespace
 
 void FootContacts::begin(const DynamicFigure& figure, const Environment& environment, const ContactPlan& plan,
-                         double rate_hz) {
+                         double rate_hz, double tick_s) {
   figure_ = &figure;
   environment_ = &environment;
   plan_ = &plan;
-  rate_hz_ = rate_hz;
+  rate_hz_ = rate_hz, tick_s_ = tick_s;
   is_led_ = false;
   stances_.clear();
   for (int f = 0; f < plan.frame_count(); ++f) stances_.push_back(plan.standing(f));
@@ -66,7 +66,11 @@ void FootContacts::begin_frame(int frame) {
 
 LedSole FootContacts::led_at(int index, double frame) const {
   const Rigid& offset = offsets_[at(index)];
-  LedSole led{sole(index).link, sole(index).link_from_sole, moved(offset, plan_->sole_at(frame, index))};
+  SoleMotion goal = plan_->sole_at(frame, index);
+  // As lead_joint() of tracker.cpp: the rate that a sole has is that of half a tick ago.
+  const SoleMotion before = plan_->sole_at(frame - 0.5 * tick_s_ * rate_hz_, index);
+  goal.linear = before.linear, goal.angular = before.angular;
+  LedSole led{sole(index).link, sole(index).link_from_sole, moved(offset, goal)};
   plan_->acceleration_at(frame, index, led.linear_m_s2, led.angular_rad_s2);
   led.linear_m_s2 = offset.q * led.linear_m_s2, led.angular_rad_s2 = offset.q * led.angular_rad_s2;
   return led;

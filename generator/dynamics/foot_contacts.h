@@ -13,7 +13,8 @@ namespace contort {
 class FootContacts {
  public:
   // No sole is led at first. The figure, the environment and the plan must outlive it.
-  void begin(const DynamicFigure& figure, const Environment& environment, const ContactPlan& plan, double rate_hz);
+  void begin(const DynamicFigure& figure, const Environment& environment, const ContactPlan& plan, double rate_hz,
+             double tick_s);
 
   // The plan's frame from now on.
   void begin_frame(int frame);
@@ -69,6 +70,7 @@ class FootContacts {
   const Environment* environment_ = nullptr;
   const ContactPlan* plan_ = nullptr;
   double rate_hz_ = 60.0;
+  double tick_s_ = 1.0 / 120.0;
   int frame_ = 0;
   bool is_led_ = false;
   Feet feet_;

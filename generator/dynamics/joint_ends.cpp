@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/dynamics/tracking.h"
 #include "generator/motion/joint_clamp.h"
 #include "model/core/index.h"
 
@@ -97,9 +96,17 @@ BallEnds ball_ends(const Joint& ball, const double* coords, const Vec3& turn_rad
   return out;
 }
 
+BallEnds near_ends(const Joint& ball, const double* coords, double within_rad) {
+  BallEnds all, near;
+  add_end(ball, coords, swing_share, all);
+  if (has_twist_ends(ball)) add_end(ball, coords, twist_share, all);
+  for (const BallEnd& end : all.all())
+    if (end.room_rad < within_rad) near.ends[at(near.count++)] = end;
+  return near;
+}
+
 void slow_at_ends(const Character& character, const Multibody& body, std::span<const char> held,
-                  const FigureState& state, double tick_s, std::span<double> acceleration) {
-  const double ahead_s = shortest_horizon_s(tick_s);
+                  const FigureState& state, double ahead_s, std::span<double> acceleration) {
   const double per_distance = 2.0 / (ahead_s * ahead_s);
   for_free(character, body, held, [&](const Joint& joint, const Link& link) {
     if (link.kind == JointKind::ball) {
@@ -130,6 +137,19 @@ void stop_at_ends(const Character& character, const Multibody& body, std::span<c
     rate = std::min(rate, std::max(joint.high - now, 0.0) / tick_s);
     rate = std::max(rate, std::min(joint.low - now, 0.0) / tick_s);
   });
+}
+
+bool overbends(const Character& character, const Multibody& body, std::span<const char> held,
+               const FigureState& state) {
+  constexpr double kOver_rad = 0.03;
+  for (std::size_t i = 1; i < body.links().size(); ++i) {
+    const Link& link = body.links()[i];
+    if (held[at(link.dof)] == 0 || link.kind != JointKind::hinge) continue;
+    const Joint& joint = character.joints()[i];
+    const double now = state.coords[at(link.coord)], rate = state.velocity[at(link.dof)];
+    if ((now > joint.high + kOver_rad && rate > 0.0) || (now < joint.low - kOver_rad && rate < 0.0)) return true;
+  }
+  return false;
 }
 
 }  // namespace contort

@@ -31,15 +31,33 @@ void add_points(const Collider& collider, std::vector<TouchPoint>& out) {
   }
 }
 
-// The velocity of a point of a link, from the root's origin.
-Vec3 speed_of(const Multibody& body, const DynamicsScratch& d, std::span<const double> velocity, int link,
-              const Vec3& from_root) {
-  SpatialMotion v;
-  const Link& last = body.links()[at(link)];
-  for (int k = last.dof + last.dof_count - 1; k >= 0; k = body.parent_dof()[at(k)])
-    v += velocity[at(k)] * d.freedoms[at(k)];
-  return point_velocity(v, from_root);
-}
+// Velocities of links. Points of one link, which follow each other, share its own.
+class LinkSpeeds {
+ public:
+  LinkSpeeds(const Multibody& body, const DynamicsScratch& dynamics, std::span<const double> velocity)
+      : body_(body), dynamics_(dynamics), velocity_(velocity) {}
+
+  // From the root's origin.
+  Vec3 of_point(int link, const Vec3& from_root_m) {
+    if (link != link_) link_ = link, motion_ = motion_of(link);
+    return point_velocity(motion_, from_root_m);
+  }
+
+ private:
+  SpatialMotion motion_of(int link) const {
+    SpatialMotion v;
+    const Link& last = body_.links()[at(link)];
+    for (int k = last.dof + last.dof_count - 1; k >= 0; k = body_.parent_dof()[at(k)])
+      v += velocity_[at(k)] * dynamics_.freedoms[at(k)];
+    return v;
+  }
+
+  const Multibody& body_;
+  const DynamicsScratch& dynamics_;
+  std::span<const double> velocity_;
+  int link_ = -1;
+  SpatialMotion motion_;
+};
 
 // Factorises a symmetric matrix of six rows, as factorise_symmetric does.
 using RootFactors = std::array<double, 36>;
@@ -128,17 +146,21 @@ SpatialForce weight_of(const DynamicsScratch& dynamics) {
 void add_touches(const DynamicFigure& figure, std::span<const TouchPoint> points, const Environment& environment,
                  double tick_s, std::span<const double> velocity, const DynamicsScratch& dynamics,
                  ContactSolver& solver) {
+  LinkSpeeds speeds(figure.body, dynamics, velocity);
   for (const TouchPoint& touch : points) {
     const Placement& link = dynamics.world[at(touch.link)];
     const Vec3 center = link.origin_m + link.rotation * touch.point_m;
-    for (const Surface& surface : {environment.nearest_ground(center), environment.nearest_obstacle(center)}) {
+    const auto meet = [&](const Surface& surface) {
       const double gap_m = surface.distance_m - touch.radius_m;
-      if (!(gap_m < kFarthestTouch_m)) continue;
+      if (!(gap_m < kFarthestTouch_m)) return;
       const Vec3 from_root = center - touch.radius_m * surface.normal - dynamics.world[0].origin_m;
-      const double sinking = glm::dot(surface.normal, speed_of(figure.body, dynamics, velocity, touch.link, from_root));
-      if (!(gap_m < kNear_m - tick_s * sinking)) continue;
+      const double sinking = glm::dot(surface.normal, speeds.of_point(touch.link, from_root));
+      if (!(gap_m < kNear_m - tick_s * sinking)) return;
       solver.add_touch({touch.link, from_root, surface.normal, least_speed(gap_m, tick_s), 0.0, touch.is_sole});
-    }
+    };
+    if (!environment.is_surely_over_ground(center, touch.radius_m, kFarthestTouch_m))
+      meet(environment.nearest_ground(center));
+    if (!environment.obstacles().empty()) meet(environment.nearest_obstacle(center));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/dynamics/joint_ends.h"
+#include "generator/dynamics/racing.h"
 #include "generator/dynamics/strength.h"
 #include "model/core/index.h"
 
@@ -54,7 +55,8 @@ void LooseMotion::fly(const EquationOfMotion& equation, Actuation& actuation) co
 }
 
 void LooseMotion::move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
-                       const Environment& environment, const SpatialForce& before) {
+                       std::span<const BodyContact> bodies, const Environment& environment,
+                       const SpatialForce& before) {
   const SpatialForce weight = weight_of(equation.dynamics);
   SpatialForce momentum = before;
   momentum += {tick_s_ * weight.moment, tick_s_ * weight.force};
@@ -62,6 +64,7 @@ void LooseMotion::move(const Character& character, EquationOfMotion& equation, s
   set_momentum(equation.body(), equation.dynamics, equation.mass, momentum, velocity);
   contacts_.begin(equation, false);
   add_touches(*equation.figure, touches, environment, tick_s_, velocity, equation.dynamics, contacts_);
+  for (const BodyContact& contact : bodies) contacts_.add_pair(contact, -std::max(contact.gap_m, 0.0) / tick_s_);
   add_stops(character, equation);
   contacts_.solve(velocity);
   momentum_ = momentum_of(equation.body(), equation.dynamics, equation.mass, velocity);
@@ -69,34 +72,23 @@ void LooseMotion::move(const Character& character, EquationOfMotion& equation, s
   has_momentum_ = true;
 }
 
-// Joints that could come to their ends in this tick.
+// Joints that could come to their ends in this tick, whichever way a contact turns them.
 void LooseMotion::add_stops(const Character& character, const EquationOfMotion& equation) {
   for (std::size_t i = 1; i < equation.body().links().size(); ++i) {
     const Link& link = equation.body().links()[i];
     const Joint& joint = character.joints()[i];
+    const double* now = &equation.state.coords[at(link.coord)];
+    const double within = kNearEnd + tick_s_ * kRacing * equation.figure->fastest[at(link.dof)];
+    const auto speed = [&](double room) { return -std::max(room, 0.0) / tick_s_; };
     if (link.kind == JointKind::ball) {
-      add_ball_stop(joint, link, equation.state);
+      const BallEnds ends = near_ends(joint, now, within);
+      for (const BallEnd& end : ends.all()) contacts_.add_ball_stop(link.dof, -end.out, speed(end.room_rad));
       continue;
     }
-    const double now = equation.state.coords[at(link.coord)], rate = equation.state.velocity[at(link.dof)];
-    const double below = joint.high - now, above = now - joint.low;
-    if (below < kNearEnd + tick_s_ * std::max(rate, 0.0))
-      contacts_.add_stop(link.dof, -1.0, -std::max(below, 0.0) / tick_s_);
-    if (above < kNearEnd - tick_s_ * std::min(rate, 0.0))
-      contacts_.add_stop(link.dof, 1.0, -std::max(above, 0.0) / tick_s_);
+    const double below = joint.high - *now, above = *now - joint.low;
+    if (below < within) contacts_.add_stop(link.dof, -1.0, speed(below));
+    if (above < within) contacts_.add_stop(link.dof, 1.0, speed(above));
   }
-}
-
-// A ball that would be outside if it turned on a little farther than it does in this tick.
-void LooseMotion::add_ball_stop(const Joint& joint, const Link& link, const FigureState& state) {
-  const double* rates = &state.velocity[at(link.dof)];
-  const Vec3 rate(rates[0], rates[1], rates[2]);
-  const double speed = length(rate);
-  if (speed == 0.0) return;
-  const Vec3 turn = (tick_s_ + kNearEnd / speed) * rate;
-  const BallEnds ends = ball_ends(joint, &state.coords[at(link.coord)], turn);
-  for (const BallEnd& end : ends.all())
-    contacts_.add_ball_stop(link.dof, -end.out, -std::max(end.room_rad, 0.0) / tick_s_);
 }
 
 Footing LooseMotion::footing(const Quat& root, const Quat& wanted_root) {

@@ -1,6 +1,7 @@
 // A figure that has let go of the ground: it flies, tips or lies until soles take its weight again (loose.h).
 #pragma once
 
+#include "generator/dynamics/body_contacts.h"
 #include "generator/dynamics/equation_of_motion.h"
 #include "generator/dynamics/loose.h"
 #include "model/motion/motion.h"
@@ -28,16 +29,16 @@ class LooseMotion {
   // Joints go on as they are told, each as far as it is strong enough; the rest follows. Needs find_mass.
   void fall(EquationOfMotion& equation, std::span<const double> wanted, Actuation& actuation);
 
-  // Weight, contacts and the ends of joints change the velocities, and with them the momentum, and nothing else does.
+  // Weight, contacts, those of bodies of the figure with each other, and the ends of joints change the velocities, and
+  // with them the momentum, and nothing else does.
   // `before` is the momentum before joints changed their velocities.
   void move(const Character& character, EquationOfMotion& equation, std::span<const TouchPoint> touches,
-            const Environment& environment, const SpatialForce& before);
+            std::span<const BodyContact> bodies, const Environment& environment, const SpatialForce& before);
 
   // After move: what the figure touches, and how it stands against the target's root rotation.
   Footing footing(const Quat& root, const Quat& wanted_root);
 
  private:
-  void add_ball_stop(const Joint& joint, const Link& link, const FigureState& state);
   void add_stops(const Character& character, const EquationOfMotion& equation);
   void fly(const EquationOfMotion& equation, Actuation& actuation) const;
 

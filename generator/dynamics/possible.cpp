@@ -6,10 +6,12 @@
 
 #include "generator/dynamics/feet.h"
 #include "generator/dynamics/soft_height.h"
+#include "generator/dynamics/soft_joints.h"
 #include "generator/dynamics/support_hull.h"
 #include "generator/dynamics/target.h"
 #include "generator/dynamics/tracker.h"
 #include "generator/motion/place_foot.h"
+#include "model/core/detmath.h"
 #include "model/core/index.h"
 #include "model/motion/kinematics.h"
 
@@ -23,8 +25,12 @@ constexpr double kSoftly_s = 0.2;  // within which the root goes down where a le
 constexpr double kReached_m = 2e-4;
 constexpr double kLowestBody_m = 0.2;
 constexpr double kMostLowering_m = 0.03;  // at once
-constexpr double kInset_m = 0.01;         // that the zero moment point of a target keeps from the edge
+constexpr double kInset_m = 0.02;         // that the zero moment point of a target keeps from the edge
+constexpr double kInsetOfSteps_m = 0.026; // the same while a foot is off the ground: tracking is less exact then
 constexpr double kStretch = 0.99;         // of a leg, at most
+constexpr double kEasyStretch = 0.97;
+constexpr double kStretched = 0.997;
+constexpr double kLetsGo_s = 0.15;
 constexpr double kUnmoved_m = 1e-4;       // moves below this are not made
 constexpr double kLeastPressure = 0.2;    // of the weight, below which the figure counts as flying
 
@@ -35,12 +41,6 @@ struct Need {
   Vec3 moment_N_m{0.0};  // about the world's origin
 };
 
-struct Momentum {
-  Vec3 com_m{0.0};
-  Vec3 linear{0.0};
-  Vec3 angular{0.0};  // about the world's origin
-};
-
 // m h u'' - f u = ask for a frame's shift u, both horizontal axes.
 struct Row {
   double spread = 0.0;  // m h, for differences between frames
@@ -48,17 +48,31 @@ struct Row {
   Vec3 ask{0.0};
 };
 
+// All joints of legs and of what carries them, carriers first; without the root.
+std::vector<int> joints_down_to_feet(const Character& character, std::span<const Leg> legs) {
+  std::vector<char> needed(character.joints().size(), 0);
+  for (const Leg& leg : legs)
+    for (const int joint : leg.joints)
+      for (int j = joint; j > 0; j = character.joint(j).parent) needed[at(j)] = 1;
+  std::vector<int> joints;
+  for (int j = 1; j < static_cast<int>(needed.size()); ++j)
+    if (needed[at(j)] != 0) joints.push_back(j);
+  return joints;
+}
+
 class PossibleTarget {
  public:
   PossibleTarget(const Character& character, const DynamicFigure& figure, const ContactPlan& plan, Motion& motion)
       : character_(character), figure_(figure), body_(Multibody::of(character)), plan_(plan), motion_(motion) {
-    velocity_.assign(at(body_.dof_count()), 0.0);
-    zeros_ = forces_ = velocity_;
+    state_ = moving_start(body_, TargetMotion(body_, motion));
+    acceleration_.assign(state_.velocity.size(), 0.0);
+    forces_ = acceleration_;
     shift_m_.assign(at(motion.frame_count), Vec3(0.0));
     world_.resize(character.joints().size());
   }
 
-  BalancePlan run() {
+  BalancePlan run(bool changed) {
+    if (changed || is_stretched()) keep_all_soles(), lower_where_needed();
     soften();
     for (int pass = 0; pass < kPasses; ++pass) {
       measure();
@@ -88,58 +102,57 @@ class PossibleTarget {
 
   void measure() {
     const TargetMotion target(body_, motion_);
-    std::vector<Momentum> momenta;
-    for (int f = 0; f < motion_.frame_count; ++f) momenta.push_back(momentum_at(target, f));
-    needs_.assign(momenta.size(), {});
-    const int last = motion_.frame_count - 1;
-    if (last >= 2) continue_to(momenta[0], momenta[1], momenta[2]);
-    if (last >= 2) continue_to(momenta[at(last)], momenta[at(last - 1)], momenta[at(last - 2)]);
-    for (int f = 0; f <= last; ++f) {
-      const int before = std::max(f - 1, 0), after = std::min(f + 1, last);
-      const double per_s = motion_.rate_hz / std::max(after - before, 1);
-      const Momentum &a = momenta[at(before)], &b = momenta[at(after)];
-      const Vec3 weight(0.0, mass() * kGravity_m_s2, 0.0), com = momenta[at(f)].com_m;
-      needs_[at(f)] = {com, per_s * (b.linear - a.linear) + weight,
-                       per_s * (b.angular - a.angular) + glm::cross(com, weight)};
-      speeds_.resize(momenta.size());
-      speeds_[at(f)] = momenta[at(f)].linear / mass();
+    needs_.clear(), speeds_.clear();
+    for (int f = 0; f < motion_.frame_count; ++f) measure(target, f);
+  }
+
+  // With the accelerations that tracking takes from the target in this frame.
+  void measure(const TargetMotion& target, int frame) {
+    FigureState& state = state_;
+    target.root_at(frame, state.root, state.velocity.data());
+    target.root_acceleration_at(frame, acceleration_.data());
+    for (const Link& link : body_.links().subspan(1)) {
+      target.joint_at(link, frame, &state.coords[at(link.coord)], &state.velocity[at(link.dof)]);
+      target.joint_acceleration_at(link, frame, &acceleration_[at(link.dof)]);
     }
-  }
-
-  // A target's ends have no rates of their own: momentum goes on there as it goes beside them.
-  static void continue_to(Momentum& end, const Momentum& next, const Momentum& second) {
-    end.linear = 2.0 * next.linear - second.linear;
-    end.angular = 2.0 * next.angular - second.angular;
-  }
-
-  Momentum momentum_at(const TargetMotion& target, int frame) {
-    FigureState state = moving_start(body_, target);
-    target.root_at(frame, state.root, velocity_.data());
-    for (const Link& link : body_.links().subspan(1))
-      target.joint_at(link, frame, &state.coords[at(link.coord)], &velocity_[at(link.dof)]);
     place(body_, state.root, state.coords, dynamics_);
-    inverse_dynamics(body_, velocity_, zeros_, 0.0, dynamics_, forces_);
-    SpatialForce sum;
-    Vec3 moment(0.0);
+    inverse_dynamics(body_, state.velocity, acceleration_, kGravity_m_s2, dynamics_, forces_);
+    Vec3 moment(0.0), momentum(0.0);
     double mass_kg = 0.0;
     for (std::size_t i = 0; i < body_.links().size(); ++i) {
       if (body_.links()[i].massless) continue;
-      sum += dynamics_.inertia[i] * dynamics_.velocity[i];
+      momentum += (dynamics_.inertia[i] * dynamics_.velocity[i]).force.narrow();
       moment += dynamics_.inertia[i].first_moment.narrow(), mass_kg += dynamics_.inertia[i].mass_kg;
     }
-    const Vec3 root = state.root.p_m;
-    return {root + (1.0 / mass_kg) * moment, sum.force.narrow(), sum.moment + glm::cross(root, sum.force.narrow())};
+    const Vec3 root = state.root.p_m, force(forces_[0], forces_[1], forces_[2]);
+    const Vec3 torque = state.root.q * Vec3(forces_[3], forces_[4], forces_[5]);
+    needs_.push_back({root + (1.0 / mass_kg) * moment, force, torque + glm::cross(root, force)});
+    speeds_.push_back((1.0 / mass_kg) * momentum);
+  }
+
+  // The soles that bear in a frame and beside it: tracking goes from one frame to the next, so the weight must be where
+  // it may be in both.
+  std::uint8_t bears(int frame) const {
+    const int last = motion_.frame_count - 1;
+    const std::uint8_t now = plan_.standing(frame);
+    const std::uint8_t before = plan_.standing(std::max(frame - 1, 0));
+    const std::uint8_t after = plan_.standing(std::min(frame + 1, last));
+    const std::uint8_t always = now & before & after;
+    return always != 0 ? always : now;
   }
 
   // Corners that bear in a frame, in the world.
   void find_corners(int frame) {
     corners_.clear();
-    const double alone_N = std::popcount(plan_.standing(frame)) == 1 ? needs_[at(frame)].force_N.y : 0.0;
+    const std::uint8_t bearing = bears(frame);
+    // Either of two feet may have to bear everything; of four, half of it.
+    const double each_N = needs_[at(frame)].force_N.y * std::min(1.0, 2.0 / std::max(1, std::popcount(bearing)));
     for (std::size_t i = 0; i < figure_.soles.size(); ++i) {
+      if ((bearing & (1U << i)) == 0) continue;
       const Sole& sole = figure_.soles[i];
       const Rigid world_from_link = plan_.sole(frame, static_cast<int>(i)) * inverse(sole.link_from_sole);
       const std::size_t first = corners_.size();
-      add_bearing_points(sole, plan_.bearing(frame, static_cast<int>(i)), alone_N, corners_);
+      add_bearing_points(sole, plan_.bearing(frame, static_cast<int>(i)), each_N, corners_);
       for (Vec3& corner : std::span(corners_).subspan(first)) corner = world_from_link * corner;
     }
   }
@@ -153,7 +166,8 @@ class PossibleTarget {
     double height_m = 0.0;
     for (const Vec3& corner : corners_) height_m += corner.y / static_cast<double>(corners_.size());
     is = zmp_at(need, height_m);
-    wanted = nearest_inside(corners_, kInset_m, is, hull_);
+    const bool all_bear = std::popcount(bears(frame)) == static_cast<int>(figure_.soles.size());
+    wanted = nearest_inside(corners_, all_bear ? kInset_m : kInsetOfSteps_m, is, hull_);
     return true;
   }
 
@@ -218,7 +232,23 @@ class PossibleTarget {
   void move() {
     for (int f = 0; f < motion_.frame_count; ++f) motion_.root[at(f)].p_m += shift_m_[at(f)];
     keep_all_soles();
+    lower_where_needed();
+  }
+
+  void lower_where_needed() {
     for (int again = 0; again < kLowerings && lower(missing_m_); ++again) keep_all_soles();
+  }
+
+  // Whether a leg that stands is as long as its joints allow: a figure that follows it would leave their ranges.
+  bool is_stretched() {
+    for (int f = 0; f < motion_.frame_count; ++f) {
+      forward_kinematics(character_, motion_.root[at(f)], motion_.row(f), world_);
+      for (std::size_t i = 0; i < legs_.size(); ++i) {
+        const bool stands = (plan_.standing(f) & (1U << i)) != 0;
+        if (stands && too_far_m(legs_[i], plan_.sole(f, static_cast<int>(i)), kStretched) > 0.0) return true;
+      }
+    }
+    return false;
   }
 
   void keep_all_soles() {
@@ -247,20 +277,38 @@ class PossibleTarget {
   // Puts all feet of a frame back. Answers by how much the root is too high for the longest leg, m.
   double keep_soles(int frame) {
     const std::span<double> row = motion_.row(frame);
-    forward_kinematics(character_, motion_.root[at(frame)], row, world_);
+    world_[0] = motion_.root[at(frame)];
+    forward_kinematics(character_, row, leg_joints_, world_);
     double most_m = 0.0;
     for (std::size_t i = 0; i < legs_.size(); ++i) {
-      const Rigid& wanted = plan_.sole(frame, static_cast<int>(i));
+      const Rigid wanted = within_reach(i, frame);
       place_foot(character_, legs_[i], world_, wanted, row);
-      most_m = std::max(most_m, too_far_m(legs_[i], wanted));
+      if ((plan_.standing(frame) & (1U << i)) != 0) most_m = std::max(most_m, too_far_m(legs_[i], wanted, kStretch));
     }
     return most_m;
   }
 
-  double too_far_m(const Leg& leg, const Rigid& sole) const {
-    const Vec3 hip = world_[at(character_.parts()[at(leg.part)].reach.front().upper)].p_m;
+  // A sole in the air comes nearer to a hip that has moved away from it, the more the straighter its leg would be:
+  // knees that become straight are fast. Before it lands, and after it is lifted, a sole is where it is planned.
+  Rigid within_reach(std::size_t leg, int frame) const {
+    Rigid sole = plan_.sole(frame, static_cast<int>(leg));
+    const double free = plan_.airborne(frame, static_cast<int>(leg)) / (kLetsGo_s * motion_.rate_hz);
+    if (free <= 0.0) return sole;
+    const Vec3 way = sole * legs_[leg].sole_from_ankle - hip_m(legs_[leg]);
+    const double far_m = length(way), easy_m = kEasyStretch * legs_[leg].length_m;
+    if (far_m <= easy_m) return sole;
+    const double more_m = (kStretch - kEasyStretch) * legs_[leg].length_m;
+    const double soft_m = easy_m + more_m * (1.0 - det::exp(-(far_m - easy_m) / more_m));
+    sole.p_m += way * (std::min(1.0, free) * (soft_m / far_m - 1.0));
+    return sole;
+  }
+
+  Vec3 hip_m(const Leg& leg) const { return world_[at(character_.parts()[at(leg.part)].reach.front().upper)].p_m; }
+
+  double too_far_m(const Leg& leg, const Rigid& sole, double stretch) const {
+    const Vec3 hip = hip_m(leg);
     const Vec3 way = sole * leg.sole_from_ankle - hip;
-    const double longest_m = kStretch * leg.length_m, level2 = way.x * way.x + way.z * way.z;
+    const double longest_m = stretch * leg.length_m, level2 = way.x * way.x + way.z * way.z;
     return std::max(0.0, -way.y - std::sqrt(std::max(0.0, longest_m * longest_m - level2)));
   }
 
@@ -283,8 +331,10 @@ class PossibleTarget {
   Motion& motion_;
   DynamicsScratch dynamics_;
   const std::vector<Leg> legs_ = find_legs(character_);
+  const std::vector<int> leg_joints_ = joints_down_to_feet(character_, legs_);
   std::vector<Rigid> world_;
-  std::vector<double> velocity_, zeros_, forces_, missing_m_;
+  FigureState state_;
+  std::vector<double> acceleration_, forces_, missing_m_;
   std::vector<Need> needs_;
   std::vector<Vec3> speeds_, shift_m_, corners_;
   HullScratch hull_;
@@ -292,9 +342,10 @@ class PossibleTarget {
 
 }  // namespace
 
-BalancePlan make_possible(const Character& character, const DynamicFigure& figure, const ContactPlan& plan,
-                          Motion& motion) {
-  return PossibleTarget(character, figure, plan, motion).run();
+BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
+                          const ContactPlan& plan, Motion& motion) {
+  const bool changed = soften_joints(character, find_legs(character), easy, motion);
+  return PossibleTarget(character, figure, plan, motion).run(changed);
 }
 
 }  // namespace contort

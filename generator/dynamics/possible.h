@@ -24,7 +24,7 @@ struct BalancePlan {
 
 // Moves root and legs of a motion. The figure counts without its loads, of which a target does not know. A motion that
 // is possible stays as it is, bit by bit.
-BalancePlan make_possible(const Character& character, const DynamicFigure& figure, const ContactPlan& plan,
-                          Motion& motion);
+BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
+                          const ContactPlan& plan, Motion& motion);
 
 }  // namespace contort

@@ -57,13 +57,7 @@ inline void add_row(double share, const double* row, std::size_t count, double* 
 }  // namespace twos
 
 #ifdef __x86_64__
-// All that follows may use AVX2, without fused multiplication.
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#endif
+#include "model/core/avx2_begin.inl"
 
 namespace avx2 {
 
@@ -104,11 +98,7 @@ inline void add_row(double share, const double* row, std::size_t count, double* 
 
 }  // namespace avx2
 
-#ifdef __clang__
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "model/core/avx2_end.inl"
 #endif
 
 std::vector<RecursionSet> find_sets() {

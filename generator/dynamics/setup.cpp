@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/dynamics/easy_acceleration.h"
 #include "generator/dynamics/simulate.h"
 
 namespace contort {
@@ -63,6 +64,7 @@ Result<DynamicsSetup> build_dynamics(const DynamicsDesc& desc, const Character& 
     if (blow->impulse_N_s != Vec3(0.0)) setup.impacts.push_back(*blow);  // one of nothing happens to nobody
   }
   setup.figure = build_figure(character, legs, loads);
+  setup.easy = easy_accelerations(character, setup.figure);
   setup.touches = touch_points(character, setup.figure);
   return setup;
 }

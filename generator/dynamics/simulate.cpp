@@ -4,6 +4,7 @@
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/racing.h"
+#include "generator/dynamics/soft_joints.h"
 #include "generator/dynamics/target.h"
 #include "model/core/index.h"
 
@@ -12,7 +13,10 @@ namespace contort {
 namespace {
 
 constexpr double kRecovers_s = 1.5;  // after an impact
-constexpr double kSlips_m_s = 0.5;   // a sole that an impact makes faster than this does not stand any more
+constexpr double kEndsAhead = 4.0;   // ticks
+constexpr double kNearBody_m = 0.1;  // bodies of the figure that are nearer to each other may touch soon
+constexpr double kBodiesAhead_s = 0.1;
+constexpr double kSlips_m_s = 0.5;  // a sole that an impact makes faster than this does not stand any more
 
 class Simulation {
  public:
@@ -53,19 +57,27 @@ class Simulation {
     const auto n = at(body_.dof_count());
     s_.tracked.assign(n, 0.0);
     s_.actuation.assign(n);
-    s_.contacts.begin(figure_, environment_, plan_, motion_.rate_hz);
+    s_.contacts.begin(figure_, environment_, plan_, motion_.rate_hz, tick_s_);
     s_.record.begin(motion_, body_.dof_count());
-    s_.equation.begin(figure_, moving_start(body_, target_));
+    s_.equation.begin(figure_, moving_start(body_, target_, tick_s_));
     s_.standing.begin(figure_, balance_, tick_s_);
     s_.loose.begin(tick_s_);
+    s_.bodies.begin(character_, figure_);
     s_.contacts.lead_all();
+    s_.equation.place();
+    s_.equation.find_mass();
+    s_.contacts.follow_plan(0.0, s_.equation.dynamics);  // soles bear from the first frame on, also a blow in it
   }
 
   // Whether something acts from outside, or did a short while ago.
-  bool is_disturbed() const {
-    const bool was_struck = struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz;
-    return !figure_.loads.empty() || was_struck;
-  }
+  bool is_disturbed() const { return !figure_.loads.empty() || is_struck(); }
+  bool is_struck() const { return struck_frame_ >= 0 && frame_ - struck_frame_ < kRecovers_s * motion_.rate_hz; }
+
+  // How far ahead joints look for the ends of their ranges. A target comes to them as softly as it must; a figure that
+  // keeps to its target and looked farther would slow down sooner than it, and arrive late.
+  double ends_ahead_s() const { return is_disturbed() ? shortest_horizon_s(tick_s_) : kEndsAhead * tick_s_; }
+
+  bool leg_overbends() const { return overbends(character_, body_, s_.contacts.feet().stands_by_dof(), state_); }
 
   bool is_dynamic() const { return setup_.mode == Mode::dynamic; }
 
@@ -82,20 +94,32 @@ class Simulation {
     const Placement& link = s_.equation.dynamics.world[at(blow.link)];
     s_.record.impact({frame_, blow.link, link.origin_m + link.rotation * blow.point_m, blow.impulse_N_s});
     s_.impact.strike(s_.equation, s_.contacts, environment_, blow);
+    if (!is_dynamic()) hold_soles();
     if (is_dynamic() && s_.impact.sole_speed_m_s() > kSlips_m_s) let_go();
     s_.standing.rest();
     s_.loose.forget_momentum();
     struck_frame_ = frame_;
   }
 
+  // Tracking alone stands on ground that gives whatever the soles need, also in a blow.
+  void hold_soles() {
+    if (!s_.contacts.has_soles()) return;
+    s_.contacts.find_rows(s_.equation);
+    s_.contacts.stop(s_.equation);
+  }
+
   void tick(int index, bool moves) {
     s_.equation.place();
     const double frame = frame_ + static_cast<double>(index) / setup_.ticks_per_frame;
-    track(body_, target_, frame, tick_s_, {!s_.contacts.is_planted(), !is_disturbed()}, state_, s_.tracked);
+    const bool returns_softly = is_struck() && !s_.loose.is_loose();
+    track(body_, target_, frame, tick_s_, {!s_.contacts.is_planted(), returns_softly, !is_disturbed()}, state_, track_,
+          s_.tracked);
     frame_time_ = frame;
     s_.contacts.follow_plan(frame, s_.equation.dynamics);
     s_.standing.begin_tick(frame, is_disturbed());
-    slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, tick_s_, s_.tracked);
+    slow_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), state_, ends_ahead_s(), s_.tracked);
+    find_bodies(index == 0);
+    if (is_disturbed()) s_.bodies.slow(s_.equation, kBodiesAhead_s, s_.tracked);
     if (is_dynamic())
       actuate();
     else
@@ -106,6 +130,14 @@ class Simulation {
     else if (s_.loose.is_loose())
       record_footing();
     if (s_.after_tick) s_.after_tick();
+  }
+
+  // In each tick of a loose figure, and in the first one of a frame of a figure that stands, which follows its contacts
+  // from there on. Bodies of a figure that nothing disturbs do what the target does.
+  void find_bodies(bool begins_frame) {
+    const bool is_loose = s_.loose.is_loose();
+    if (!is_loose && !is_disturbed()) return s_.bodies.clear();
+    if (begins_frame || is_loose) s_.bodies.find(s_.equation.dynamics, kNearBody_m, !is_loose);
   }
 
   // Tracking alone: what that takes is measured, and changes nothing. Feet that stay only while a joint races (a leg
@@ -129,6 +161,7 @@ class Simulation {
     s_.equation.find_mass();
     if (s_.loose.is_loose()) s_.loose.carry_momentum(s_.equation);
     if (s_.loose.is_loose() && !s_.loose.has_fallen()) try_to_stand();
+    if (!s_.loose.is_loose() && is_disturbed() && leg_overbends()) let_go();
     // Without a sole on the ground the rest of the figure may touch it.
     if (!s_.loose.is_loose() && s_.contacts.has_soles() && s_.contacts.planned(frame_) == 0) let_go();
     if (!s_.loose.is_loose() && !s_.standing.stand(s_.equation, s_.contacts, s_.tracked, s_.record, s_.actuation))
@@ -158,13 +191,18 @@ class Simulation {
     if (is_loose)
       move_loosely(momentum);
     else
-      stop_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), tick_s_, state_);
+      stop_joints();
     stop_racing(body_, figure_.fastest, state_.velocity);
     integrate(body_, state_.velocity, tick_s_, state_.root, state_.coords);
   }
 
+  void stop_joints() {
+    if (is_disturbed()) s_.bodies.stop(s_.equation, tick_s_, state_.velocity);
+    stop_at_ends(character_, body_, s_.contacts.feet().stands_by_dof(), tick_s_, state_);
+  }
+
   void move_loosely(const SpatialForce& momentum) {
-    s_.loose.move(character_, s_.equation, setup_.touches, environment_, momentum);
+    s_.loose.move(character_, s_.equation, setup_.touches, s_.bodies.contacts(), environment_, momentum);
     record_footing();
   }
 
@@ -184,6 +222,7 @@ class Simulation {
   Motion& motion_;
   TargetMotion target_;
   double tick_s_;
+  TrackScratch track_;
   double frame_time_ = 0.0;
   int struck_frame_ = -1;  // the last blow's; -1: none yet
   int frame_ = 0;
@@ -193,8 +232,10 @@ class Simulation {
 
 void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
               SimulationScratch& scratch, Motion& motion) {
-  const ContactPlan plan(character, setup.figure, environment, motion);
-  const BalancePlan balance = make_possible(character, setup.figure, plan, motion);
+  soften_legs(character, find_legs(character), environment, setup.easy, motion);
+  ContactPlan plan(character, setup.figure, environment, motion);
+  const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, motion);
+  plan.move_airborne(character, setup.figure, motion);
   Simulation(character, setup, environment, plan, balance, scratch, motion).run();
 }
 

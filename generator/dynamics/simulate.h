@@ -7,6 +7,7 @@
 #include "generator/dynamics/foot_contacts.h"
 #include "generator/dynamics/impact_response.h"
 #include "generator/dynamics/loose_motion.h"
+#include "generator/dynamics/body_contacts.h"
 #include "generator/dynamics/recorder.h"
 #include "generator/dynamics/standing.h"
 #include "model/spec/dynamics_desc.h"
@@ -21,6 +22,7 @@ struct DynamicsSetup {
   DynamicFigure figure;
   std::vector<TouchPoint> touches;
   std::vector<Impact> impacts;
+  std::vector<double> easy;  // by joint: easy_accelerations
 };
 
 // Codes dynamics.unknown_name, .bad_load, with pointers from the description's root. `start` turns impulses.
@@ -33,6 +35,7 @@ struct SimulationScratch {
   FootContacts contacts;
   Standing standing;
   LooseMotion loose;
+  BodyContacts bodies;
   ImpactResponse impact;
   Recorder record;
   std::vector<double> tracked;          // accelerations that tracking wants, by freedom

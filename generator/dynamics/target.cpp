@@ -63,13 +63,18 @@ int TargetMotion::inward(int frame) const {
 // goes beside them: a target is a piece of a longer motion, and a figure that had to start or stop within a frame would
 // need any force. Motions of less than four frames stand still at their ends.
 double TargetMotion::slope(int frame, int coord) const {
-  if (const int way = inward(frame)) return 2.0 * slope(frame + way, coord) - slope(frame + 2 * way, coord);
+  if (const int way = inward(frame))
+    return way * (row(frame + way)[coord] - row(frame)[coord]) - 0.5 * way * bend(frame + way, coord);
   if (frame == 0 || frame == frame_count_ - 1) return 0.0;
   return 0.5 * (row(frame + 1)[coord] - row(frame - 1)[coord]);
 }
 
 Vec3 TargetMotion::turn_slope(int frame, int coord) const {
-  if (const int way = inward(frame)) return 2.0 * turn_slope(frame + way, coord) - turn_slope(frame + 2 * way, coord);
+  if (const int way = inward(frame)) {
+    const Quat from = glm::conjugate(quat_at(row(frame) + coord));
+    const Vec3 turn = to_rotation_vector(from * quat_at(row(frame + way) + coord));
+    return static_cast<double>(way) * (turn - 0.5 * turn_bend(frame + way, coord));
+  }
   if (frame == 0 || frame == frame_count_ - 1) return Vec3(0.0);
   return 0.5 * to_rotation_vector(glm::conjugate(quat_at(row(frame - 1) + coord)) * quat_at(row(frame + 1) + coord));
 }
@@ -97,16 +102,22 @@ void TargetMotion::ball_at(int coord, const Between& at, double* coords, double*
   for (int k = 0; k < 3; ++k) rates[k] = angular[k];
 }
 
+Link TargetMotion::root_travel(int axis) const {
+  Link place;
+  place.kind = JointKind::prismatic, place.coord = coord_count_ - 7 + axis, place.dof_count = 1;
+  return place;
+}
+
+Link TargetMotion::root_turn() const {
+  Link turn;
+  turn.kind = JointKind::ball, turn.coord = coord_count_ - 4, turn.dof_count = 3;
+  return turn;
+}
+
 void TargetMotion::root_at(double frame, Rigid& world_from_root, double* velocity) const {
-  Link place, turn;
-  turn.kind = JointKind::ball, turn.coord = coord_count_ - 4;
-  place.kind = JointKind::prismatic;
-  for (int k = 0; k < 3; ++k) {
-    place.coord = coord_count_ - 7 + k;
-    joint_at(place, frame, &world_from_root.p_m[k], velocity + k);
-  }
+  for (int k = 0; k < 3; ++k) joint_at(root_travel(k), frame, &world_from_root.p_m[k], velocity + k);
   double q[4];
-  joint_at(turn, frame, q, velocity + 3);
+  joint_at(root_turn(), frame, q, velocity + 3);
   world_from_root.q = quat_at(q);
 }
 

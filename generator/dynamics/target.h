@@ -31,6 +31,10 @@ class TargetMotion {
   // The root's generalised acceleration at a time in frames: between those of the frames, from their neighbours.
   void root_acceleration_at(double frame, double* acceleration) const;
 
+  // The root's place along an axis, and its rotation, as links of which the functions above can be asked.
+  Link root_travel(int axis) const;
+  Link root_turn() const;
+
   // Frames that control of a link heads for (tracking.h). Of a ball: of the components of its rotation against rest.
   const std::vector<int>& knots(int link) const { return knots_[static_cast<std::size_t>(link)]; }
 

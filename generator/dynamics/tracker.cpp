@@ -1,30 +1,112 @@
 #include "generator/dynamics/tracker.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "generator/dynamics/dynamics.h"
 
 namespace contort {
 
 namespace {
 
-constexpr double kRootStiffness = 12.0;  // rad/s
+constexpr double kJointStiffness = 12.0;  // rad/s
+
+// How fast the root comes back, rad/s: along the ground, up and down, and in turns.
+struct RootStiffness {
+  double level = 0.0;
+  double height = 0.0;
+  double turn = 0.0;
+};
+constexpr RootStiffness kLedRoot{12.0, 12.0, 12.0};
+// These are used after a blow. Along the ground, the root comes back little faster than an inverted pendulum of its
+// height falls, sqrt(g / h), since the ground cannot move it much faster.
+constexpr RootStiffness kSoftRoot{5.0, 10.0, 6.0};
+constexpr double kSoftJointStiffness = 8.0;
 
 Vec3 vec_at(const double* v) { return {v[0], v[1], v[2]}; }
 void put(const Vec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+void put_turn(const Quat& q, double* out) { out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z; }
 
-// A root that legs carry along: it follows as feet do, ahead by what the target accelerates, brought back as by a
-// critically damped spring.
-void lead_root(const TargetMotion& target, double frame, const FigureState& state, std::span<double> acceleration) {
-  Rigid goal;
-  double rates[kRootDofs], ahead[kRootDofs];
-  target.root_at(frame, goal, rates);
-  target.root_acceleration_at(frame, ahead);
-  const Vec3 turn = to_rotation_vector(glm::conjugate(state.root.q) * goal.q);
-  for (int k = 0; k < kRootDofs; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double off = k < 3 ? goal.p_m[k] - state.root.p_m[k] : turn[k - 3];
-    acceleration[i] =
-        ahead[k] + 2.0 * kRootStiffness * (rates[k] - state.velocity[i]) + kRootStiffness * kRootStiffness * off;
-  }
+// Critically damped.
+double spring(double stiffness_per_s, double off, double off_per_s) {
+  return 2.0 * stiffness_per_s * off_per_s + stiffness_per_s * stiffness_per_s * off;
+}
+
+// A figure that takes a target's accelerations tick by tick, on it from the start, does not go along its cubics:
+// accelerations are blended evenly between frames. With n ticks a frame its poses differ by (1 - 1 / n^2) / 6 of a
+// frame's second difference: the present acceleration times this. One that were drawn back to the cubics would arrive
+// beside its target.
+double missed_s2(double tick_s, double rate_hz) {
+  const double frame_s = 1.0 / rate_hz;
+  return (frame_s * frame_s - tick_s * tick_s) / 6.0;
+}
+
+TargetLead lead_at(const Link& link, const TargetMotion& target, double frame, double missed) {
+  TargetLead lead;
+  lead.frame = frame;
+  double rates[3], acceleration[3]{};
+  target.joint_at(link, frame, lead.coords, rates);
+  target.joint_acceleration_at(link, frame, acceleration);
+  lead.acceleration = vec_at(acceleration);
+  if (link.kind == JointKind::ball)
+    put_turn(quat_at(lead.coords) * from_rotation_vector(missed * lead.acceleration), lead.coords);
+  else
+    lead.coords[0] += missed * acceleration[0];
+  return lead;
+}
+
+Vec3 way_between(const Link& link, const double* from, const double* to) {
+  return link.kind == JointKind::ball ? to_rotation_vector(glm::conjugate(quat_at(from)) * quat_at(to))
+                                      : Vec3(to[0] - from[0], 0.0, 0.0);
+}
+
+// Half a tick before the first frame, as the rates of semi-implicit Euler are.
+Vec3 rate_at_start(const Link& link, const TargetMotion& target, double tick_s) {
+  double coords[4], rates[3]{}, acceleration[3]{};
+  target.joint_at(link, 0.0, coords, rates);
+  target.joint_acceleration_at(link, 0.0, acceleration);
+  return vec_at(rates) - 0.5 * tick_s * vec_at(acceleration);
+}
+
+// What does not change from joint to joint in a tick.
+struct Tick {
+  const TargetMotion& target;
+  double frame;
+  double length_s;
+  double missed;  // missed_s2
+  double before() const { return frame - length_s * target.rate_hz(); }
+};
+
+// The rate that a joint has which goes with its target. A step of semi-implicit Euler goes with the rate of its middle,
+// so that is the rate of the way of the last tick.
+Vec3 last_rate(const Link& link, const Tick& tick, const TargetLead& last, const TargetLead& lead) {
+  constexpr double kSame = 1e-6;  // frames
+  if (tick.before() < 0.0) return rate_at_start(link, tick.target, tick.length_s);
+  if (std::fabs(last.frame - tick.before()) < kSame) return way_between(link, last.coords, lead.coords) / tick.length_s;
+  const TargetLead before = lead_at(link, tick.target, tick.before(), tick.missed);
+  return way_between(link, before.coords, lead.coords) / tick.length_s;
+}
+
+// The acceleration of a joint that goes as its target goes, so that one that is on its target stays on it, and that is
+// brought back as by a critically damped spring.
+void lead_joint(const Link& link, const Tick& tick, double stiffness_per_s, const double* now, const double* velocity,
+                TargetLead& last, double* acceleration) {
+  const TargetLead lead = lead_at(link, tick.target, tick.frame, tick.missed);
+  const Vec3 rate = last_rate(link, tick, last, lead), off = way_between(link, now, lead.coords);
+  for (int k = 0; k < link.dof_count; ++k)
+    acceleration[k] = lead.acceleration[k] + spring(stiffness_per_s, off[k], rate[k] - velocity[k]);
+  last = lead;
+}
+
+// A root that legs carry along follows as joints do.
+void lead_root(const Tick& tick, const RootStiffness& per_s, const FigureState& state, TargetLead& turn,
+               TargetLead* travels, std::span<double> acceleration) {
+  for (int k = 0; k < 3; ++k)
+    lead_joint(tick.target.root_travel(k), tick, k == 1 ? per_s.height : per_s.level, &state.root.p_m[k],
+               &state.velocity[static_cast<std::size_t>(k)], travels[k], &acceleration[static_cast<std::size_t>(k)]);
+  double now[4];
+  put_turn(state.root.q, now);
+  lead_joint(tick.target.root_turn(), tick, per_s.turn, now, &state.velocity[3], turn, &acceleration[3]);
 }
 
 void track_root(const TargetMotion& target, double then, double ahead_s, const FigureState& state,
@@ -51,48 +133,49 @@ void track_joint(const Link& link, const TargetMotion& target, double then, doub
     acceleration[0] = cubic_acceleration(now[0], velocity[0], goal[0], rates[0], ahead_s);
 }
 
-// The difference between the acceleration of the cubic, from the target itself to the goal, and the target's own.
-void add_missed(const Link& link, const TargetMotion& target, double frame, double then, double ahead_s,
-                double* acceleration) {
-  double now[4], rates[3], goal[4], goal_rates[3], own[3];
-  target.joint_at(link, frame, now, rates);
-  target.joint_at(link, then, goal, goal_rates);
-  target.joint_acceleration_at(link, frame, own);
-  if (link.kind != JointKind::ball) {
-    acceleration[0] += own[0] - cubic_acceleration(now[0], rates[0], goal[0], goal_rates[0], ahead_s);
-    return;
-  }
-  const Vec3 cubic = cubic_acceleration(quat_at(now), vec_at(rates), quat_at(goal), vec_at(goal_rates), ahead_s);
-  put(vec_at(acceleration) + vec_at(own) - cubic, acceleration);
-}
-
 }  // namespace
 
-FigureState moving_start(const Multibody& body, const TargetMotion& target) {
+FigureState moving_start(const Multibody& body, const TargetMotion& target, double tick_s) {
   FigureState state;
   state.coords.resize(static_cast<std::size_t>(body.coord_count()));
   state.velocity.assign(static_cast<std::size_t>(body.dof_count()), 0.0);
   target.root_at(0.0, state.root, state.velocity.data());
-  for (const Link& link : body.links().subspan(1))
-    target.joint_at(link, 0.0, &state.coords[static_cast<std::size_t>(link.coord)],
-                    &state.velocity[static_cast<std::size_t>(link.dof)]);
+  for (int k = 0; k < 3; ++k)
+    state.velocity[static_cast<std::size_t>(k)] = rate_at_start(target.root_travel(k), target, tick_s).x;
+  put(rate_at_start(target.root_turn(), target, tick_s), &state.velocity[3]);
+  for (const Link& link : body.links().subspan(1)) {
+    double rates[3];
+    target.joint_at(link, 0.0, &state.coords[static_cast<std::size_t>(link.coord)], rates);
+    put(rate_at_start(link, target, tick_s), rates);
+    std::copy_n(rates, link.dof_count, &state.velocity[static_cast<std::size_t>(link.dof)]);
+  }
   return state;
 }
 
 void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const Tracking& how,
-           const FigureState& state, std::span<double> acceleration) {
-  for (std::size_t i = 0; i < body.links().size(); ++i) {
+           const FigureState& state, TrackScratch& scratch, std::span<double> acceleration) {
+  const Tick tick{target, frame, tick_s, missed_s2(tick_s, target.rate_hz())};
+  const std::size_t count = body.links().size();
+  scratch.leads.resize(count + 3);
+  for (std::size_t i = 0; i < count; ++i) {
     const Link& link = body.links()[i];
-    const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
-    const double then = frame + target.rate_hz() * ahead_s;
-    if (link.kind == JointKind::root && how.root_leads)
-      lead_root(target, frame, state, acceleration);
-    else if (link.kind == JointKind::root)
-      track_root(target, then, ahead_s, state, acceleration);
-    else
-      track_joint(link, target, then, ahead_s, state, &acceleration[static_cast<std::size_t>(link.dof)]);
-    if (link.kind != JointKind::root && how.exactly)
-      add_missed(link, target, frame, then, ahead_s, &acceleration[static_cast<std::size_t>(link.dof)]);
+    double* own = &acceleration[static_cast<std::size_t>(link.dof)];
+    const bool is_root = link.kind == JointKind::root;
+    if (is_root && (how.root_leads || how.returns_softly)) {
+      lead_root(tick, how.returns_softly ? kSoftRoot : kLedRoot, state, scratch.leads[i], &scratch.leads[count],
+                acceleration);
+    } else if (!is_root && (how.exactly || how.returns_softly)) {
+      lead_joint(link, tick, how.returns_softly ? kSoftJointStiffness : kJointStiffness,
+                 &state.coords[static_cast<std::size_t>(link.coord)],
+                 &state.velocity[static_cast<std::size_t>(link.dof)], scratch.leads[i], own);
+    } else {
+      const double ahead_s = horizon_s(target.knots(static_cast<int>(i)), frame, target.rate_hz(), tick_s);
+      const double then = frame + target.rate_hz() * ahead_s;
+      if (is_root)
+        track_root(target, then, ahead_s, state, acceleration);
+      else
+        track_joint(link, target, then, ahead_s, state, own);
+    }
   }
 }
 

@@ -14,18 +14,32 @@ struct FigureState {
   std::vector<double> velocity;  // see Multibody
 };
 
-// The target's pose and rates at frame 0.
-FigureState moving_start(const Multibody& body, const TargetMotion& target);
+// The target's pose at frame 0, and its rates half a tick before, as a figure has them that advance() brought there.
+FigureState moving_start(const Multibody& body, const TargetMotion& target, double tick_s = 0.0);
 
 struct Tracking {
   bool root_leads =
-      false;             // the root follows its own way closely and legs come along; else it is tracked as joints are
-  bool exactly = false;  // joints: with what the cubics miss of the target, so that a figure on it stays on it
+      false;  // the root follows its own way closely and legs come along; else it is tracked as joints are
+  bool returns_softly = false;  // after a blow: no faster than the ground can bear
+  bool exactly = false;         // joints: with what the cubics miss of the target, so that a figure on it stays on it
+};
+
+// A joint of the target where a figure is that takes the target's accelerations tick by tick.
+struct TargetLead {
+  double frame = -1.0;
+  double coords[4]{};
+  Vec3 acceleration{0.0};
+};
+
+// What the last tick found, by joint and three travels of the root: spares half of the work in the next one.
+struct TrackScratch {
+  std::vector<TargetLead> leads;
 };
 
 // The accelerations of all freedoms at a time in frames, each joint by itself; tick_s is the time until the next call.
+// The scratch is of the same target.
 void track(const Multibody& body, const TargetMotion& target, double frame, double tick_s, const Tracking& how,
-           const FigureState& state, std::span<double> acceleration);
+           const FigureState& state, TrackScratch& scratch, std::span<double> acceleration);
 
 // Semi-implicit Euler: velocities first, then poses with them.
 void advance(const Multibody& body, std::span<const double> acceleration, double tick_s, FigureState& state);

@@ -19,14 +19,14 @@ struct AimChain {
   bool operator==(const AimChain&) const = default;
 };
 
-// The part's joints, and those of the parts that hang on it, that carry the socket. No joints where the part does not
-// carry the socket. Of more than kMaxAimJoints the outermost stay.
+// Returns the joints that carry the socket, of the part and of the parts that it carries. Returns no joints if the part
+// does not carry the socket. Of more than kMaxAimJoints joints the outermost ones are kept.
 AimChain aim_chain_for(const Character& character, int part, int socket);
 
-// The chain with which a torso or head faces a direction, cut in the same way.
+// Returns the chain with which a torso or head faces a direction, cut in the same way.
 AimChain aim_chain_for(const FacingChain& chain);
 
-// A chain taken out of its character: all that a table depends on. Two arms with equal geometry share a table.
+// A chain without its character: everything on which an aim table depends. Two arms with equal geometry share a table.
 struct AimGeometry {
   // Without names and character-wide indices. parent_from_joint is given in the joint before it in the chain (the
   // first: in the chain's base, the parent of its first joint), joints in between at rest; coord counts from the
@@ -39,10 +39,10 @@ struct AimGeometry {
 // Asserts that the chain has 1 to kMaxAimJoints joints.
 AimGeometry aim_geometry(const Character& character, const AimChain& chain);
 
-// Over everything in it, bit by bit.
+// Returns a hash of all members, bit by bit.
 std::uint64_t geometry_hash(const AimGeometry& geometry);
 
-// base_from_socket at the chain's coordinates.
+// Returns base_from_socket at the chain's coordinates.
 Rigid base_from_socket(const AimGeometry& geometry, std::span<const double> coords);
 
 }  // namespace contort

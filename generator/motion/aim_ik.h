@@ -1,6 +1,6 @@
 // Points a socket's +Z at a target, exactly and within the joints' ranges: the nearest posture of an aim table, then
-// aimIK, cyclic coordinate descent over directions with every joint clamped (docs/internals/aim.md). Unlike ik.h, this
-// clamps: the seed asks for an aim that its joints can hold, and what they cannot reach shows as error_rad.
+// aimIK, cyclic coordinate descent over directions with every joint clamped (docs/internals/aim.md). Unlike ik.h, it
+// clamps joints, because an aim must be held within their ranges; error_rad is the angle that they cannot reach.
 #pragma once
 
 #include <span>

@@ -9,6 +9,7 @@
 #include "model/core/assert.h"
 #include "model/core/detmath.h"
 #include "model/core/hash.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
@@ -51,19 +52,30 @@ double beside_first_joint_m(const AimGeometry& geometry, const Vec3& point_m, co
   return length(from_joint_m - glm::dot(from_joint_m, direction) * direction);
 }
 
-State judged(const AimGeometry& geometry, int number, std::span<const double> coords) {
+// A chain as far as one of its joints; its room and angles are as those of a State.
+struct Reach {
+  Rigid base_from_joint;
+  double room = kRoom;
+  double from_rest = 0.0;
+};
+
+Reach beyond(const Reach& before, const Joint& joint, std::span<const double> coords) {
+  Reach reach = before;
+  reach.base_from_joint = before.base_from_joint * joint.parent_from_joint * joint_motion(joint, coords);
+  if (joint.kind == JointKind::prismatic) return reach;
+  const double* q = coords.data() + joint.coord;
+  const double turned_rad = from_rest_rad(joint, q);
+  reach.room = std::min(reach.room, normalised_margin(joint, q));
+  reach.from_rest += turned_rad * turned_rad;
+  return reach;
+}
+
+State judged(const AimGeometry& geometry, int number, const Reach& reach) {
   constexpr double kBesideStep_m = 0.05;
-  const Rigid socket = base_from_socket(geometry, coords);
+  const Rigid socket = reach.base_from_joint * geometry.last_from_socket;
   const Vec3 direction = socket.q * Vec3(0, 0, 1);
-  State state{aim_cell(direction), kRoom, 0.0, 0, number};
+  State state{aim_cell(direction), reach.room, reach.from_rest, 0, number};
   state.beside = static_cast<int>(beside_first_joint_m(geometry, socket.p_m, direction) / kBesideStep_m);
-  for (const Joint& joint : geometry.joints) {
-    if (joint.kind == JointKind::prismatic) continue;
-    const double* q = coords.data() + joint.coord;
-    state.room = std::min(state.room, normalised_margin(joint, q));
-    const double turned_rad = from_rest_rad(joint, q);
-    state.from_rest += turned_rad * turned_rad;
-  }
   return state;
 }
 
@@ -83,14 +95,27 @@ bool is_sighted_before(const State& a, const State& b) {
   return before(a, b);
 }
 
+// Appends the states with this reach before a joint, in the order of their numbers.
+void add_states(const AimGeometry& geometry, const AimSteps& steps, std::size_t joint, const Reach& before,
+                std::span<double> coords, std::vector<State>& states) {
+  if (joint == geometry.joints.size()) {
+    states.push_back(judged(geometry, static_cast<int>(states.size()), before));
+    return;
+  }
+  const Joint& next = geometry.joints[joint];
+  const auto size = static_cast<std::size_t>(coord_size(next.kind));
+  const std::span<const double> places = steps.places[joint];
+  for (std::size_t place = 0; place < places.size(); place += size) {
+    std::ranges::copy(places.subspan(place, size), coords.begin() + next.coord);
+    add_states(geometry, steps, joint + 1, beyond(before, next, coords), coords, states);
+  }
+}
+
 std::vector<State> all_states(const AimGeometry& geometry, const AimSteps& steps) {
   std::vector<State> states;
   states.reserve(static_cast<std::size_t>(steps.state_count));
   std::vector<double> coords(static_cast<std::size_t>(geometry.coord_count));
-  for (int number = 0; number < steps.state_count; ++number) {
-    state_coords(geometry, steps, number, coords);
-    states.push_back(judged(geometry, number, coords));
-  }
+  add_states(geometry, steps, 0, {}, coords, states);
   std::ranges::sort(states, before);
   return states;
 }
@@ -191,10 +216,11 @@ AimTable AimTable::build(const AimGeometry& geometry, const AimTableOptions& opt
   std::vector<double> kept;
   for (auto begin = states.begin(); begin != states.end();) {
     const auto end = std::find_if(begin, states.end(), [&](const State& state) { return state.cell != begin->cell; });
+    const std::span cell(&*begin, static_cast<std::size_t>(end - begin));
     const std::size_t cell_begin = kept.size();
-    keep_best(geometry, steps, {begin, end}, options.per_cell - options.per_cell / 3, cell_begin, kept);
-    std::sort(begin, end, is_sighted_before);
-    keep_best(geometry, steps, {begin, end}, options.per_cell, cell_begin, kept);
+    keep_best(geometry, steps, cell, options.per_cell - options.per_cell / 3, cell_begin, kept);
+    std::ranges::sort(cell, is_sighted_before);
+    keep_best(geometry, steps, cell, options.per_cell, cell_begin, kept);
     begin = end;
   }
   return of_postures(geometry, options, kept);

@@ -30,13 +30,13 @@ struct AimHit {
 
 class AimTable {
  public:
-  // The same for the same geometry and options, everywhere.
+  // Builds the table. The same geometry and options give the same table on every machine.
   static AimTable build(const AimGeometry& geometry, const AimTableOptions& options = {});
 
   // A table of these postures (geometry.coord_count doubles each), in any order. Used by the file's reader.
   static AimTable of_postures(AimGeometry geometry, const AimTableOptions& options, std::span<const double> coords);
 
-  // Over geometry and options; files are kept under it.
+  // Returns a hash of geometry and options, under which files are stored.
   static std::uint64_t key_of(const AimGeometry& geometry, const AimTableOptions& options);
   std::uint64_t key() const { return key_of(geometry_, options_); }
 
@@ -50,18 +50,19 @@ class AimTable {
   const Vec3& point_m(int posture) const { return points_m_[static_cast<std::size_t>(posture)]; }
 
   // The postures whose directions are nearest to a unit direction (base frame), best first; of equals the one with the
-  // lower number. Fills `hits` as far as there are postures and answers how many. Never allocates.
+  // lower number. Fills `hits` as far as there are postures, and returns their number. Never allocates.
   int nearest(const Vec3& direction, std::span<AimHit> hits) const;
 
-  // The same for a target point in the base's frame: the chord is between a posture's direction and the way from its
-  // own point to the target. Looks at every posture. For targets so near that the aim point's place decides.
+  // The nearest postures for a target point in the base's frame: the chord is between a posture's direction and the way
+  // from its own point to the target. Looks at every posture. It is for near targets, for which the direction depends
+  // on the place of the aim point.
   int nearest_to_point(const Vec3& target_m, std::span<AimHit> hits) const;
 
   // Puts those hits first whose postures are nearest to a present one (coords of the chain) in their worst joint.
   void prefer(std::span<const double> present, std::span<AimHit> hits) const;
 
-  // The same, but a posture counts as farther by 4 rad for each metre that its line of aim passes beside the chain's
-  // first joint: people aim along their arms, and with a gun at the shoulder.
+  // Sorts the hits in the same way, but a posture counts as farther by 4 rad for each metre that its line of aim passes
+  // beside the chain's first joint: people aim along their arms, and with a gun at the shoulder.
   void prefer_sighted(std::span<const double> present, std::span<AimHit> hits) const;
 
   // A posture between several near ones: hinges by weighted mean, balls by normalised quaternion sum, over those that
@@ -69,7 +70,7 @@ class AimTable {
   // does not point nearer to the direction than the first one, that one. Never allocates.
   void interpolated(const Vec3& direction, std::span<const AimHit> hits, std::span<double> coords) const;
 
-  // The same for the eight nearest postures.
+  // Interpolates between the eight nearest postures.
   void interpolated(const Vec3& direction, std::span<double> coords) const;
 
  private:

@@ -42,7 +42,7 @@ std::size_t most_postures(const AimTableOptions& options) {
 // Whether the header is ours, and all bytes that it announces are there.
 Result<Done> check_frame(std::string_view bytes, const AimGeometry& geometry, const AimTableOptions& options) {
   if (bytes.size() < kHeaderBytes + kHashBytes || !bytes.starts_with(kMagic))
-    return refused("damaged", "This is no aim table, or only the beginning of one.");
+    return refused("damaged", "This is not an aim table, or only the beginning of one.");
   if (get(bytes, 8, 4) != kVersion)
     return refused("version", "The table has version " + std::to_string(get(bytes, 8, 4)) + "; this program reads " +
                                   std::to_string(kVersion) + ".");

@@ -23,7 +23,7 @@ std::string aim_table_bytes(const AimTable& table);
 Result<AimTable> aim_table_from_bytes(std::string_view bytes, const AimGeometry& geometry,
                                       const AimTableOptions& options = {});
 
-// As above, with the codes of write_file and read_file.
+// Write and read a table's file. They also have the codes of write_file and read_file.
 Result<Done> save_aim_table(const AimTable& table, const std::string& path);
 Result<AimTable> load_aim_table(const std::string& path, const AimGeometry& geometry,
                                 const AimTableOptions& options = {});

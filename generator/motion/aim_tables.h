@@ -32,7 +32,7 @@ class AimTables {
   std::map<std::uint64_t, std::shared_ptr<const AimTable>> tables_;
 };
 
-// One for the whole process: what is in a table depends on its chain alone, whoever asks first.
+// The tables of the whole process. They can be shared, because a table depends only on its chain.
 AimTables& shared_aim_tables();
 
 // The file name of a chain's table: its key.

@@ -1,4 +1,4 @@
-// The swing of arms that have nothing to do while their figure walks or runs on two legs.
+// The swing of idle arms while their figure walks or runs on two legs.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace contort {
 
-// Whether the gait swings this part: it reaches and does not stand, is on one side, and it and what hangs on it carry no
-// object.
+// Returns true if the gait swings this part: it can reach but does not stand on the ground, it is on one side, and
+// neither it nor a part that it carries holds an object.
 bool is_free_arm(const Character& character, std::span<const Leg> legs, int part);
 
 // Adds the swing to the part's coordinates, as far as its joints go. `world` must hold the part and its carrier.

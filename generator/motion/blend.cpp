@@ -26,6 +26,19 @@ void blend_joint(const Joint& joint, const double* a, const double* b, double we
   }
 }
 
+// The weight may be above 1: the postures are extrapolated then.
+void weigh_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double weight,
+                Posture& out) {
+  const Part& own = character.parts()[part];
+  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
+    const Joint& joint = character.joints()[static_cast<std::size_t>(j)];
+    blend_joint(joint, a.coords.data() + joint.coord, b.coords.data() + joint.coord, weight,
+                out.coords.data() + joint.coord);
+  }
+  if (part != 0) return;
+  out.root = {slerp_short(a.root.q, b.root.q, weight), a.root.p_m + (b.root.p_m - a.root.p_m) * weight};
+}
+
 }  // namespace
 
 void copy_part(const Character& character, std::size_t part, const Posture& from, Posture& to) {
@@ -39,14 +52,12 @@ void blend_part(const Character& character, std::size_t part, const Posture& a, 
   // Bit by bit: what has arrived is there, and what has faded is gone.
   if (weight <= 0.0) return copy_part(character, part, a, out);
   if (weight >= 1.0) return copy_part(character, part, b, out);
-  const Part& own = character.parts()[part];
-  for (int j = own.first_joint; j < own.first_joint + own.joint_count; ++j) {
-    const Joint& joint = character.joints()[static_cast<std::size_t>(j)];
-    blend_joint(joint, a.coords.data() + joint.coord, b.coords.data() + joint.coord, weight,
-                out.coords.data() + joint.coord);
-  }
-  if (part != 0) return;
-  out.root = {slerp_short(a.root.q, b.root.q, weight), a.root.p_m + (b.root.p_m - a.root.p_m) * weight};
+  weigh_part(character, part, a, b, weight, out);
+}
+
+void coast_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double steps,
+                Posture& out) {
+  weigh_part(character, part, a, b, 1.0 + steps, out);
 }
 
 }  // namespace contort

@@ -9,8 +9,12 @@ namespace contort {
 
 void copy_part(const Character& character, std::size_t part, const Posture& from, Posture& to);
 
-// out = a at weight 0, b at weight 1; out may be a or b.
+// out = a at weight 0 and below, b at weight 1 and above; out may be a or b.
 void blend_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double weight,
+                Posture& out);
+
+// out = where the part gets to if it goes on from b for so many of the steps that led it from a to b; out may be a or b.
+void coast_part(const Character& character, std::size_t part, const Posture& a, const Posture& b, double steps,
                 Posture& out);
 
 }  // namespace contort

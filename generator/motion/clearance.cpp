@@ -25,6 +25,7 @@ constexpr double kRise_s = 0.022;  // from rest to the greatest speed
 constexpr double kCoast = 0.35;   // of its last step: the way of a joint that stops as soon as it can
 constexpr double kFarStep = 0.2;       // of a joint's greatest step in a frame
 constexpr std::array kBetween = {0.25, 0.5, 0.75};
+constexpr double kWithMass = 2.0;  // of the acceleration at ease: what is more is a jolt (soft_joints.h)
 constexpr double kLifted = 0.7;    // of a joint's greatest speed, while a foot is lifted
 constexpr double kMore_m = 1e-5;  // rounding must not choose
 
@@ -37,16 +38,20 @@ Vec3 way_between(const Joint& joint, const Posture& from, const Posture& to) {
 }
 
 // Whether the joint's speed changes slowly enough.
-bool keeps_pace(const Joint& joint, const Past& past, const Posture& shown) {
+bool keeps_pace(const Character& character, int j, const Past& past, const Posture& shown) {
+  const Joint& joint = character.joint(j);
   const Vec3 step = way_between(joint, past.before, shown), last = way_between(joint, past.earlier, past.before);
-  return length(step - last) <= joint.max_speed * past.frame_s * past.frame_s / kRise_s;
+  double most = joint.max_speed / kRise_s;
+  if (!past.easy.empty()) most = std::min(most, kWithMass * past.easy[at(j)]);
+  return length(step - last) <= most * past.frame_s * past.frame_s;
 }
 
 }  // namespace
 
-bool moves_smoothly(const Joint& joint, const Past& past, const Posture& shown) {
+bool moves_smoothly(const Character& character, int j, const Past& past, const Posture& shown) {
+  const Joint& joint = character.joint(j);
   return length(way_between(joint, past.before, shown)) <= kLifted * joint.max_speed * past.frame_s &&
-         keeps_pace(joint, past, shown);
+         keeps_pace(character, j, past, shown);
 }
 
 struct Clearance::Case {
@@ -109,14 +114,14 @@ struct Clearance::Case {
     return all_joints([&](int j) { return length(step_of(j)) <= share * greatest_step(j); });
   }
   bool is_smooth() const {
-    return all_joints([&](int j) { return keeps_pace(character.joint(j), past, shown); });
+    return all_joints([&](int j) { return keeps_pace(character, j, past, shown); });
   }
   // Whether the limb is clear at the end of the way that it takes to stop, if it is too fast to stop at once.
   bool can_stop() {
     const double most = past.frame_s / kRise_s;
     if (all_joints([&](int j) { return length(step_of(j)) <= most * greatest_step(j); })) return true;
     save();
-    for (const int p : limb.parts) blend_part(character, at(p), past.before, saved, 1.0 + kCoast, shown);
+    for (const int p : limb.parts) coast_part(character, at(p), past.before, saved, kCoast, shown);
     const bool is_clear_there = has_room(-kTooNear_m);
     restore();
     place();

@@ -1,5 +1,5 @@
-// Keeps a limb's bodies apart from others: a limb that would come too near stops on its way, goes on with the joints that
-// may, and gets out of the way of what comes towards it.
+// Keeps a limb's bodies apart from others. A limb that would come too near stops, except for the joints that can
+// continue, and it moves away from bodies that come towards it.
 #pragma once
 
 #include <span>
@@ -14,11 +14,12 @@ struct Past {
   Posture before;
   Posture earlier;
   double frame_s = 0.0;
+  std::span<const double> easy;  // the greatest accelerations by joint, rad/s^2 or m/s^2; empty without mass
 };
 
-// Whether a joint gets from the frame before to its place in `shown` slowly enough for a leg whose foot is lifted, and
-// without a sudden change of its speed.
-bool moves_smoothly(const Joint& joint, const Past& past, const Posture& shown);
+// Returns true if a joint moves from the frame before to its place in `shown` slowly enough for a leg whose foot is
+// lifted, and without a sudden change of speed.
+bool moves_smoothly(const Character& character, int joint, const Past& past, const Posture& shown);
 
 class Clearance {
  public:

@@ -7,18 +7,18 @@
 
 namespace contort {
 
-// When a sole rolls, in shares of a stance or a swing, [0, 1].
+// The times at which a sole rolls, as fractions of a stance or a swing, [0, 1].
 struct RollTimes {
-  double heel_rises = 0.5;   // of the stance
-  double heel_peaks = 0.0;   // of the swing: the foot turns on in the air
-  double heel_level = 0.75;  // of the swing, later than heel_peaks
-  double toes_rise = 0.6;    // of the swing
-  double toes_flat = 0.25;   // of the stance
+  double heel_rises = 0.5;   // begin of the heel's rise in the stance
+  double heel_peaks = 0.0;   // heel's highest angle in the swing: the foot continues to turn in the air
+  double heel_level = 0.75;  // heel level again in the swing; later than heel_peaks
+  double toes_rise = 0.6;    // begin of the toes' rise in the swing
+  double toes_flat = 0.25;   // toes flat again in the stance
 };
 
-// Shares of the largest angles, in [0, 1]. `stance` is how much of the stance is over, [0, 1]; `swing` of the swing, 0
-// while the foot stands; `duty`, (0, 1), is the share of the cycle in which it stands. Neither jumps where a stance
-// begins or ends.
+// Returns fractions of the largest angles, in [0, 1]. `stance` is the fraction of the stance that is over, [0, 1];
+// `swing` that of the swing, 0 while the foot stands; `duty`, (0, 1), is the share of the cycle in which it stands.
+// Neither jumps where a stance begins or ends.
 double heel_rise(const RollTimes& times, double duty, double stance, double swing);
 double toe_rise(const RollTimes& times, double stance, double swing);
 

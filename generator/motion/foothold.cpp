@@ -63,6 +63,13 @@ bool stands_there(const Rigid& placed, const Rigid& seen) {
   return std::fabs(placed.p_m.y - seen.p_m.y) < kStands_m && glm::dot(up_seen, up_placed) > 0.999;
 }
 
+// Higher than steps lift it: an action of its own has taken it there.
+bool is_high(const Environment& environment, const Leg& leg, const Rigid& sole) {
+  constexpr double kHigh = 0.08;  // of the leg's length
+  const Vec3 lowest_m = sole * lower_end_m(leg, sole);
+  return lowest_m.y - environment.height_at(lowest_m.x, lowest_m.z) > kHigh * leg.length_m;
+}
+
 }  // namespace
 
 Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole) {
@@ -107,7 +114,7 @@ Rigid first_sole(const Environment& environment, const Leg& leg, const Rigid& wo
   const Vec3 home = home_of(leg, world_from_start);
   const Vec3 off = seen != nullptr ? seen->p_m - home : Vec3(0.0);
   const double off_m = std::sqrt(off.x * off.x + off.z * off.z);
-  if (seen == nullptr || off_m > kFarthest * leg.length_m)
+  if (seen == nullptr || off_m > kFarthest * leg.length_m || is_high(environment, leg, *seen))
     return stand_at(environment, leg, world_from_start.q, home, world_from_start.q * Vec3(0, 0, 1));
   const auto placed_about = [&](const Vec3& on) {
     const Vec3 at = *seen * on - world_from_start.q * on;

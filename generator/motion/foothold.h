@@ -22,18 +22,18 @@ struct Foothold {
 };
 Foothold foothold_at(const Environment& environment, const Leg& leg, const Rigid& world_from_sole);
 
-// Puts a foot that is turned so down on the ground near a place, as world_from_sole: of a few places along a direction
-// the most even one, the nearer the better.
+// Returns world_from_sole of a foot with this rotation, put down on the ground near a place. Of a few places along a
+// direction it takes the most even one, and prefers near ones.
 Rigid stand_at(const Environment& environment, const Leg& leg, const Quat& turn, const Vec3& at_m,
                const Vec3& direction);
 
-// The place of a foot at rest under a character that stands here, on the plane y = 0.
+// Returns the place of a foot at rest under a character that stands here, on the plane y = 0.
 inline Vec3 home_of(const Leg& leg, const Rigid& world_from_start) {
   return world_from_start * Vec3(leg.home_m.x, 0.0, leg.home_m.z);
 }
 
-// The first foothold under a character that starts here: where its sole is seen, put down on the ground; at
-// home, if that is too far away or the sole is not seen (null).
+// Returns the first foothold under a character that starts here: its present sole, put down on the ground, or its home
+// place if that sole is too far away, high above the ground, or not given (null).
 Rigid first_sole(const Environment& environment, const Leg& leg, const Rigid& world_from_start, const Rigid* seen);
 
 }  // namespace contort

@@ -58,8 +58,10 @@ double freedom_of(const GaitFrame& frame, std::span<const Leg> legs, const Envir
   constexpr double kFree_m = 0.05;  // above the ground
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
     if (legs[leg].part != part && legs[leg].foot_part != part) continue;
-    const Vec3& sole = frame.feet[leg].world_from_sole.p_m;
-    return minimum_jerk(std::clamp((sole.y - environment.height_at(sole.x, sole.z)) / kFree_m, 0.0, 1.0));
+    const Rigid& sole = frame.feet[leg].world_from_sole;
+    const Vec3 lowest_m = sole * lower_end_m(legs[leg], sole);  // a foot with its heel up still stands on its toes
+    const double height_m = lowest_m.y - environment.height_at(lowest_m.x, lowest_m.z);
+    return minimum_jerk(std::clamp(height_m / kFree_m, 0.0, 1.0));
   }
   return 1.0;
 }

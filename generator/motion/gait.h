@@ -1,5 +1,5 @@
-// Gait: where root and feet are as functions of time, for any number of legs. A stance foot is fixed in the world; its
-// foothold is its home place carried along the path to the middle of that stance, put on the ground.
+// Gait: the places of root and feet as functions of time, for any number of legs. A stance foot is fixed in the world;
+// its foothold is its home place carried along the path to the middle of that stance, put on the ground.
 // docs/internals/gait.md has the equations.
 #pragma once
 
@@ -30,32 +30,34 @@ struct ArmSwing {
 
 struct GaitFrame {
   Rigid root;
-  Rigid stands_at;  // a turn about +Y and a place on the plane y = 0: where the course has come to
+  Rigid stands_at;  // the place that the course has reached: a turn about +Y and a point of the plane y = 0
   std::array<FootTarget, kMaxLegs> feet;
   std::array<ArmSwing, 2> arms;  // left and right
 };
 
-// The share of an additive that a part may show, [0, 1]: a foot that the course has put down stays, with the leg above
-// it, and one that swings is the freer the higher it is. 1 for parts that are neither leg nor foot.
+// Returns the fraction of an additive that a part may show, [0, 1]: 0 for a standing foot and its leg, more for a
+// swinging foot the higher it is, and 1 for parts that are neither leg nor foot.
 bool is_of_leg(std::span<const Leg> legs, int part);
 double freedom_of(const GaitFrame& frame, std::span<const Leg> legs, const Environment& environment, int part);
 
-// The gait that is being walked: fixed when it begins, and each leg's present step, found once. Caller-owned.
+// The state of a gait: its parameters, fixed when it begins, and each leg's present step, which is computed once. The
+// caller owns it.
 class Gait {
  public:
-  // From where the character stands: a turn about +Y and a place on the plane. Feet stay where their soles are seen until
-  // they are lifted, put down on the ground below; those too far away from home for that, or not given, are at home.
+  // Begins at the character's place, a turn about +Y and a point of the plane. Feet stay at their given soles, put down
+  // on the ground, until they are lifted. Feet without a given sole, or too far from home, begin at home.
   void begin(const Character& character, std::span<const Leg> legs, const Environment& environment,
              const Rigid& world_from_start, std::span<const Rigid> seen_soles);
 
   const std::array<Rigid, kMaxLegs>& first_soles() const { return first_soles_; }
   const Rigid& world_from_start() const { return world_from_start_; }
 
-  // Standing where the feet are, the hips lowered by a share of the shortest leg.
+  // Returns the frame in which the figure stands on its present feet, with hips lowered by a fraction of the shortest
+  // leg.
   GaitFrame stand(double lower_share);
 
-  // At a time of a course of duration_s; it begins and ends standing, at the end with every foot at home. From begin() on
-  // with the same parameters and duration.
+  // Returns the frame at a time of a course of duration_s. The course begins and ends standing, and at its end every
+  // foot is at home. Call it with the parameters and the duration of begin().
   GaitFrame at(const GaitParams& params, double time_s, double duration_s);
 
  private:

@@ -1,4 +1,4 @@
-// When feet swing and how far the root has come: the timing of a gait's course. docs/internals/gait.md has the
+// The timing of a gait's course: the swings of feet and the progress of the root. docs/internals/gait.md has the
 // equations.
 #pragma once
 
@@ -24,39 +24,40 @@ class GaitTiming {
   FootCycle cycle(const Leg& leg, double time_s) const;
   double since_landing(const Leg& leg, double time_s) const;  // as a share of the cycle, [0, 1)
 
-  // When a stance begins, when its foot is lifted, and when the hips come over it; negative before the course began.
+  // The times at which a stance begins, its foot is lifted, and the hips come over it; negative before the course
+  // began.
   double lands_s(const Leg& leg, int step) const;
   double lifted_s(const Leg& leg, int step) const;
   double middle_s(const Leg& leg, int step) const;
 
-  // The root's way. It ends a cycle early, so that every foot has the time to come home.
+  // The root's path. It ends a cycle early, so that every foot has time to come home.
   double travelled_m(double time_s) const;
 
-  // By how much the hips are ahead of where they would balance over a foot, while they get faster (< 0: slower): that of
-  // a linear inverted pendulum, acceleration * height / g, on average over half a cycle.
+  // The distance of the hips ahead of their balanced place over a foot, while they get faster (< 0: slower): that of a
+  // linear inverted pendulum, acceleration * height / g, on average over half a cycle.
   double leads_m(double time_s) const;
 
   // The root's speed, and the share of the body's turn that is made, [0, 1].
   double speed_m_s(double time_s) const;
   double turned(double time_s) const;
   double turn_rad() const { return turn_rad_; }  // as much of the wanted turn as there is time for
-  double turn_s() const { return turn_s_; }      // that it takes
+  double turn_s() const { return turn_s_; }      // time that the turn takes
 
   // The way of half a cycle about a time, as a share of that at full speed.
   double step_share(double time_s) const;
 
  private:
-  double turn_ramp_s() const { return 0.5 * params_.cycle_s; }  // in which a turn gets as fast as it is, and slow again
+  double turn_ramp_s() const { return 0.5 * params_.cycle_s; }  // time in which a turn gains its speed, or loses it
   double phase(const Leg& leg) const;
   double first_lift_s(const Leg& leg) const;
 
   const GaitParams& params_;
   int rows_ = 1;
   double speed_m_s_ = 0.0;
-  double moving_s_ = 0.0;  // then the root stands again
+  double moving_s_ = 0.0;  // from then on the root stands again
   double pendulum_s2_ = 0.0;  // height / g, as far as hips lead
-  double up_s_ = 0.0;      // for which its speed rises
-  double down_s_ = 0.0;    // and falls
+  double up_s_ = 0.0;      // time for which its speed rises
+  double down_s_ = 0.0;    // time for which its speed falls
   double turn_rad_ = 0.0;
   double turn_s_ = 0.0;
 };

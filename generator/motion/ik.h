@@ -22,7 +22,7 @@ void reach_for(const Character& character, const ReachChain& chain, std::span<co
 void face_direction(const Character& character, const FacingChain& chain, std::span<Rigid> world,
                     const Vec3& direction_world, std::span<double> row);
 
-// The same for any joints and any axis of a socket.
+// Turns any joints so that any axis of a socket faces the direction.
 void turn_axis_to(const Character& character, std::span<const int> joints, int socket, const Vec3& socket_axis,
                   std::span<Rigid> world, const Vec3& direction_world, std::span<double> row);
 

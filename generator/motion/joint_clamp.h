@@ -1,4 +1,5 @@
-// A joint's range: clamping, and how far inside of it a posture is. The check that judges ranges has its own arithmetic.
+// A joint's range: clamping, and the margin of a posture inside of it. The check that judges ranges has its own
+// arithmetic.
 #pragma once
 
 #include <span>
@@ -23,11 +24,11 @@ void set_swing_twist(const Joint& ball, const SwingTwist& at, double* coords);
 
 // Moves the joint's coordinates into its range, and leaves them as they are, bit by bit, where they are inside. Hinges
 // and travels go to the nearer end, exactly; a ball's swing goes straight back to its ellipse and its twist to the end
-// that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. What is not a
-// number goes to the middle of the range.
+// that is nearer on the circle, both 1e-9 rad inside, because a quaternion cannot hold an angle exactly. NaN goes to
+// the middle of the range.
 void clamp_to_range(const Joint& joint, double* coords);
 
-// Whether the joint is in its range, 1e-10 rad or m forgiven. `row` is a whole posture.
+// Returns true if the joint is in its range, or at most 1e-10 rad or m outside. `row` is a whole posture.
 bool is_in_range(const Joint& joint, std::span<const double> row);
 
 // Moves all joints of a part into their ranges; true if one of them was moved by more than 1e-4 rad or m.

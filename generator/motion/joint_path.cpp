@@ -15,17 +15,7 @@ namespace {
 constexpr double kShare = 0.98;       // of the greatest speed: room for rounding
 constexpr double kShortest_s = 0.03;  // from rest to the greatest speed in a posture that is passed on
 constexpr double kGentle_s = 0.1;     // the same of a joint that has fallen behind
-
-// The greatest speed, and change of speed, of a joint, per frame.
-struct Limits {
-  double speed;
-  double change;
-};
-
-Limits limits_of(const Joint& joint, bool is_behind, double frame_s) {
-  const double speed = kShare * joint.max_speed * frame_s;
-  return {speed, speed * std::min(1.0, frame_s / (is_behind ? kGentle_s : kShortest_s))};
-}
+constexpr double kBrakes = 0.2;       // of its speed, which a joint with mass loses in a frame if it must
 
 void go(const Joint& joint, const double* from, const Vec3& step, double* out) {
   if (joint.kind != JointKind::ball) {
@@ -60,15 +50,16 @@ bool is_inside(const Joint& joint, const double* coords) { return normalised_mar
 
 // A ball that comes to the edge of its range goes on along it, in another direction: it slows down before, so that it can
 // turn at once.
-Vec3 braking_at_edge(const Joint& ball, const double* now, const Vec3& aim, double speed, const Limits& limits) {
+Vec3 braking_at_edge(const Joint& ball, const double* now, const Vec3& aim, double speed, double most_speed,
+                     double most_change) {
   constexpr double kTurns = 0.3;  // of the greatest speed
   const double wanted = length(aim);
-  if (!(wanted > kTurns * limits.speed) || !(limits.change > 0.0)) return aim;
-  const double coast = 0.5 * speed * speed / limits.change;
+  if (!(wanted > kTurns * most_speed) || !(most_change > 0.0)) return aim;
+  const double coast = 0.5 * speed * speed / most_change;
   std::array<double, 4> ahead{};
   go(ball, now, aim * ((wanted + coast) / wanted), ahead.data());
   if (is_inside(ball, ahead.data())) return aim;
-  return shortened(aim, std::max(kTurns * limits.speed, speed - limits.change));
+  return shortened(aim, std::max(kTurns * most_speed, speed - most_change));
 }
 
 // Goes a step, along the edge of the range where it would leave that. Where the edge would make it longer than the joint
@@ -87,9 +78,30 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 
 }  // namespace
 
-void JointPath::begin(const Character& character, std::span<const double> coords, double rate_hz) {
+// The greatest speed, and changes of speed, of a joint, per frame. A limb that was moved out of the way may have more
+// speed than it gets at ease, and must not coast on with it.
+struct JointPath::Limits {
+  double speed;
+  double change;
+  double brake;
+};
+
+JointPath::Limits JointPath::limits_of(int j, bool is_behind) const {
+  const double speed = kShare * character_->joint(j).max_speed * frame_s_;
+  const double change = speed * std::min(1.0, frame_s_ / (is_behind ? kGentle_s : kShortest_s));
+  if (most_change_.empty()) return {speed, change, change};
+  const double easy = most_change_[at(j)];
+  const State& state = joints_[at(j)];
+  const double brake = state.is_corrected ? std::max(easy, kBrakes * length(state.speed)) : easy;
+  return {speed, std::min(change, easy), std::min(change, brake)};
+}
+
+void JointPath::begin(const Character& character, std::span<const double> coords, double rate_hz,
+                      std::span<const double> easy) {
   character_ = &character;
   frame_s_ = 1.0 / rate_hz;
+  most_change_.clear();
+  for (const double acceleration : easy) most_change_.push_back(acceleration * frame_s_ * frame_s_);
   now_.assign(coords.begin(), coords.end());
   wanted_.assign(coords.begin(), coords.end());
   joints_.assign(character.joints().size(), {});
@@ -101,24 +113,25 @@ bool JointPath::follow_joint(int j, double* coords) {
   State& state = joints_[at(j)];
   const Vec3 left = joint_way_vector(joint, now, coords);
   const Vec3 wanted_speed = joint_way_vector(joint, wanted_.data() + joint.coord, coords);
-  const Limits limits = limits_of(joint, state.is_behind, frame_s_);
+  const Limits limits = limits_of(j, state.is_behind);
   const bool is_there = length(left) <= limits.speed && length(left - state.speed) <= limits.change &&
                         length(left - wanted_speed) <= limits.change;
   if (is_there || !is_finite(left) || !is_finite(state.speed) || joint.max_speed <= 0.0) {
     state = {is_there ? left : Vec3(0.0), false};
     return false;
   }
-  const Limits gentle = limits_of(joint, true, frame_s_);
+  const Limits gentle = limits_of(j, true);
   const double distance = length(left);
   const Vec3 towards = distance > 0.0 ? left * (closing_speed(distance, gentle.change) / distance) : Vec3(0.0);
   Vec3 aim = shortened(shortened(wanted_speed, gentle.speed) + towards, gentle.speed);
   const bool stays_inside = is_inside(joint, now) && is_inside(joint, coords);
   if (stays_inside && joint.kind != JointKind::ball) aim.x = stopping_in_range(joint, now[0], aim.x, gentle.change);
   if (stays_inside && joint.kind == JointKind::ball)
-    aim = braking_at_edge(joint, now, aim, length(state.speed), gentle);
-  const Vec3 step = state.speed + shortened(aim - state.speed, gentle.change);
+    aim = braking_at_edge(joint, now, aim, length(state.speed), gentle.speed, gentle.change);
+  const bool brakes = length(aim) < length(state.speed);
+  const Vec3 step = state.speed + shortened(aim - state.speed, brakes ? gentle.brake : gentle.change);
   go_inside(joint, now, step, stays_inside, coords);
-  state = {joint_way_vector(joint, now, coords), true};
+  state = {joint_way_vector(joint, now, coords), true, state.is_corrected && brakes};
   return true;
 }
 
@@ -163,7 +176,7 @@ void JointPath::pass(std::size_t part, std::span<const double> coords) {
     const Joint& joint = character_->joint(j);
     if (joint.kind == JointKind::root) continue;
     const Vec3 step = joint_way_vector(joint, now_.data() + joint.coord, coords.data() + joint.coord);
-    const double most = limits_of(joint, false, frame_s_).speed;
+    const double most = limits_of(j, false).speed;
     joints_[at(j)] = {is_finite(step) ? shortened(step, most) : Vec3(0.0), false};
   }
   put(part, coords);
@@ -175,7 +188,7 @@ void JointPath::correct(std::size_t part, std::span<const double> coords) {
     const Joint& joint = character_->joint(j);
     if (joint.kind == JointKind::root) continue;
     State& state = joints_[at(j)];
-    state = {state.speed + joint_way_vector(joint, now_.data() + joint.coord, coords.data() + joint.coord), true};
+    state = {state.speed + joint_way_vector(joint, now_.data() + joint.coord, coords.data() + joint.coord), true, true};
   }
   std::copy_n(coords.begin() + own.first_coord, own.coord_count, now_.begin() + own.first_coord);
 }

@@ -1,6 +1,6 @@
-// The way of each joint through a motion: joints go after the postures that actions want, within the speeds that their
-// descriptions allow, and gather and lose speed in a tenth of a second. A posture that can be had at once is passed on as
-// it is, bit by bit.
+// The path of each joint through a motion. Joints follow the postures that actions want, within the speeds that their
+// descriptions allow, and gain and lose speed in a tenth of a second. A posture that can be reached at once is passed
+// on unchanged, bit by bit.
 #pragma once
 
 #include <span>
@@ -15,21 +15,23 @@ namespace contort {
 class JointPath {
  public:
   // Every joint is at rest. The character must outlive this object.
-  void begin(const Character& character, std::span<const double> coords, double rate_hz);
+  // `easy`: the greatest acceleration of each joint, rad/s^2 or m/s^2, beside what its greatest speed says; or empty.
+  void begin(const Character& character, std::span<const double> coords, double rate_hz,
+             std::span<const double> easy = {});
 
-  // `coords` hold the wanted posture, and then the one that the joints get to in this frame. True if one of them is
-  // still on its way.
+  // `coords` hold the wanted posture, and afterwards the one that the joints reach in this frame. Returns true if a
+  // joint is still on its way.
   bool follow(std::size_t part, std::span<double> coords);
 
-  // The part is where it is wanted, and goes on at that speed, or the greatest allowed.
+  // The part has its wanted posture, and continues at its present speed, up to the greatest allowed one.
   void pass(std::size_t part, std::span<const double> coords);
 
   // After follow(): the part went elsewhere, as these coordinates say, and is behind.
   void correct(std::size_t part, std::span<const double> coords);
-  // The same for a part that was shown elsewhere in the frame before, too: its joints have the speeds that were seen.
+  // After follow(): the part was elsewhere in the frame before, too, so its joints have the speeds that were seen.
   void correct(std::size_t part, std::span<const double> shown_before, std::span<const double> coords);
 
-  // The part is where it is wanted, and at rest: no way led there.
+  // The part jumps to its wanted posture, and is at rest there.
   void cut(std::size_t part, std::span<const double> coords);
 
  private:
@@ -38,14 +40,18 @@ class JointPath {
   struct State {
     Vec3 speed{0.0};
     bool is_behind = false;
+    bool is_corrected = false;  // it may have more speed than at ease
   };
 
+  struct Limits;
+  Limits limits_of(int j, bool is_behind) const;
   bool rests(int j, double wanted) const;
   bool follow_joint(int j, double* coords);
   void put(std::size_t part, std::span<const double> coords);
 
   const Character* character_ = nullptr;
   double frame_s_ = 0.0;
+  std::vector<double> most_change_;  // by joint, per frame; empty: as the greatest speed says
   std::vector<double> now_;     // coordinates, in the frame before
   std::vector<double> wanted_;  // in the frame before
   std::vector<State> joints_;

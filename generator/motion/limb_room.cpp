@@ -96,7 +96,7 @@ bool LimbRoom::is_moved_by(int limb, int other) const {
 void LimbRoom::begin_pairs() {
   limbs_ = limbs_of(*character_, feet_->legs());
   held_.assign(limbs_.size(), {});
-  limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {}), safe_m_.clear();
+  limb_of_.assign(character_->parts().size(), -1), pairs_.assign(limbs_.size(), {});
   for (std::size_t l = 0; l < limbs_.size(); ++l)
     for (const int p : limbs_[l].parts) limb_of_[at(p)] = static_cast<int>(l);
   limb_of_body_.clear(), kind_.clear();
@@ -105,13 +105,13 @@ void LimbRoom::begin_pairs() {
   before_.resize(character_->joints().size());
   forward_kinematics(*character_, character_->rest_root(), character_->rest_coords(), before_);
   begin_look(-1, before_);
-  for (std::size_t p = 0; p < character_->judged_pairs().size(); ++p) {
-    const JudgedPair& pair = character_->judged_pairs()[p];
-    const int a = limb_of_[part_of(pair.body_a)], b = limb_of_[part_of(pair.body_b)], index = static_cast<int>(p);
+  for (const JudgedPair& judged : character_->judged_pairs()) {
+    const int a = limb_of_body_[at(judged.body_a)], b = limb_of_body_[at(judged.body_b)];
+    const bool is_in_hands = (is_object(judged.body_a) && has_grip(b)) || (is_object(judged.body_b) && has_grip(a));
+    Pair pair{judged, ball_radius_m_[at(judged.body_a)] + ball_radius_m_[at(judged.body_b)]};
+    pair.safe_m = std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(pair, kRoomBand_m));
     for (int l = 0; l < static_cast<int>(limbs_.size()); ++l)
-      if ((is_moved_by(l, a) || is_moved_by(l, b)) && (a != b || a == l)) pairs_[at(l)].push_back(index);
-    const bool is_in_hands = (is_object(pair.body_a) && has_grip(b)) || (is_object(pair.body_b) && has_grip(a));
-    safe_m_.push_back(std::min(is_in_hands ? kSafeInHands_m : kSafe_m, distance_m(index, kRoomBand_m)));
+      if ((is_moved_by(l, a) || is_moved_by(l, b)) && (a != b || a == l)) pairs_[at(l)].push_back(pair);
   }
   swings_.clear();
   for (const Limb& limb : limbs_) swings_.push_back(is_free_arm(*character_, feet_->legs(), limb.parts.front()));
@@ -143,23 +143,19 @@ bool LimbRoom::has_grip(int limb) const {
          });
 }
 
-// Most bodies are where they were in the look before. Their solids are placed when they are first asked for.
+// Most bodies are where they were in the look before. Their solids are placed when they are first asked for. A body of
+// another limb of the same kind is where it was before this frame.
 void LimbRoom::begin_look(int limb, std::span<const Rigid> world) {
-  looks_from_ = limb, seen_ = world;
-  for (int b = 0; b < static_cast<int>(placed_at_.size()); ++b) {
-    const Rigid& now = where(b);
-    if (now == placed_at_[at(b)]) continue;
-    placed_at_[at(b)] = now, has_solids_[at(b)] = 0;
-    ball_world_m_[at(b)] = now * ball_center_m_[at(b)];
+  const int kind = limb >= 0 ? kind_[at(limb)] : -1;
+  const std::span<const Body> bodies = character_->bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const int other = limb_of_body_[b];
+    const bool is_twin = other >= 0 && other != limb && kind_[at(other)] == kind;
+    const Rigid& now = is_twin ? before_[at(bodies[b].joint)] : world[at(bodies[b].joint)];
+    if (now == placed_at_[b]) continue;
+    placed_at_[b] = now, has_solids_[b] = 0;
+    ball_world_m_[b] = now * ball_center_m_[b];
   }
-}
-
-// A body of another limb of the same kind is where it was before this frame.
-const Rigid& LimbRoom::where(int body) const {
-  const auto joint = at(character_->bodies()[at(body)].joint);
-  const int other = limb_of_body_[at(body)];
-  const bool is_twin = looks_from_ >= 0 && other >= 0 && other != looks_from_ && kind_[at(other)] == kind_[at(looks_from_)];
-  return is_twin ? before_[joint] : seen_[joint];
 }
 
 void LimbRoom::place_solids(int body) {
@@ -173,9 +169,9 @@ void LimbRoom::place_solids(int body) {
 // Infinite beyond the band. Both bodies are placed. Colliders that were apart along a direction mostly still are.
 double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) {
   double least = kFar;
+  const std::span<const ColliderPair> judged = character_->judged_colliders();
   for (int c = pair.first_pair; c < pair.first_pair + pair.pair_count; ++c) {
-    const ColliderPair& colliders = character_->judged_colliders()[at(c)];
-    const Solid &a = world_[at(colliders.a)], &b = world_[at(colliders.b)];
+    const Solid &a = world_[at(judged[at(c)].a)], &b = world_[at(judged[at(c)].b)];
     const double matters = std::min(band_m, least), most = a.bound_m + b.bound_m + matters;
     const Vec3 d = b.center_m - a.center_m;
     if (most > 0.0 && glm::dot(d, d) > most * most) continue;
@@ -186,14 +182,23 @@ double LimbRoom::collider_distance_m(const JudgedPair& pair, double band_m) {
   return least > band_m ? kFar : least;
 }
 
+// Whether the balls that hold two bodies are no farther apart than the band.
+bool LimbRoom::are_near(const Pair& pair, double band_m) const {
+  const Vec3 apart = ball_world_m_[at(pair.bodies.body_b)] - ball_world_m_[at(pair.bodies.body_a)];
+  const double reach = pair.radii_m + band_m;
+  return !(reach < 0.0 || glm::dot(apart, apart) > reach * reach);
+}
+
 // Infinite beyond the band.
-double LimbRoom::distance_m(int pair, double band_m) {
-  const JudgedPair& judged = character_->judged_pairs()[at(pair)];
-  const Vec3 apart = ball_world_m_[at(judged.body_b)] - ball_world_m_[at(judged.body_a)];
-  const double reach = ball_radius_m_[at(judged.body_a)] + ball_radius_m_[at(judged.body_b)] + band_m;
-  if (reach < 0.0 || glm::dot(apart, apart) > reach * reach) return kFar;
-  place_solids(judged.body_a), place_solids(judged.body_b);
-  return collider_distance_m(judged, band_m);
+double LimbRoom::distance_m(const Pair& pair, double band_m) {
+  if (!are_near(pair, band_m)) return kFar;
+  place_solids(pair.bodies.body_a), place_solids(pair.bodies.body_b);
+  return collider_distance_m(pair.bodies, band_m);
+}
+
+// Of the hand and the object that either limb holds.
+bool LimbRoom::is_held(const Pair& pair) const {
+  return holds(pair.bodies.body_a, pair.bodies.body_b) || holds(pair.bodies.body_b, pair.bodies.body_a);
 }
 
 // Infinite, or any distance beyond it, beyond the band.
@@ -214,7 +219,7 @@ double LimbRoom::over_ground_m(int body, const Rigid& world_from_body, const Env
   return least;
 }
 
-// By the points that span its colliders; infinite beyond the band. A hand may lie on an obstacle.
+// By the points that span its colliders; infinite beyond the band. A hand or foot may lie on an obstacle.
 double LimbRoom::off_obstacles_m(int body, const Rigid& world_from_body, double band_m) const {
   if (environment_->obstacles().empty()) return kFar;
   const Vec3 center = world_from_body * ball_center_m_[at(body)];
@@ -239,21 +244,18 @@ int LimbRoom::first_of_kind(int limb) const {
   return first;
 }
 
-// The distance from which on a pair leaves no less room than this.
-double LimbRoom::band_below(double room_m, int pair) const {
-  return std::min(kRoomBand_m, room_m + safe_m_[at(pair)] + kSurely_m);
-}
+// The distance from which on the pair leaves no less room than this.
+double LimbRoom::Pair::band_below(double room_m) const { return std::min(kRoomBand_m, room_m + safe_m + kSurely_m); }
 
 double LimbRoom::apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range) {
   const int limb = limb_of_[part];
   double least = range.high_m;
   begin_look(limb, world);
-  std::vector<int>& pairs = pairs_[at(limb)];
+  std::vector<Pair>& pairs = pairs_[at(limb)];
   for (std::size_t i = 0; i < pairs.size() && !(least < range.low_m); ++i) {
-    const JudgedPair& pair = character_->judged_pairs()[at(pairs[i])];
-    if (holds(pair.body_a, pair.body_b) || holds(pair.body_b, pair.body_a)) continue;
-    const double gap_m = std::min(range.gap_m, safe_m_[at(pairs[i])]);
-    const double room_m = distance_m(pairs[i], band_below(least, pairs[i])) - gap_m;
+    const double band_m = pairs[i].band_below(least);
+    if (!are_near(pairs[i], band_m) || is_held(pairs[i])) continue;
+    const double room_m = distance_m(pairs[i], band_m) - std::min(range.gap_m, pairs[i].safe_m);
     if (!(room_m < least)) continue;
     least = room_m;
     std::swap(pairs[i], pairs.front());  // the nearest pair is mostly the nearest in the next look, too
@@ -269,22 +271,24 @@ double LimbRoom::room_m(std::size_t part, std::span<const Rigid> world, const Ro
     const Rigid& world_from_body = world[at(character_->bodies()[at(b)].joint)];
     const double safe_m = safe_over_ground_m_[at(b)];
     least = std::min(least, over_ground_m(b, world_from_body, *environment_, least + safe_m) - safe_m);
-    if (!is_leg(limb)) least = std::min(least, off_obstacles_m(b, world_from_body, least));
+    least = std::min(least, off_obstacles_m(b, world_from_body, least));
   }
-  for (const int leg : limbs_[at(limb)].legs)
-    if (limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]) || feet_->is_planted(at(leg)))
-      least = std::min(least, feet_->room_m(at(leg), world));
+  for (const int leg : limbs_[at(limb)].legs) {
+    const bool is_its_own = limbs_[at(limb)].is_its_own(feet_->legs()[at(leg)]);
+    if (!is_its_own && !feet_->is_planted(at(leg))) continue;
+    // A foot of its own is lifted just as far as it must be: that it has no more to spare is no reason to go nearer to
+    // bodies.
+    const double spare_m = feet_->room_m(at(leg), world);
+    if (!is_its_own || spare_m < -kTooNear_m) least = std::min(least, spare_m);
+  }
   return least;
 }
 
 double LimbRoom::room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world) {
   double least = kRoomBand_m;
   begin_look(-1, world);
-  for (const int p : pairs_[at(limb_of_[part])]) {
-    const JudgedPair& pair = character_->judged_pairs()[at(p)];
-    if (!is_of(held, pair.body_a, pair.body_b) && !is_of(held, pair.body_b, pair.body_a))
-      least = std::min(least, distance_m(p, band_below(least, p)) - safe_m_[at(p)]);
-  }
+  for (const Pair& pair : pairs_[at(limb_of_[part])])
+    if (!is_of(held, pair)) least = std::min(least, distance_m(pair, pair.band_below(least)) - pair.safe_m);
   return least;
 }
 
@@ -302,12 +306,10 @@ bool LimbRoom::swings(int limb) const { return limb >= 0 && swings_[at(limb)] !=
 
 bool LimbRoom::touches(std::size_t part, std::span<const Rigid> world) {
   begin_look(-1, world);
-  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
-    const JudgedPair& pair = character_->judged_pairs()[at(p)];
-    const int a = limb_of_body_[at(pair.body_a)], b = limb_of_body_[at(pair.body_b)];
-    const double touch_m = std::min(kTouch_m, safe_m_[at(p)]);
-    return !swings(a) && !swings(b) && !holds(pair.body_a, pair.body_b) && !holds(pair.body_b, pair.body_a) &&
-           distance_m(p, touch_m + kSurely_m) < touch_m;
+  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](const Pair& pair) {
+    const int a = limb_of_body_[at(pair.bodies.body_a)], b = limb_of_body_[at(pair.bodies.body_b)];
+    const double touch_m = std::min(kTouch_m, pair.safe_m);
+    return !swings(a) && !swings(b) && !is_held(pair) && distance_m(pair, touch_m + kSurely_m) < touch_m;
   });
 }
 
@@ -319,6 +321,10 @@ bool LimbRoom::is_of(const HeldObject& held, int body, int object) const {
   return joint == held.joint;
 }
 
+bool LimbRoom::is_of(const HeldObject& held, const Pair& pair) const {
+  return is_of(held, pair.bodies.body_a, pair.bodies.body_b) || is_of(held, pair.bodies.body_b, pair.bodies.body_a);
+}
+
 bool LimbRoom::holds(int body, int object) const {
   const int limb = limb_of_body_[at(body)];
   return limb >= 0 && is_of(held_[at(limb)], body, object);
@@ -327,10 +333,8 @@ bool LimbRoom::holds(int body, int object) const {
 bool LimbRoom::is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world) {
   constexpr double kAt_m = 0.002;
   begin_look(limb_of_[part], world);
-  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](int p) {
-    const JudgedPair& pair = character_->judged_pairs()[at(p)];
-    return (is_of(held, pair.body_a, pair.body_b) || is_of(held, pair.body_b, pair.body_a)) &&
-           distance_m(p, kAt_m + kSurely_m) < kAt_m;
+  return std::ranges::any_of(pairs_[at(limb_of_[part])], [&](const Pair& pair) {
+    return is_of(held, pair) && distance_m(pair, kAt_m + kSurely_m) < kAt_m;
   });
 }
 

@@ -1,5 +1,5 @@
-// The room that the bodies of a limb have: how near they are to other bodies and to each other. Actions choose between
-// postures by it.
+// The room of a limb: the distances of its bodies to other bodies and to each other. Actions choose between postures by
+// it.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace contort {
 
-// Parts that move as one: a chain of parts, each carried by the one before it, up to where the figure branches.
+// A limb: a chain of parts, each carried by the one before it, up to the place at which the figure branches.
 struct Limb {
   std::vector<int> parts;    // carriers first
-  std::vector<int> joints;   // of these parts
+  std::vector<int> joints;   // joints of these parts
   std::vector<int> carried;  // joints of the parts that it carries
-  std::vector<int> legs;     // that it is or carries: indices of find_legs()
+  std::vector<int> legs;     // the legs that are in the limb or carried by it: indices of find_legs()
 
   bool is_its_own(const Leg& leg) const { return std::ranges::find(parts, leg.part) != parts.end(); }
 };
@@ -31,12 +31,13 @@ std::vector<Limb> limbs_of(const Character& character, std::span<const Leg> legs
 inline constexpr double kTooNear_m = 1e-4;
 inline constexpr double kRoomBand_m = 0.08;  // more room than this is not measured
 
-// The room that a caller tells apart: more than `high_m` is told as that, and less than `low_m` as anything less. The
-// narrower, the sooner an answer is found.
+// The interval in which a caller needs the exact room: more room is reported as `high_m`, and less than `low_m` as any
+// smaller value. A narrow interval makes the answer faster.
 struct RoomRange {
   double low_m = -std::numeric_limits<double>::infinity();
   double high_m = kRoomBand_m;  // <= kRoomBand_m
-  double gap_m = 1.0;  // that bodies of the figure must have, or as much as at rest; never more than is comfortable
+  double gap_m = 1.0;  // gap that bodies of the figure must keep, or their gap at rest if that is smaller; never more
+                       // than a comfortable gap
 };
 
 // The hand, by the joint that it and all beyond it hang on, and the body of the object; -1: nothing is held.
@@ -60,10 +61,11 @@ class LimbRoom {
   // the left arm would choose otherwise than the right one, which is placed after it.
   void begin_frame(std::span<const Rigid> world) { before_.assign(world.begin(), world.end()); }
 
-  // The limb of this part holds an object with a hand, whose bodies may touch it. Until it is said otherwise.
+  // Sets the object that the limb of this part holds with a hand, whose bodies may touch it. It stays set until the
+  // next call.
   void hold(std::size_t part, const HeldObject& held) { held_[static_cast<std::size_t>(limb_of_[part])] = held; }
 
-  // Whether a hand is within 2 mm of an object, or in it.
+  // Returns true if a hand is within 2 mm of an object, or in it.
   bool is_at(const HeldObject& held, std::size_t part, std::span<const Rigid> world);
 
   // The least distance of the bodies of this part's limb, and of what it carries, from others, from each other and from
@@ -71,29 +73,39 @@ class LimbRoom {
   // too near. `world` holds the transforms of all joints; of parts that have not moved yet in this frame those of the
   // frame before. Not for the root part.
   double room_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
-  // The same between bodies of the figure alone, without the ground, obstacles and feet.
+  // As room_m(), but only between bodies of the figure, without the ground, obstacles and feet.
   double apart_m(std::size_t part, std::span<const Rigid> world, const RoomRange& range = {});
 
-  // Whether room_m() is no less than this, at most 0.08 m, with such a gap between bodies of the figure.
+  // Returns true if room_m() is at least this, up to 0.08 m, with this gap between bodies of the figure.
   bool has_room(std::size_t part, std::span<const Rigid> world, double least_m = -kTooNear_m, double gap_m = 1.0) {
     return room_m(part, world, {least_m, least_m, gap_m}) >= least_m;
   }
 
-  // The same where all joints are as in `world`, with a hand that holds an object; without the ground and feet.
+  // As room_m(), with all joints as in `world` and a hand that holds an object; without the ground and feet.
   double room_beside_m(std::size_t part, const HeldObject& held, std::span<const Rigid> world);
 
   // The least distance of the bodies on a joint from a plane, on the side of its normal, m.
   double over_plane_m(int joint, const Vec3& point_m, const Vec3& normal, std::span<const Rigid> world) const;
 
-  // Whether bodies of this part's limb are within a millimetre of others, or deeper, where all joints are as in `world`.
-  // Arms that swing with a gait get out of the way, and do not count.
+  // Returns true if bodies of this part's limb are within a millimetre of others, or overlap them, with all joints as
+  // in `world`. Arms that swing with a gait do not count, because they get out of the way.
   bool touches(std::size_t part, std::span<const Rigid> world);
 
  private:
+  // Two bodies whose distance a limb changes.
+  struct Pair {
+    JudgedPair bodies;
+    double radii_m = 0.0;  // sum of the radii of the balls that hold them
+    double safe_m = 0.0;   // the gap that they must have
+
+    double band_below(double room_m) const;
+  };
+
   bool is_moved_by(int limb, int other) const;
   std::size_t part_of(int body) const;
   bool is_object(int body) const;
   bool is_of(const HeldObject& held, int body, int object) const;
+  bool is_of(const HeldObject& held, const Pair& pair) const;
   bool holds(int body, int object) const;
   bool is_leg(int limb) const;
   bool has_grip(int limb) const;
@@ -103,10 +115,10 @@ class LimbRoom {
   void begin_pairs();
   void begin_ground();
   void begin_look(int limb, std::span<const Rigid> world);
-  const Rigid& where(int body) const;
   void place_solids(int body);
-  double distance_m(int pair, double band_m);
-  double band_below(double room_m, int pair) const;
+  bool are_near(const Pair& pair, double band_m) const;
+  bool is_held(const Pair& pair) const;
+  double distance_m(const Pair& pair, double band_m);
   double collider_distance_m(const JudgedPair& pair, double band_m);
   double off_obstacles_m(int body, const Rigid& world_from_body, double band_m) const;
   double over_ground_m(int body, const Rigid& world_from_body, const Environment& environment, double band_m) const;
@@ -118,10 +130,9 @@ class LimbRoom {
   std::vector<Limb> limbs_;
   std::vector<int> limb_of_;              // by part; -1 of the root part
   std::vector<Rigid> before_;             // by joint
-  std::vector<std::vector<int>> pairs_;   // by limb: judged pairs whose distance it changes
+  std::vector<std::vector<Pair>> pairs_;  // by limb
   std::vector<char> swings_;              // by limb: it is an arm that swings with a gait
   std::vector<HeldObject> held_;          // by limb
-  std::vector<double> safe_m_;            // by judged pair: the gap that it must have
   std::vector<std::vector<int>> bodies_;  // by limb: its own and those that it carries, but those of legs
   std::vector<double> safe_over_ground_m_;  // by body
   std::vector<std::vector<Vec3>> core_m_;  // by collider: the points that span its core, in its joint's frame
@@ -132,9 +143,7 @@ class LimbRoom {
   std::vector<int> limb_of_body_;  // by body; -1 of the root part's
   std::vector<int> kind_;          // by limb: the first limb whose part is of the same kind
   std::vector<Vec3> ways_;         // by judged collider: a direction along which they were apart, or 0
-  // The present look at the figure, from a limb or from none (-1), and where it has placed the bodies.
-  int looks_from_ = -1;
-  std::span<const Rigid> seen_;
+  // The places of the bodies in the present measurement.
   std::vector<Rigid> placed_at_;
   std::vector<Vec3> ball_world_m_;
   std::vector<char> has_solids_;

@@ -9,16 +9,17 @@ namespace contort {
 // A course that is tried before it is made.
 struct CourseTrial {
   FunctionRef<GaitFrame(Gait&, const Pace& pace, double time_s)> frame_at;  // times are of the course's content
-  double lasts_s = 0.0;                                                // of content
-  double step_s = 0.0;                                                 // of content, in a frame; > 0
-  double frame_s = 0.0;                                                // of the motion
-  double even_s = 0.0;      // when a half cycle begins in which the full course goes evenly on level ground
-  double even_for_s = 0.0;  // how long that half cycle is; 0 where the course has none
+  double lasts_s = 0.0;                                                // length of the course, s of content
+  double step_s = 0.0;                                                 // content in one frame, s; > 0
+  double frame_s = 0.0;                                                // length of a frame of the motion
+  double even_s = 0.0;      // the begin of a half cycle in which the full course moves at constant speed on level
+                            // ground
+  double even_for_s = 0.0;  // length of that half cycle; 0 if the course has none
 };
 
-// Tries a few shares of the requested speed, and answers the greatest at which a course that begins as `begun` keeps to
-// what joints and bodies allow; a speed of 0 if it does at none of them. A course that is far from those limits in half a
-// cycle of its even part is taken without a trial of the rest. The other arguments are as for deepest_bend().
+// Tries a few fractions of the requested speed, and returns the greatest at which a course that begins as `begun` keeps
+// to what joints and bodies allow; a speed of 0 if it does at none of them. A course that is far from those limits in
+// half a cycle of its even part is taken without a trial of the rest. The other arguments are as for deepest_bend().
 Pace fitting_pace(const Character& character, LimbRoom& room, const Gait& begun, const CourseTrial& course,
                     std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
 

@@ -1,5 +1,6 @@
 #include "generator/motion/place_foot.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,18 +13,30 @@ namespace contort {
 
 namespace {
 
+// Joints of leg and foot from the first one on, up to `end`.
+void place_between(const Character& character, const Leg& leg, int first, int end, std::span<const double> row,
+                   std::span<Rigid> world) {
+  const auto place_of = [&](int part, int from) {
+    const Part& own = character.parts()[static_cast<std::size_t>(part)];
+    forward_kinematics(character, row, std::max(from, own.first_joint),
+                       std::min(end, own.first_joint + own.joint_count), world);
+  };
+  const int part = character.joint(first).part;
+  place_of(part, first);
+  if (part != leg.foot_part) place_of(leg.foot_part, 0);
+}
+
 // Everything of leg and foot that moves with a joint of theirs.
 void place_below(const Character& character, const Leg& leg, int first, std::span<const double> row,
                  std::span<Rigid> world) {
-  const auto end_of = [&](int part) {
-    const Part& own = character.parts()[static_cast<std::size_t>(part)];
-    return own.first_joint + own.joint_count;
-  };
-  const int part = character.joint(first).part;
-  forward_kinematics(character, row, first, end_of(part), world);
-  if (part == leg.foot_part) return;
-  const int foot = character.parts()[static_cast<std::size_t>(leg.foot_part)].first_joint;
-  forward_kinematics(character, row, foot, end_of(leg.foot_part), world);
+  place_between(character, leg, first, static_cast<int>(character.joints().size()), row, world);
+}
+
+// As much as leveling the foot asks for: a pair of ankles is solved from what carries it.
+void place_above_foot(const Character& character, const Leg& leg, int first, std::span<const double> row,
+                      std::span<Rigid> world) {
+  if (!leg.has_ankle_pair) return place_below(character, leg, first, row, world);
+  place_between(character, leg, first, leg.ankles[0], row, world);
 }
 
 Quat world_from_ankle(const Joint& ankle, std::span<const Rigid> world) {
@@ -62,7 +75,7 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
   const Vec3 toes = world_from_sole.q * Vec3(0, 0, 1);
   double swivel_rad = 0.0;
   reach_for(character, chain, world, ankle, swivel_rad, row);
-  place_below(character, leg, chain.upper, row, world);
+  place_above_foot(character, leg, chain.upper, row, world);
   const Vec3 hip = world[static_cast<std::size_t>(chain.upper)].p_m;
   if (leg.has_ankle_pair) {
     const Joint& flex = character.joint(leg.ankles[0]);
@@ -73,7 +86,7 @@ void place_foot(const Character& character, const Leg& leg, std::span<Rigid> wor
   const double steepness = glm::dot(unit_or(ankle - hip, -up), up);
   for (int pass = 0; pass < kPasses; ++pass) {
     reach_for(character, chain, world, ankle, swivel_rad, row);
-    place_below(character, leg, chain.upper, row, world);
+    place_above_foot(character, leg, chain.upper, row, world);
     level_foot(character, leg, world, up, row);
     if (leg.ankle_count > 0) place_below(character, leg, leg.ankles[0], row, world);
     const Vec3 now = world_from_socket(character, world, leg.sole).q * Vec3(0, 0, 1);

@@ -12,7 +12,7 @@ namespace contort {
 void place_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Rigid& world_from_sole,
                 std::span<double> row);
 
-// Only the ankles: the sole's +Y to a direction. `world` must hold the leg.
+// Turns only the ankles, so that the sole's +Y points in a direction. `world` must hold the leg.
 void level_foot(const Character& character, const Leg& leg, std::span<Rigid> world, const Vec3& up_world,
                 std::span<double> row);
 

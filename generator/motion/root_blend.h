@@ -1,4 +1,4 @@
-// Roots that legs carry: how they blend over feet that stand, and where a posture beneath goes with them.
+// Blends roots over standing feet, and moves a posture beneath along with them.
 #pragma once
 
 #include <span>
@@ -15,12 +15,12 @@ struct LegsBelow {
   const Environment& environment;
 };
 
-// From a at weight 0 to b at weight 1: place and rotation as blend_part does, but the height so that knees turn evenly.
-// A height that blends linearly up to straight legs turns them ever faster. Two bones of one length and a knee of
-// angle k reach cos(k/2) of their length.
+// Blends from a at weight 0 to b at weight 1: place and rotation as blend_part does, but the height so that knees turn
+// evenly. A height that blends linearly up to straight legs turns them ever faster. Two bones of one length and a knee
+// of angle k reach cos(k/2) of their length.
 Rigid blend_root(const LegsBelow& below, const Rigid& a, const Rigid& b, double weight);
 
-// The root of a posture that stood at one place and stands at another now, as far over the ground there.
+// Returns the root of a posture that is moved from one place to another, at the same height over the ground.
 Rigid brought_along(const LegsBelow& below, const Rigid& root, const Rigid& from, const Rigid& to);
 
 }  // namespace contort

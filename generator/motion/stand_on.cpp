@@ -51,17 +51,6 @@ double slowest_s(const Character& character, std::span<const Leg> legs, std::spa
   return longest;
 }
 
-// Whether all legs fit below the frame's root.
-bool stand_bent(const Character& character, std::span<const Leg> legs, const GaitFrame& frame,
-                std::span<const Rigid> world, std::span<Rigid> scratch, std::span<double> row) {
-  const Rigid moved = frame.root * inverse(world[0]);
-  std::ranges::transform(world, scratch.begin(), [&](const Rigid& joint) { return moved * joint; });
-  bool all_fit = true;
-  for (std::size_t i = 0; i < legs.size(); ++i)
-    all_fit = stand_on(character, legs[i], scratch, frame.feet[i].world_from_sole, row).fits && all_fit;
-  return all_fit;
-}
-
 bool has_room(LimbRoom& room, std::span<const Rigid> world) {
   room.begin_frame(world);
   return std::ranges::all_of(room.limbs(), [&](const Limb& limb) {
@@ -138,6 +127,16 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
   const double angle_rad = least_angle(is_good);
   const Rigid sole = angle_rad > 0.0 ? risen(angle_rad) : world_from_sole;
   return {sole, fits(character, leg, world, sole, row)};
+}
+
+bool stand_bent(const Character& character, std::span<const Leg> legs, const GaitFrame& frame,
+                std::span<const Rigid> world, std::span<Rigid> scratch, std::span<double> row) {
+  const Rigid moved = frame.root * inverse(world[0]);
+  std::ranges::transform(world, scratch.begin(), [&](const Rigid& joint) { return moved * joint; });
+  bool all_fit = true;
+  for (std::size_t i = 0; i < legs.size(); ++i)
+    all_fit = stand_on(character, legs[i], scratch, frame.feet[i].world_from_sole, row).fits && all_fit;
+  return all_fit;
 }
 
 double deepest_bend(const Character& character, LimbRoom& room, const Bend& bend, std::span<const Rigid> world,

@@ -12,7 +12,7 @@ namespace contort {
 
 struct Stood {
   Rigid world_from_sole;
-  bool fits = false;  // the sole is there, and all joints of leg and foot keep their ranges
+  bool fits = false;  // the sole is in its place, and all joints of leg and foot are in their ranges
 };
 
 // As place_foot, for a sole that lies flat. Where leg and ankle do not bend as far as that asks, the heel rises about the
@@ -22,9 +22,10 @@ Stood stand_on(const Character& character, const Leg& leg, std::span<Rigid> worl
 
 // Hips on their way down over feet that stand, and back up.
 struct Bend {
-  FunctionRef<GaitFrame(double)> frame_at;  // for a share of the way, [0, 1]
+  FunctionRef<GaitFrame(double)> frame_at;  // the frame at a fraction of the way, [0, 1]
   double takes_s = 0.0;                     // from begin to end
-  double peak = 1.0;                        // the greatest rate of the share, in whole ways for each such time
+  double peak = 1.0;                        // the greatest rate at which the fraction of the way grows, times takes_s;
+                                            // 1 is an even movement
 };
 
 // Memory for trials, as long as a character's joints and coordinates.
@@ -32,6 +33,12 @@ struct TrialSpace {
   std::span<Rigid> world;
   std::span<double> row;
 };
+
+// Puts the character into a frame: all joints go along with the root, and feet are placed below it. `world` is its
+// placement in the frame before, `scratch` its new one; coordinates of legs and feet in `row` are scratch. Returns true
+// if all legs fit.
+bool stand_bent(const Character& character, std::span<const Leg> legs, const GaitFrame& frame,
+                std::span<const Rigid> world, std::span<Rigid> scratch, std::span<double> row);
 
 // The largest share of the way on which legs and feet keep their joints' ranges and speeds, and no limb loses its room,
 // [0, 1]. `world` is where the character is seen; its joints go along with the root. Coordinates of legs and feet in `row`

@@ -33,7 +33,7 @@ double lift_at(double distance_m) { return kLift_m * minimum_jerk(std::min(1.0, 
 
 void StandingFeet::begin(const Character& character, std::span<const Leg> legs, const Environment& environment) {
   character_ = &character, legs_ = legs, environment_ = &environment;
-  stood_.fill(std::nullopt), use_.fill(LegUse::idle);
+  stood_.fill(std::nullopt), rests_.fill(std::nullopt), was_seen_.fill(false), use_.fill(LegUse::idle);
 }
 
 double StandingFeet::height_m(std::size_t leg, const Rigid& sole) const {
@@ -45,6 +45,13 @@ double StandingFeet::height_m(std::size_t leg, const Rigid& sole) const {
   return least;
 }
 
+bool StandingFeet::put_on_ground(std::size_t leg, Rigid& sole) const {
+  const double height = height_m(leg, sole);
+  if (!(height < -kRounding_m)) return false;
+  sole.p_m.y -= height;
+  return true;
+}
+
 bool StandingFeet::is_planted(std::size_t leg) const {
   return stood_[leg] && use_[leg] == LegUse::idle && carrier_of(*character_, legs_[leg].part) != 0;
 }
@@ -54,17 +61,21 @@ void StandingFeet::note(std::size_t leg, LegUse use, std::span<const Rigid> worl
   const double height = height_m(leg, sole);
   const bool stays_idle = use_[leg] == LegUse::idle && use == LegUse::idle;
   use_[leg] = use;
-  if ((stays_idle && is_planted(leg)) || ((use == LegUse::acts || use == LegUse::lands) && stood_[leg] && height <= kFree_m)) return;
-  stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
+  const bool moves = use == LegUse::acts || use == LegUse::lands;
+  const bool stays = (stays_idle && is_planted(leg)) || (moves && stood_[leg] && height <= kFree_m);
+  if (!stays) stood_[leg] = height <= kTouches_m ? std::optional(sole) : std::nullopt;
+  if (!moves || !was_seen_[leg]) rests_[leg] = stood_[leg];
+  was_seen_[leg] = true;
 }
 
-bool StandingFeet::land(std::size_t leg, const Rigid& world_from_sole, double share, std::span<Rigid> world,
+bool StandingFeet::land(std::size_t leg, const Rigid& world_from_sole, LandingStep step, std::span<Rigid> world,
                         std::span<double> row) {
   constexpr double kArrives_m = 2e-4, kArrives_rad = 2e-3;
   stood_[leg] = world_from_sole;
   const Rigid from = world_from_socket(*character_, world, legs_[leg].sole);
-  Rigid sole{slerp_short(from.q, world_from_sole.q, share), from.p_m + share * (world_from_sole.p_m - from.p_m)};
-  sole.p_m.y += std::max(0.0, -spare_m(leg, sole));
+  Rigid sole{slerp_short(from.q, world_from_sole.q, step.share),
+             from.p_m + step.share * (world_from_sole.p_m - from.p_m)};
+  sole.p_m.y += step.lift * std::max(0.0, -spare_m(leg, sole));
   put(leg, sole, world, row);
   const Rigid now = world_from_socket(*character_, world, legs_[leg].sole);
   return length(now.p_m - world_from_sole.p_m) < kArrives_m &&
@@ -79,16 +90,24 @@ void StandingFeet::put(std::size_t leg, const Rigid& sole, std::span<Rigid> worl
   }
 }
 
-bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+bool StandingFeet::put_back(std::size_t leg, const Rigid& stood, std::span<Rigid> world, std::span<double> row) const {
   const Rigid sole = world_from_socket(*character_, world, legs_[leg].sole);
-  const bool is_there = length(sole.p_m - stood_[leg]->p_m) < kThere &&
-                        rotation_angle(glm::conjugate(sole.q) * stood_[leg]->q) < kThere;
-  if (!is_there) put(leg, *stood_[leg], world, row);
+  const bool is_there = length(sole.p_m - stood.p_m) < kThere &&
+                        rotation_angle(glm::conjugate(sole.q) * stood.q) < kThere;
+  if (!is_there) put(leg, stood, world, row);
   return !is_there;
 }
 
+bool StandingFeet::plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  return put_back(leg, *stood_[leg], world, row);
+}
+
+void StandingFeet::put_to_rest(std::size_t leg, std::span<Rigid> world, std::span<double> row) const {
+  put_back(leg, *rests_[leg], world, row);
+}
+
 double StandingFeet::off_m(std::size_t leg, std::span<const Rigid> world) const {
-  return length(world_from_socket(*character_, world, legs_[leg].sole).p_m - stood_[leg]->p_m);
+  return length(world_from_socket(*character_, world, legs_[leg].sole).p_m - rests_[leg]->p_m);
 }
 
 double StandingFeet::spare_m(std::size_t leg, const Rigid& sole) const {

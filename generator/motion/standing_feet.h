@@ -18,6 +18,12 @@ enum class LegUse {
   lands,   // no action moves it any more, but its foot is still lifted
 };
 
+// A step of a foot that lands.
+struct LandingStep {
+  double share = 0.0;  // of its way
+  double lift = 1.0;   // the share of the height that it lacks over the ground, by which it is lifted
+};
+
 // Legs are named by their index in find_legs(). World coordinates.
 class StandingFeet {
  public:
@@ -29,11 +35,16 @@ class StandingFeet {
   // ground.
   void note(std::size_t leg, LegUse use, std::span<const Rigid> world);
 
-  // A lifted foot, which is where `world` has it, goes a share of its way to this sole, the higher the farther it is from
+  // A lifted foot, which is where `world` has it, goes a step of its way to this sole, the higher the farther it is from
   // there. True if it has arrived.
-  bool land(std::size_t leg, const Rigid& world_from_sole, double share, std::span<Rigid> world, std::span<double> row);
+  bool land(std::size_t leg, const Rigid& world_from_sole, LandingStep step, std::span<Rigid> world,
+            std::span<double> row);
 
-  // Whether the foot must stay where it stood, although what carries its leg may move. As of the frame before.
+  // Lifts a sole that would be in the ground onto it. False if it is not.
+  bool put_on_ground(std::size_t leg, Rigid& sole) const;
+
+  // Returns true if the foot must stay in place although the part that carries its leg may move, as of the frame
+  // before.
   bool is_planted(std::size_t leg) const;
   std::span<const Leg> legs() const { return legs_; }
 
@@ -41,8 +52,14 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
-  // The distance of the foot from where it stood, m. It must have stood.
+  // The distance of the foot from where it rested, m. It must have rested.
   double off_m(std::size_t leg, std::span<const Rigid> world) const;
+
+  // Returns the last place where the foot stood while no action moved its leg; nullopt if it was in the air then.
+  const std::optional<Rigid>& rests_at(std::size_t leg) const { return rests_[leg]; }
+
+  // As plant(), where the foot rested.
+  void put_to_rest(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
   // Lifts the foot by the height that it lacks to move over the ground without sliding. False if it lacks none.
   bool lift(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
@@ -52,6 +69,7 @@ class StandingFeet {
   double room_m(std::size_t leg, std::span<const Rigid> world) const;
 
  private:
+  bool put_back(std::size_t leg, const Rigid& stood, std::span<Rigid> world, std::span<double> row) const;
   void put(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const;
   double height_m(std::size_t leg, const Rigid& sole) const;
   double spare_m(std::size_t leg, const Rigid& sole) const;
@@ -60,6 +78,8 @@ class StandingFeet {
   std::span<const Leg> legs_;
   const Environment* environment_ = nullptr;
   std::array<std::optional<Rigid>, kMaxLegs> stood_;
+  std::array<std::optional<Rigid>, kMaxLegs> rests_;
+  std::array<bool, kMaxLegs> was_seen_{};  // an action that begins in the first frame has moved nothing in it
   std::array<LegUse, kMaxLegs> use_{};
 };
 

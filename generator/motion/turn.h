@@ -6,7 +6,8 @@
 
 namespace contort {
 
-// A ball turns by the whole angle, a hinge by its share: the angle times the cosine between the axes; travels not at all.
+// A ball turns by the whole angle, and a hinge by the angle times the cosine between the axes; prismatic joints do not
+// move.
 void turn_joint(const Joint& joint, const Quat& world_from_joint, const Vec3& axis_world, double angle_rad,
                 Posture& posture);
 

@@ -12,14 +12,16 @@ inline constexpr double kLeastWay_s = 0.1;  // the time that any way takes, howe
 // coordinates.
 double joint_way(const Joint& joint, const double* a, const double* b);
 
-// The same with its direction: a rotation vector in a's frame for a ball, else (x, 0, 0).
+// The distance with its direction: a rotation vector in a's frame for a ball, else (x, 0, 0).
 Vec3 joint_way_vector(const Joint& joint, const double* a, const double* b);
 
-// Seconds for a minimum-jerk blend in which no joint of the part is faster than half of its greatest speed; 0 where
-// both postures are the same. For the root part also the way of the root: 1 m/s and 2 rad/s at most.
-double way_s(const Character& character, std::size_t part, const Posture& from, const Posture& to);
+// Seconds for a minimum-jerk blend in which no joint of the part is faster than half of its greatest speed; 0 if both
+// postures are the same. For the root part, the root itself moves at no more than 1 m/s and 2 rad/s. `easy`: the
+// greatest acceleration of each joint, rad/s^2 or m/s^2; or empty.
+double way_s(const Character& character, std::size_t part, const Posture& from, const Posture& to,
+             std::span<const double> easy = {});
 
-// The same for a root or a foot that goes from one place to another.
+// Seconds for a minimum-jerk blend of a root or a foot from one place to another.
 double way_s(const Rigid& from, const Rigid& to);
 
 }  // namespace contort

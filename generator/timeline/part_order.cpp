@@ -69,7 +69,7 @@ Result<Done> order_parts(const Character& character, Timeline& out) {
   while (out.part_order.size() < parts) {
     const std::size_t next = next_part(character, out.part_order, ready);
     if (next == parts)
-      return Issue{"spec.circular_hold", "/sequences", "two parts each hold what the other one carries"};
+      return Issue{"spec.circular_hold", "/sequences", "two parts each hold an object that the other one carries"};
     placed[next] = 1;
     out.part_order.push_back(static_cast<int>(next));
   }

@@ -10,7 +10,7 @@
 
 namespace contort {
 
-// The data that the queue must have of a sequence. Times are in the sequence's own frames.
+// The data of a sequence that the queue needs. Times are in the sequence's own frames.
 struct PlannedClip {
   std::string name;
   int start = 0;  // first frame at or after its start and its end
@@ -55,11 +55,11 @@ class PlayQueue {
  private:
   struct Waiting {
     int sequence = 0;
-    int content = 0;  // the frame of its own at which it goes on
+    int content = 0;  // its own frame at which it continues
   };
   struct Pending {  // after_clip
     int holder = 0;
-    int content = 0;  // of the holder, where it is cut
+    int content = 0;  // the frame of the running sequence at which that is cut
     int interrupt = 0;
   };
 
@@ -81,7 +81,7 @@ class PlayQueue {
 
   std::span<const PlannedSequence> sequences_;
   std::span<const PlannedInterrupt> interrupts_;
-  std::vector<Waiting> waiting_;  // the next one first
+  std::vector<Waiting> waiting_;  // the next sequence comes first
   std::vector<Pending> pending_;
   std::vector<char> fired_;
   std::vector<int> fresh_;    // interrupts that fired in this frame

@@ -17,29 +17,30 @@ struct PlannedAction {
   int sequence = 0;  // indices into the spec
   int clip = 0;
   int action = 0;
-  int use = 0;  // numbers the uses of actions: equal where one use moves several parts
+  int use = 0;  // number of the use of an action; equal for all parts that one use moves
   const ActionDef* def = nullptr;
-  std::string name;  // that the spec uses
-  int part = 0;      // that it moves
-  int named = 0;     // that the spec names
+  std::string name;  // the action's name in the spec
+  int part = 0;      // the part that it moves
+  int named = 0;     // the part that the spec names
   double start = 0.0;
   double end = 0.0;  // >= start
   double speed = 1.0;
   double scale = 1.0;   // frames per frame of content
-  int first_frame = 0;  // the frames that it moves: ceil(start) to ceil(end), rounding forgiven, two at least
+  int first_frame = 0;  // its frames, ceil(start) to ceil(end) up to rounding errors; at least two
   int last_frame = 0;
-  double blend_in = 0.0;  // frames; negative: as long as the way needs
+  double blend_in = 0.0;  // frames; negative: as long as the distance needs
   double blend_out = 0.0;
-  bool cuts = false;  // it takes its part at once, as its use says
+  bool cuts = false;  // it takes its part at once, because its use asks for that
   std::vector<double> params;
-  std::shared_ptr<const AimPlan> aim;   // where it has an own_point
-  std::shared_ptr<const KeyPlan> keys;  // of key poses
-  std::shared_ptr<const ScriptPlan> script;  // where it has one
-  Vec3 easy_grip_m{0.0};                // of the named part, if it is an arm: in the character's frame
-  int further = -1;  // index into Timeline::further: it moves its part only once it is acquired; -1: it is of the spec
+  std::shared_ptr<const AimPlan> aim;   // only for an action with an own_point
+  std::shared_ptr<const KeyPlan> keys;  // only for key poses
+  std::shared_ptr<const ScriptPlan> script;  // only for an action with a script
+  Vec3 easy_grip_m{0.0};                // for an arm: its comfortable grip place, in the character's frame
+  int further = -1;  // index into Timeline::further: it moves its part only after it was acquired; -1: the spec asks
+                     // for it
 };
 
-// An action that an aim may acquire where its own part cannot be directed at the target (docs/internals/aim.md).
+// An action that an aim may acquire if its own part cannot point at the target (docs/internals/aim.md).
 struct FurtherAction {
   int of_use = 0;  // the use that aims
   int action = 0;  // index into Timeline::actions: on the part that is to help, a torso or the root
@@ -56,12 +57,13 @@ struct Level {
 struct Timeline {
   std::vector<PlannedSequence> sequences;  // the spec's, then those of its interrupts
   std::vector<PlannedInterrupt> interrupts;
-  int queued = 0;                      // how many sequences wait in the queue at first
+  int queued = 0;                      // number of sequences that wait in the queue at first
   std::vector<PlannedAction> actions;  // in spec order, each before its further ones
   std::vector<FurtherAction> further;  // in the order of the uses that aim; of one use the torso before the root
   int use_count = 0;
   std::vector<std::vector<int>> of_part;  // indices into actions, by sequence * part_count + part
-  std::vector<int> part_order;            // carriers first, and what an action looks at before those that it moves
+  std::vector<int> part_order;            // carriers first; a part that an action looks at comes before the parts that
+                                          // the action moves
   int frame_count = 0;                    // up to the end of the last sequence, with every interrupt
 };
 
@@ -75,7 +77,7 @@ struct TimelineInput {
 // those of bind_params, with pointers from "/sequences/0" and "/interrupts/0" down.
 Result<Timeline> lay_out(const TimelineInput& input);
 
-// Whether a course on the ik layer comes in for as long as its way needs.
+// Returns true if a course on the ik layer blends in for as long as its distance needs.
 bool takes_its_time(const PlannedAction& action);
 
 // Progress of an action at a frame of its sequence, in [0, 1].

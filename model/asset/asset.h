@@ -68,22 +68,23 @@ struct AssetClip {
   bool operator==(const AssetClip&) const = default;
 };
 
-// Something in a file that is wrong and that the reader went around, as it was told to (formats/gltf/read.h).
+// A fault of a file that the reader skipped, because its caller asked for that (formats/gltf/read.h).
 struct AssetFault {
   std::string clip;   // its label; "" if the fault concerns all clips
-  int node = -1;      // whose channel it is, or -1
-  std::string code;   // as of an Issue: "gltf.bad_times"
+  int node = -1;      // the node of the channel, or -1
+  std::string code;   // the code of the Issue: "gltf.bad_times"
   std::string where;  // a JSON pointer into the file
   std::string text;
-  // The number of the key, and its length, of a rotation that is no unit quaternion. The channel was read all the same.
+  // For a rotation that is not a unit quaternion: the number of its key, and its length. The channel was read
+  // nevertheless.
   int key = -1;
   double length = 1.0;
   bool operator==(const AssetFault&) const = default;
 };
 
-// Something that a person should know about how a file was read. It is no fault that stops the reader.
+// A remark for people about how a file was read. It does not stop the reader.
 struct Remark {
-  std::string code;  // As of an Issue: "bvh.frame_count".
+  std::string code;  // The code of the Issue: "bvh.frame_count".
   std::string text;  // One line.
   bool operator==(const Remark&) const = default;
 };
@@ -93,7 +94,7 @@ struct Asset {
   std::vector<int> order;  // Every node once, parents before children; roots by index, children as the file lists them.
   std::vector<AssetSkin> skins;
   std::vector<AssetClip> clips;
-  std::vector<AssetFault> faults{};  // only of readers that go around faults
+  std::vector<AssetFault> faults{};  // filled only by readers that skip faults
   std::vector<Remark> remarks;
   bool operator==(const Asset&) const = default;
 };

@@ -51,7 +51,7 @@ struct AsfSkeleton {
 
 // A motion of such a skeleton: its numbers.
 struct AmcMotion {
-  int first_frame = 0;  // As the file numbers it: 1 in most. Frames are numbered without a gap.
+  int first_frame = 0;  // The file's number of the first frame, mostly 1. Frames are numbered without a gap.
   int frame_count = 0;
   int dof_count = 0;  // The degrees of freedom of all bones, root included.
   std::vector<double>

@@ -8,8 +8,8 @@
 namespace contort {
 
 // Returns the channel's value at a time; before the first key and after the last one, the value of that key. Linear
-// rotations take the shorter arc, and splines are normalised, both by the glTF standard (appendix C). The channel
-// must be a rotation, or none.
+// rotations take the shorter arc, and splines are normalised, both by the glTF standard (appendix C). sample_rotation is
+// for rotation channels, sample_vector for the others.
 Quat sample_rotation(const AssetChannel& channel, double t_s);
 Vec3 sample_vector(const AssetChannel& channel, double t_s);
 
@@ -29,7 +29,8 @@ struct SpeedInterval {
 struct ChannelSpeeds {
   int channel = 0;  // Index into the clip.
   int node = 0;
-  bool jumps = false;  // STEP, of no sampled motion: the pose is held between the jumps, and no motion leads to them.
+  bool jumps = false;  // A STEP channel that is not a sampled motion: the pose is held between the jumps, and no motion
+                       // leads to them.
   // An entry for each pair of neighbouring keys: the speed between them, or that of a frame with both where keys are
   // closer than a frame. STEP channels hold the first key; the entry is the jump to the second, in the frame before it.
   std::vector<SpeedInterval> between_keys;

@@ -10,7 +10,7 @@
 
 namespace contort {
 
-inline constexpr std::size_t kInfluences = 8;  // of joints on one vertex; further ones are not read
+inline constexpr std::size_t kInfluences = 8;  // joints on one vertex; further ones are not read
 
 struct SkinnedVertex {
   Vec3 position{0.0};                         // in the mesh's own frame, in which joint_from_mesh starts

@@ -11,8 +11,8 @@ namespace contort {
 using BezierTurn = std::array<std::array<double, 4>, 4>;
 
 struct SplinePeak {
-  double fraction = 0.0;  // of the way from the first key to the second
-  double turn_rad = 0.0;  // the speed there, in rad for the whole way
+  double fraction = 0.0;  // fraction of the way from the first key to the second
+  double turn_rad = 0.0;  // the speed at that fraction, in rad per key interval
 };
 
 // Returns the fastest moment, at most 1 % slower than the true peak; it stops looking above `most_rad`.

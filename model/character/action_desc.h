@@ -17,13 +17,13 @@ using ParamValue = std::variant<double, Vec3, std::string>;
 enum class KeyEase {
   smooth,  // minimum jerk
   linear,
-  step,  // stays, and is there at once
-  sine,  // half a cosine: turns round without a pause
+  step,  // holds the pose before, then jumps at the key
+  sine,  // half a cosine: reverses without a pause
 };
 
 struct KeyPoseDesc {
-  double at = 1.0;  // share of the action's period, (0, 1]
-  KeyEase ease = KeyEase::smooth;          // of the way from the key before
+  double at = 1.0;  // fraction of the action's period, (0, 1]
+  KeyEase ease = KeyEase::smooth;          // easing of the movement from the key before to this one
   std::map<std::string, ParamValue> pose;  // "elbow_deg": 90, as in the parameters of `pose`
   bool operator==(const KeyPoseDesc&) const = default;
 };
@@ -38,8 +38,8 @@ struct ScriptParamDesc {
   bool operator==(const ScriptParamDesc&) const = default;
 };
 
-// One of `keys`, `of`, and a `script`, which may also compute parameters of `of`; for parts by their names or, less
-// particular, by their kinds.
+// An action file. It has one of `keys`, `of` and `script`; a script may also compute parameters of `of`. It applies to
+// the parts that it names, or to all parts of the kinds that it names.
 struct ActionDesc {
   std::string name;
   std::string help;
@@ -47,11 +47,11 @@ struct ActionDesc {
   std::vector<std::string> kinds;
   std::vector<KeyPoseDesc> keys;             // in the order of `at`
   std::string of;                            // a built-in action
-  std::map<std::string, ParamValue> params;  // of `of`: the values where a spec gives none
+  std::map<std::string, ParamValue> params;  // the values of the parameters of `of` that a spec leaves out
   std::vector<std::string> script;           // lines of Lua
-  std::vector<std::string> sets;             // by the script: parameters of `pose`, or of `of`
-  std::vector<ScriptParamDesc> parameters;   // of the script
-  bool adds = false;                         // the script's joints are added to what is there
+  std::vector<std::string> sets;             // the values that the script computes: parameters of `pose`, or of `of`
+  std::vector<ScriptParamDesc> parameters;   // the parameters of the script
+  bool adds = false;                         // the script's joints are added to the present posture
   bool operator==(const ActionDesc&) const = default;
 };
 

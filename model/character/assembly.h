@@ -1,4 +1,4 @@
-// The steps of build_character, each a plain function over the character that grows.
+// The steps of build_character. Each is a plain function that extends the character under construction.
 #pragma once
 
 #include <string>

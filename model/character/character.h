@@ -2,7 +2,7 @@
 //
 // Joint i's parent is smaller than i, so one forward loop visits parents first. Joint 0 is the root: it has no axis, it
 // is placed by the motion's root transform. A pose is a flat row of coordinates, `coord_count()` doubles: a hinge has
-// one (rad), a prismatic joint one (m), a ball joint four (unit quaternion w, x, y, z, rotation against the rest
+// one (rad), a prismatic joint one (m), a ball joint four (unit quaternion w, x, y, z, rotation relative to the rest
 // frame). In the rest pose all are 0, and balls (1, 0, 0, 0).
 #pragma once
 
@@ -84,14 +84,14 @@ struct Socket {
   Rigid joint_from_socket;
 };
 
-// A declared group of dynamic control.
+// Joints that dynamic control uses together (ControlGroupDesc).
 struct JointGroup {
   std::string name;
   std::vector<int> joints;
   double greatest = 0.0;  // rad/s^2, m/s^2
 };
 
-// A declared region of a point.
+// A region in which a point must stay, or must not come (RegionDesc).
 struct Region {
   std::string name;
   int joint = 0;
@@ -125,7 +125,7 @@ struct Part {
   std::vector<FacingChain> facing;
 };
 
-// Two colliders whose contact is no fault, and the reason.
+// Two colliders that may touch, and the reason.
 struct AllowedPair {
   int a = 0;  // collider indices, a < b
   int b = 0;
@@ -138,7 +138,7 @@ struct ColliderPair {
   bool operator==(const ColliderPair&) const = default;
 };
 
-// Two bodies whose contact is a fault: those pairs of their colliders that are not allowed.
+// Two bodies that must not touch: the pairs of their colliders that are not allowed.
 struct JudgedPair {
   int body_a = 0;  // body indices, body_a < body_b
   int body_b = 0;
@@ -180,7 +180,7 @@ class Character {
   // A hash over everything that can change a motion or a finding; cases store it.
   std::uint64_t hash() const { return hash_; }
 
-  int find_part(std::string_view slot) const;  // -1 where there is none; so are the next ones
+  int find_part(std::string_view slot) const;  // -1 if there is none, here and in the next functions
   int find_joint(std::string_view name) const;
   int find_joint(int part, std::string_view local_name) const;
   int find_socket(std::string_view name) const;

@@ -23,7 +23,7 @@ struct JointDesc {
   std::string body;    // Name of the body that moves with it, "forearm"; "" is the joint's own name.
   JointType type = JointType::hinge;
   Vec3 position_m{0.0};    // In the parent joint's frame, at rest.
-  Vec3 rotation_deg{0.0};  // Rest rotation against the parent joint's frame, as a rotation vector.
+  Vec3 rotation_deg{0.0};  // Rest rotation relative to the parent joint's frame, as a rotation vector.
 
   // hinge, prismatic: unit axis in the joint's own frame. ball: the twist axis, along the bone.
   Vec3 axis{0.0, 1.0, 0.0};
@@ -103,8 +103,9 @@ struct PartDesc {
   std::vector<SocketDesc> sockets;
   std::vector<ReachDesc> reach;    // At most one.
   std::vector<FacingDesc> facing;  // At most one.
-  // The part's fixed body: what is rigidly fixed to the place where the part docks, above its first joint. For the root
-  // part that is the root body itself; a part without joints (a backpack) is nothing else. Frame: the docking frame.
+  // The part's fixed body: everything that is rigidly fixed to the place where the part docks, above its first joint.
+  // For the root part that is the root body itself; a part without joints (a backpack) consists of it alone. Frame: the
+  // docking frame.
   double fixed_mass_kg = 0.0;
   Vec3 fixed_center_of_mass_m{0.0};
   Vec3 fixed_inertia_kg_m2{0.0};
@@ -120,7 +121,7 @@ struct SlotDesc {
   Side side = Side::center;
   std::string on_slot;             // The slot whose part carries this one; "" for the first slot, which is the root.
   std::string on_socket;           // A socket of that part.
-  std::vector<std::string> parts;  // Names of the parts that may stand here; the first is the default.
+  std::vector<std::string> parts;  // Names of the parts that the slot may hold; the first is the default.
   bool operator==(const SlotDesc&) const = default;
 };
 
@@ -147,8 +148,8 @@ struct AllowedPairDesc {  // Colliders that may touch: "slot/collider", or "obje
   bool operator==(const AllowedPairDesc&) const = default;
 };
 
-// Joints that dynamic control uses together (docs/internals/dynamics.md). "root" stands for where the hips are and
-// their pitch.
+// Joints that dynamic control uses together (docs/internals/dynamics.md). "root" stands for the position of the hips
+// and their pitch.
 struct ControlGroupDesc {
   std::string name;                 // "arms"
   std::vector<std::string> joints;  // "arm_left/shoulder"; a ball counts as two, the root as four, eight at most
@@ -172,9 +173,11 @@ struct CharacterDesc {
   std::vector<SlotDesc> slots;  // The carrying slot comes first.
   std::vector<AllowedPairDesc> allowed_pairs;
   std::vector<std::string> objects;  // Objects that may be attached.
-  std::vector<ControlGroupDesc> control_groups;  // In the order of control; none: found from the parts.
+  std::vector<ControlGroupDesc> control_groups;  // In the order of control; if empty, dynamics finds them from the
+                                                 // parts.
   std::vector<RegionDesc> regions;
-  std::optional<double> withstands_N_s{};  // the horizontal push that need not fell it; found from mass, height and soles
+  std::optional<double> withstands_N_s{};  // the horizontal push that it must withstand; if empty, it follows from
+                                           // mass, height and soles
   bool operator==(const CharacterDesc&) const = default;
 };
 
@@ -188,7 +191,7 @@ struct AttachmentDesc {
 
 struct CharacterChoice {
   std::string name = "human";
-  std::map<std::string, std::string> parts;  // slot -> part, where it is not the default
+  std::map<std::string, std::string> parts;  // slot -> part, for slots that do not hold the default
   std::vector<AttachmentDesc> attachments;
   bool operator==(const CharacterChoice&) const = default;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/character/action_rules.h"
+#include "model/character/description.h"
 #include "model/character/part_rules.h"
 #include "model/character/stock_files.h"
 #include "model/core/file_kind.h"
@@ -57,6 +58,8 @@ std::string format_of(const json_fields::Json& tree) {
   return format != tree.end() && format->is_string() ? format->get<std::string>() : "";
 }
 
+}  // namespace
+
 Result<Done> add_description(std::string_view text, Library& into) {
   const Result<json_fields::Json> tree = json_fields::parse_document(text);
   if (!tree) return tree.issue();
@@ -69,8 +72,6 @@ Result<Done> add_description(std::string_view text, Library& into) {
                "found " + json_fields::quoted(format) +
                    ", allowed are contort.part/1, contort.object/1, contort.character/1 and contort.action/1"};
 }
-
-}  // namespace
 
 const Library& stock_library() {
   static const Library library = [] {

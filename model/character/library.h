@@ -18,7 +18,7 @@ struct Library {
   std::map<std::string, PartDesc> parts;
   std::map<std::string, ObjectDesc> objects;
   std::map<std::string, CharacterDesc> characters;
-  std::vector<ActionDesc> actions;  // of files; those for kinds of parts before those for parts by name
+  std::vector<ActionDesc> actions;  // from files; actions for kinds of parts come before actions for named parts
   std::map<std::string, std::shared_ptr<const Asset>> recordings;  // animations, by file name without ending
 };
 
@@ -26,8 +26,8 @@ struct Library {
 const Library& stock_library();
 
 // Adds every *.json of `folder` (parts, objects, characters, actions, recognised by their "format") to `into`. A name
-// that exists already is an error: a file never changes the meaning of a stored case. Only an action may have the
-// name of another, for other parts. check_actions (generator/actions) tells whether the parts can perform it.
+// that exists already is an error: a file never changes the meaning of a stored case. Only actions may share a name, if
+// they are for different parts. check_actions (generator/actions) tells whether the parts can perform it.
 Result<Done> load_folder(const std::string& folder, Library& into);
 
 // Reads one description from JSON text. Codes "part.*", "object.*", "character.*", "action.*", "json.*".

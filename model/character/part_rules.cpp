@@ -56,7 +56,7 @@ template <class T>
 Result<Done> known_joints(const PartDesc& part, const std::vector<T>& items, const std::string& list) {
   for (std::size_t i = 0; i < items.size(); ++i)
     if (!items[i].joint.empty() && index_of(part, items[i].joint) < 0)
-      return issue_at("unknown_joint", list, i, "joint", "\"" + items[i].joint + "\" is no joint of this part");
+      return issue_at("unknown_joint", list, i, "joint", "\"" + items[i].joint + "\" is not a joint of this part");
   return Done{};
 }
 
@@ -90,7 +90,7 @@ Result<Done> check_joint(const PartDesc& part, std::size_t i) {
   const int parent = index_of(part, joint.parent);
   if (!joint.parent.empty() && (parent < 0 || parent >= static_cast<int>(i)))
     return issue_at("unknown_joint", "joints", i, "parent",
-                    "\"" + joint.parent + "\" is no earlier joint of this part");
+                    "\"" + joint.parent + "\" is not an earlier joint of this part");
   if (!is_unit(joint.axis)) return issue_at("bad_axis", "joints", i, "axis", "the axis must have length 1");
   if (const Result<Done> range = check_range(joint, i); !range) return range;
   if (const Result<Done> type = check_type(joint, i); !type) return type;
@@ -117,9 +117,9 @@ Result<Done> check_reach(const PartDesc& part) {
     const int upper = index_of(part, reach.upper);
     const int middle = index_of(part, reach.middle);
     if (upper < 0)
-      return issue_at("unknown_joint", "reach", 0, "upper", "\"" + reach.upper + "\" is no joint of this part");
+      return issue_at("unknown_joint", "reach", 0, "upper", "\"" + reach.upper + "\" is not a joint of this part");
     if (middle < 0)
-      return issue_at("unknown_joint", "reach", 0, "middle", "\"" + reach.middle + "\" is no joint of this part");
+      return issue_at("unknown_joint", "reach", 0, "middle", "\"" + reach.middle + "\" is not a joint of this part");
     const auto u = static_cast<std::size_t>(upper);
     const bool ball = part.joints[u].type == JointType::ball;
     if (!ball && !hinge_triple(part, u))
@@ -130,7 +130,7 @@ Result<Done> check_reach(const PartDesc& part) {
     if (m.type != JointType::hinge || m.parent != carrier)
       return issue_at("bad_reach", "reach", 0, "middle", "it must be a hinge on \"" + carrier + "\"");
     if (!has_socket(part, reach.tip))
-      return issue_at("unknown_socket", "reach", 0, "tip", "\"" + reach.tip + "\" is no socket of this part");
+      return issue_at("unknown_socket", "reach", 0, "tip", "\"" + reach.tip + "\" is not a socket of this part");
     if (!moves_with(part, joint_of_socket(part, reach.tip), m.name))
       return issue_at("bad_reach", "reach", 0, "tip", "\"" + m.name + "\" does not move it");
   }
@@ -142,7 +142,7 @@ Result<Done> check_facing(const PartDesc& part) {
     for (const std::string& joint : facing.joints) {
       const int index = index_of(part, joint);
       if (index < 0)
-        return issue_at("unknown_joint", "facing", 0, "joints", "\"" + joint + "\" is no joint of this part");
+        return issue_at("unknown_joint", "facing", 0, "joints", "\"" + joint + "\" is not a joint of this part");
       if (part.joints[static_cast<std::size_t>(index)].type == JointType::prismatic)
         return issue_at("bad_facing", "facing", 0, "joints", "\"" + joint + "\" does not turn");
     }
@@ -151,7 +151,7 @@ Result<Done> check_facing(const PartDesc& part) {
         return issue_at("bad_facing", "facing", 0, "joints", "each must move the next, from the body outward");
     if (facing.joints.empty()) return issue_at("bad_facing", "facing", 0, "joints", "at least one joint is needed");
     if (!has_socket(part, facing.socket))
-      return issue_at("unknown_socket", "facing", 0, "socket", "\"" + facing.socket + "\" is no socket of this part");
+      return issue_at("unknown_socket", "facing", 0, "socket", "\"" + facing.socket + "\" is not a socket of this part");
     if (!moves_with(part, joint_of_socket(part, facing.socket), facing.joints.back()))
       return issue_at("bad_facing", "facing", 0, "socket", "\"" + facing.joints.back() + "\" does not move it");
   }

@@ -12,7 +12,8 @@
 namespace contort {
 
 struct SkinDesc {
-  std::string model;  // a .glb of the same folder, by its plain name: a library never reaches out of its folder
+  std::string model;  // a .glb of the same folder, by its plain name: a library never refers to files outside of its
+                      // folder
   double metres_per_unit = 1.0;               // > 0
   Vec3 rotation_deg{0.0};                     // rotation vector that makes the model face +Z
   std::map<std::string, std::string> joints;  // node of the model -> slot/joint that carries it; one is "root"

@@ -80,7 +80,7 @@ constexpr std::array<double, 12> kExp = [] {  // exp r = 1 + r + r^2 * poly(r), 
 }();
 
 double atan_unit(double t) {  // t in [0, 1]
-  const double nearest = std::floor(t * 8.0 + 0.5);
+  const int nearest = static_cast<int>(t * 8.0 + 0.5);
   const double c = nearest / 8.0;
   const double r = (t - c) / (1.0 + t * c);
   return kAtanEighths[static_cast<std::size_t>(nearest)] + (r + r * r * r * polynomial(r * r, kAtan));
@@ -115,59 +115,60 @@ SinCos sincos(double x_rad) {
 namespace {
 
 // Vectors of GCC and Clang: two fit the registers of every processor of ours.
-using Two [[gnu::vector_size(16)]] = double;
-using TwoBits [[gnu::vector_size(16)]] = std::int64_t;
+namespace twos {
 
-constexpr double kRounds = 0x1.8p52;  // a sum with it has no digits behind the point, and that integer's bits
+using Lanes [[gnu::vector_size(16)]] = double;
+using LaneBits [[gnu::vector_size(16)]] = std::int64_t;
 
-// The largest integers that are not above x, |x| < 2^51.
-Two floor_of(const Two& x) {
-  const Two nearest = (x + kRounds) - kRounds;
-  return nearest > x ? nearest - 1.0 : nearest;
+#include "model/core/sincos_lanes.inl"
+
+}  // namespace twos
+
+#ifdef __x86_64__
+#include "model/core/avx2_begin.inl"
+
+namespace avx2 {
+
+using Lanes [[gnu::vector_size(32)]] = double;
+using LaneBits [[gnu::vector_size(32)]] = std::int64_t;
+
+#include "model/core/sincos_lanes.inl"
+
+}  // namespace avx2
+
+#include "model/core/avx2_end.inl"
+#endif
+
+bool are_usual(std::span<const double> x_rad) {
+  for (const double x : x_rad)
+    if (!(std::fabs(x) <= 1e9)) return false;
+  return true;
 }
 
-// One of the polynomials of kSinCos, its terms joined as polynomial() joins them.
-template <double SinCos::*kOf>
-Two sum_of(const Two& r2, const Two& r4) {
-  const auto& c = kSinCos;
-  return ((c[0].*kOf + c[1].*kOf * r2) + (c[2].*kOf + c[3].*kOf * r2) * r4) +
-         ((c[4].*kOf + c[5].*kOf * r2) + (c[6].*kOf + c[7].*kOf * r2) * r4) * (r4 * r4);
+#ifdef __x86_64__
+// As many as four angles, the others of four being 0.
+void sincos_of_few(std::span<const double> x_rad, std::span<SinCos> out) {
+  std::array<double, avx2::kLanes> all_rad{};
+  std::array<SinCos, avx2::kLanes> all;
+  for (std::size_t i = 0; i < x_rad.size(); ++i) all_rad[i] = x_rad[i];
+  avx2::sincos_of_lanes(all_rad.data(), all.data());
+  for (std::size_t i = 0; i < x_rad.size(); ++i) out[i] = all[i];
 }
-
-// As sincos(double), whose steps these are; angles within 1e9.
-void sincos_of_two(const double* x_rad, SinCos* out) {
-  const Two x = {x_rad[0], x_rad[1]};
-  const Two k = floor_of(x * kTwoOverPi + 0.5);
-  const Two high = (x - k * kPio2A) - k * kPio2B;
-  const Two low = k * kPio2C;
-  const Two r = high - low;
-  const Two tail = (high - r) - low;
-  const Two r2 = r * r, r4 = r2 * r2;
-  const Two half_r2 = 0.5 * r2;
-  const Two w = 1.0 - half_r2;
-  const Two s = r + (r * r2 * sum_of<&SinCos::sin>(r2, r4) + tail * w);
-  const Two c = w + (((1.0 - w) - half_r2) + (r4 * sum_of<&SinCos::cos>(r2, r4) - r * tail));
-  const TwoBits quarter = std::bit_cast<TwoBits>(k + kRounds);
-  const TwoBits s_bits = std::bit_cast<TwoBits>(s), c_bits = std::bit_cast<TwoBits>(c);
-  const TwoBits exchange = (s_bits ^ c_bits) & -(quarter & 1);
-  const Two sines = std::bit_cast<Two>(s_bits ^ exchange ^ (quarter & 2) << 62);
-  const Two cosines = std::bit_cast<Two>(c_bits ^ exchange ^ ((quarter + 1) & 2) << 62);
-  out[0] = {sines[0], cosines[0]};
-  out[1] = {sines[1], cosines[1]};
-}
-
-bool is_usual(double x_rad) { return std::fabs(x_rad) <= 1e9; }
+#endif
 
 }  // namespace
 
 void sincos(std::span<const double> x_rad, std::span<SinCos> out) {
   std::size_t i = 0;
-  for (; i + 2 <= x_rad.size(); i += 2)
-    if (is_usual(x_rad[i]) && is_usual(x_rad[i + 1]))
-      sincos_of_two(&x_rad[i], &out[i]);
-    else
-      out[i] = sincos(x_rad[i]), out[i + 1] = sincos(x_rad[i + 1]);
-  if (i < x_rad.size()) out[i] = sincos(x_rad[i]);
+  const bool usual = are_usual(x_rad);
+#ifdef __x86_64__
+  if (usual && x_rad.size() > twos::kLanes && __builtin_cpu_supports("avx2")) {
+    for (; i + avx2::kLanes <= x_rad.size(); i += avx2::kLanes) avx2::sincos_of_lanes(&x_rad[i], &out[i]);
+    if (i + twos::kLanes < x_rad.size()) return sincos_of_few(x_rad.subspan(i), out.subspan(i));
+  }
+#endif
+  for (; usual && i + twos::kLanes <= x_rad.size(); i += twos::kLanes) twos::sincos_of_lanes(&x_rad[i], &out[i]);
+  for (; i < x_rad.size(); ++i) out[i] = sincos(x_rad[i]);
 }
 
 double sin(double x_rad) { return sincos(x_rad).sin; }
@@ -177,7 +178,7 @@ double atan2(double y, double x) {
   if (std::isnan(x) || std::isnan(y)) return kNaN;
   const double ax = std::fabs(x);
   const double ay = std::fabs(y);
-  if (ax == 0.0 && ay == 0.0) return 0.0;
+  if (ay == 0.0 && (x >= 0.0 || ax == 0.0)) return 0.0;  // the angle between rotations that are equal, mostly
   const bool steep = ay > ax;
   double angle = 0.0;
   if (ax == kInfinity && ay == kInfinity) {

@@ -23,8 +23,10 @@ struct Kind {
 
 constexpr std::string_view kExport = "export it as glTF (.glb), as Blender and most other editors can";
 constexpr std::string_view kUnpack = "unpack it first, and name a file in it";
-constexpr std::string_view kRobot = "a robot's description holds no animation";
+constexpr std::string_view kRobot = "a robot's description has no animation";
 constexpr std::string_view kNumbers = "numbers without a skeleton are no animation: write them as .bvh or .glb";
+constexpr std::string_view kTables =
+    "contort check FILE.csv --character NAME judges values of joints, with a column of times";
 constexpr std::string_view kDownload = "the download went wrong: fetch the file itself";
 
 // From the formats' own specifications, and file(1). Longer marks come before those that they begin with.
@@ -106,7 +108,7 @@ constexpr Named kNamed[] = {{".fbx", "an FBX model"},    {".usd", "a USD scene"}
                             {".urdf", "a robot (URDF)"}, {".pkl", "a Python pickle"},  {".dae", "a COLLADA model"},
                             {".c3d", "markers (C3D)"},   {".blend", "a Blender file"}, {".xml", "an XML file"}};
 constexpr Kind kXml = {0, {}, "an XML file"};
-constexpr Kind kTable = {0, {}, "a table of numbers (CSV)", kNumbers};
+constexpr Kind kTable = {0, {}, kTableKind, kTables};
 
 bool is_same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));

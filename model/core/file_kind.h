@@ -9,22 +9,26 @@
 
 namespace contort {
 
-// The first bytes of a file that are enough to tell its kind: licences stand before the root of robots' descriptions.
+// As many first bytes of a file as are needed to recognise its kind: a robot's description may begin with a long
+// licence.
 inline constexpr std::size_t kKindBytes = 8192;
+
+// The kind of a text of numbers with a separator.
+inline constexpr std::string_view kTableKind = "a table of numbers (CSV)";
 
 // Returns the kind of a file by its first bytes, whatever its name, such as "a PNG image"; "" if it is unknown. Plain
 // JSON is not recognised.
 std::string_view kind_of_bytes(std::string_view bytes);
 
-// Whether there is something to do about files of this kind where an animation is expected; people take them for one.
+// Returns true if people take files of this kind for animations, so that a message with a remedy helps.
 bool has_advice(std::string_view bytes);
 
-// Returns an issue such as "PATH is an FBX model, expected a spec; export it as glTF"; nothing if the bytes are of no
-// known kind.
+// Returns an issue such as "PATH is an FBX model, expected a spec; export it as glTF"; nothing if their kind is
+// unknown.
 std::optional<Issue> other_kind(const std::string& path, std::string_view bytes, const std::string& expected);
 
-// Returns such an issue for a file that is not what is expected, even if its kind is unknown: by the ending of its name
-// and what it begins with.
+// Returns such an issue for a file of another kind than expected. If the kind is unknown, the text tells the ending of
+// the file's name and its first bytes.
 Issue unknown_kind(const std::string& path, std::string_view bytes, const std::string& expected);
 
 // Reads a JSON file of at most json_fields::kMaxDocumentBytes. Code file.wrong_kind for another kind of file, even if

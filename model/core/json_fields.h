@@ -250,7 +250,8 @@ class FieldSchema {
   Json required_ = Json::array();
 };
 
-// Not inline, so that `extern template` keeps a great struct from being compiled wherever it is a part of another one.
+// Not inline, so that `extern template` prevents a large struct from being compiled again for each struct that contains
+// it.
 template <class S>
 struct Codec {
   static void read(const Json& in, const Rule&, S& out, ReadContext& context);
@@ -312,13 +313,18 @@ struct Codec<std::variant<Ts...>> {
 
 // Reads a document; fields that the text does not have keep their values in `value`.
 template <class S>
+Result<S> read_tree(const Json& tree, std::string_view area, S value = {}) {
+  ReadContext context(area);
+  Codec<S>::read(tree, Rule{}, value, context);
+  if (!context.ok()) return context.take_issue();
+  return value;
+}
+
+template <class S>
 Result<S> read_document(std::string_view text, std::string_view area, S value = {}) {
   const Result<Json> tree = parse_document(text);
   if (!tree) return tree.issue();
-  ReadContext context(area);
-  Codec<S>::read(*tree, Rule{}, value, context);
-  if (!context.ok()) return context.take_issue();
-  return value;
+  return read_tree<S>(*tree, area, std::move(value));
 }
 
 // Prints canonical text: keys sorted by byte, no spaces, shortest numbers that read back to the same bits.

@@ -1,5 +1,5 @@
-// The limits of fields in JSON, where a reader stands in a document, and the reading of single values. Included from .cpp
-// files only, by way of json_fields.h.
+// The limits of fields in JSON, the reader's position in a document, and the reading of single values. Included from
+// .cpp files only, by way of json_fields.h.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 inline constexpr std::size_t kMaxDocumentBytes = 16 << 20;
 inline constexpr int kMaxDepth = 64;
-inline constexpr std::size_t kMaxValues = 2'000'000;  // of a document, keys included
+inline constexpr std::size_t kMaxValues = 2'000'000;  // the most values in a document, keys included
 
 // name: [a-z0-9_]{1,64} · label: 1 to 200 bytes · prose: up to 4000 bytes · hex: up to 256 KiB of digits 0-9a-f ·
 // file: a label that names an entry of a folder (inside_folder.h)
@@ -27,16 +27,16 @@ enum class Text { name, label, prose, hex, file };
 struct Rule {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  std::size_t max_count = 0;                  // of a list or a map
-  std::span<const std::string_view> names{};  // of an enum, in the order of its values
+  std::size_t max_count = 0;                  // greatest length of a list or a map
+  std::span<const std::string_view> names{};  // words of an enum, in the order of its values
   Text text = Text::name;
-  Text key_text = Text::name;    // of a map's keys
-  std::size_t digits = 0;        // of a hex text, where their number is fixed
-  std::string_view begins = "";  // of a file's name; without characters that mean something in a pattern
-  std::string_view ends = "";    // the same
+  Text key_text = Text::name;    // kind of a map's keys
+  std::size_t digits = 0;        // the length of a hex text, if it is fixed
+  std::string_view begins = "";  // the beginning of a file's name; without special characters of patterns
+  std::string_view ends = "";    // the ending of a file's name; the same
   bool required = false;
-  bool may_be_empty = false;  // of a text
-  bool may_be_nan = false;    // of a number; written as the text "nan", because JSON has none
+  bool may_be_empty = false;  // for a text
+  bool may_be_nan = false;    // for a number; NaN is written as the text "nan", because JSON has none
 };
 
 // The reader's present position in the document, and the first value that it could not accept.
@@ -59,7 +59,7 @@ class ReadContext {
 // json.syntax, .too_large, .too_deep, .duplicate_key.
 Result<Json> parse_document(std::string_view text);
 
-// Shared by the visitors; the .cpp holds them once instead of in every template.
+// Functions that all visitors share. The .cpp has them once, instead of in every template.
 std::string kind_of(const Json& value);       // "a text", "a number" … for messages
 std::string quoted(const std::string& text);  // for messages: bounded, without control characters
 std::string shortest(double value);           // as JSON writes it

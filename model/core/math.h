@@ -31,7 +31,9 @@ struct Rigid {
 inline Rigid operator*(const Rigid& a_from_b, const Rigid& b_from_c) {
   return {a_from_b.q * b_from_c.q, a_from_b.p_m + a_from_b.q * b_from_c.p_m};
 }
-inline Vec3 operator*(const Rigid& a_from_b, const Vec3& point_b) { return a_from_b.q * point_b + a_from_b.p_m; }
+[[gnu::always_inline]] inline Vec3 operator*(const Rigid& a_from_b, const Vec3& point_b) {
+  return a_from_b.q * point_b + a_from_b.p_m;
+}
 inline Rigid inverse(const Rigid& a_from_b) {
   const Quat q = glm::conjugate(a_from_b.q);
   return {q, -(q * a_from_b.p_m)};

@@ -8,9 +8,9 @@
 
 namespace contort {
 
-// Code folder.other_files if the folder has files other than hidden ones, and `is_ours` is false, which means that
-// they are not of the kind that may be added to. `kind` names that kind, such as "a corpus". A new or empty folder is
-// accepted.
+// Refuses a folder that has files other than hidden ones, unless `is_ours`, which says that they are of the kind that
+// may be added to. `kind` names that kind, such as "a corpus". A new or empty folder is accepted. Code
+// folder.other_files.
 Result<Done> check_own_folder(const std::string& folder, bool is_ours, const std::string& kind);
 
 }  // namespace contort

@@ -1,7 +1,8 @@
 // Signed distances between solids. A solid is a core (point, segment, box or convex hull) with a radius around it; the
 // signed distance of two solids is that of their cores less both radii. Cores apart: the Euclidean distance. Cores that
-// overlap: minus the depth, the shortest translation that parts them. Double precision. Closed form, but for hulls that
-// are apart (hull_distance.h), where a bounded iteration proves its result or leaves it to a closed form.
+// overlap: minus the depth, the shortest translation that parts them. Double precision. The formulas are closed, except
+// for hulls that are apart (hull_distance.h): a bounded iteration either proves its result, or a closed formula is used
+// instead.
 #pragma once
 
 #include <memory>
@@ -31,22 +32,23 @@ Solid moved(const Rigid& to_from_own, const Solid& solid);
 // Moves `placed`, which is an already moved copy of `solid`; writes only the fields that change.
 void place(const Rigid& to_from_own, const Solid& solid, Solid& placed);
 
-// The extent of a solid from its centre along the unit vector n.
+// The extent of a solid from its centre along the unit vector n, in metres.
 double extent_along(const Solid& solid, const Vec3& n);
 
 // Returns the gap from a to b along the unit vector n. It is never greater than their signed distance.
 double gap_along(const Solid& a, const Solid& b, const Vec3& n);
 
-// Returns the approximate direction in which b must move to get away from a fastest: that of their nearest points, or
-// of the shortest way out. For bounds, for which any direction is valid.
+// Returns the approximate direction in which b gets away from a fastest: the direction between their nearest points,
+// or, if they overlap, of the shortest translation that parts them. It is for bounds, which hold for any direction.
 Vec3 way_out(const Solid& a, const Solid& b);
 
 // Returns the signed distance in metres. If it is greater than `band_m`, the result may be any number in (band_m,
 // true distance]. NaN coordinates give NaN.
 double signed_distance(const Solid& a, const Solid& b, double band_m);
 
-// Also returns the way_out if it costs nothing, and 0 if it would: for hulls, for NaN coordinates, and for round
-// solids whose cores cross. Beyond the band it is any direction along which they are that far apart.
+// Also returns the way_out if it is known without further computation, and otherwise 0: for hulls, for NaN coordinates,
+// and for round solids whose cores cross. Beyond the band it is any direction along which the solids are that far
+// apart.
 double signed_distance(const Solid& a, const Solid& b, double band_m, Vec3& way);
 
 }  // namespace contort

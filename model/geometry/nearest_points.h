@@ -8,7 +8,8 @@ namespace contort {
 struct NearestPoints {
   Vec3 on_a_m{0.0};
   Vec3 on_b_m{0.0};
-  double distance_m = 0.0;  // signed_distance of the two; NaN where they have no place, and the points mean nothing
+  double distance_m = 0.0;  // signed_distance of the two; NaN if a solid's coordinates are NaN; the points are then
+                            // undefined
 };
 
 // Returns, if the solids are apart, points of their surfaces that are as near as the solids are, to 0.1 mm. If they

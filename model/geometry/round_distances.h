@@ -1,5 +1,5 @@
-// Measures signed distances of spheres and capsules, several pairs in each instruction. The result has the same bits
-// as signed_distance: the lanes do its operations in its order, and none is fused.
+// Measures signed distances of spheres and capsules, several pairs in each instruction. The result has the same bits as
+// signed_distance: each SIMD lane does the same operations in the same order, without fused multiply-adds.
 #pragma once
 
 #include <span>

@@ -8,8 +8,8 @@
 
 namespace contort {
 
-// A segment's points are center + t * axis, t in [-half_length, half_length]. The axis is a unit vector, any where the
-// segment is a point: with one, the solution needs one division only.
+// A segment's points are center + t * axis, t in [-half_length, half_length]. The axis is a unit vector, any one if the
+// segment is a point: with a unit axis the solution needs only one division.
 struct Segment {
   Vec3 center;
   Vec3 axis;
@@ -21,11 +21,11 @@ inline Segment segment_between(const Vec3& from, const Vec3& to) {
   return {0.5 * (from + to), unit_or(half, Vec3(1, 0, 0)), std::sqrt(glm::dot(half, half))};
 }
 
-// Below this squared sine of the angle between two segments, products of lengths tell nothing about it any more.
+// Below this squared sine of the angle between two segments, rounding makes products of lengths useless.
 inline constexpr double kNearlyParallel = 1e-8;
 
 // Closest points of two segments, a.center + s * a.axis and b.center + t * b.axis: the minimum of a convex quadratic
-// over a rectangle. Solve for s, clamp it, solve for t; if that had to be clamped, s again for the t that is left
+// over a rectangle. Solve for s, clamp it, solve for t; if t had to be clamped, solve for s again with the clamped t
 // (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
 struct ClosestOnSegments {
   double s = 0.0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "model/character/character.h"
 #include "model/motion/foreign.h"
@@ -20,13 +21,25 @@ enum class RootPath : std::uint8_t {
   unknown,      // the file has no path: the root stays at its rest place
 };
 
+// A joint that must follow another one, such as one of URDF's mimic: its coordinate is multiplier * that of the leader
+// + offset. Both have one coordinate.
+struct Coupling {
+  int joint = 0;
+  int leader = 0;
+  double multiplier = 1.0;
+  double offset = 0.0;  // rad or m
+  bool is_of_rotation = false;  // the joint's angle was read from a rotation, so that whole turns cannot be told
+  bool operator==(const Coupling&) const = default;
+};
+
 struct Execution {
   std::shared_ptr<const Character> character;  // never null once there is a motion
-  Environment environment;                     // level ground at height 0 where nobody says another
+  Environment environment;                     // level ground at height 0 by default
   Motion motion;
   std::optional<Intent> intent;  // empty if the generator gives no intent
   RootPath path = RootPath::told;
-  std::optional<ForeignFacts> foreign{};  // of a generator that is a program of its own
+  std::optional<ForeignFacts> foreign{};  // only from a generator that is a program of its own
+  std::vector<Coupling> couplings{};
 
   const Intent* said() const { return intent ? &*intent : nullptr; }
 };

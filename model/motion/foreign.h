@@ -1,8 +1,9 @@
-// The data of a generator that is a program of its own, beside the motion that coordinates can hold. Checks of such
-// generators read it (docs/reference/guests.md).
+// The data of a generator that is a program of its own which coordinates cannot hold. Checks of such generators read it
+// (docs/reference/guests.md).
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -56,17 +57,26 @@ struct ContactRun {
   bool operator==(const ContactRun&) const = default;
 };
 
+struct FrameSpan {
+  int first_frame = 0;
+  int last_frame = 0;  // inclusive
+  bool operator==(const FrameSpan&) const = default;
+};
+
 struct ForeignFacts {
-  std::vector<double> quaternion_lengths;  // frames x joints, as they came; 1 is a rotation
-  std::vector<double> off_axis_rad;        // frames x joints: of hinges, the rotation that is not about their axis
+  std::vector<double> quaternion_lengths;  // frames x joints, as received; 1 for a rotation
+  std::vector<double> off_axis_rad;        // frames x joints: for hinges, the rotation that is not about their axis
   std::vector<int> jumps;                  // ascending frames into which the pose may jump from the frame before
   std::vector<EqualMotion> equals;
   std::vector<ChannelRun> runs;  // by channel, then by frame
   std::vector<ChannelNumbers> numbers;
   std::vector<ContactRun> contacts;
+  std::vector<FrameSpan> travels{};  // frames into which the root may jump, though the pose may not
+  double root_max_speed_rad_s = std::numeric_limits<double>::infinity();  // the greatest turning speed of the root
   bool operator==(const ForeignFacts&) const = default;
 
   bool may_jump_into(int frame) const;
+  bool may_root_jump_into(int frame) const;
   bool compares(Equality why) const;
 };
 

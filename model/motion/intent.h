@@ -12,7 +12,7 @@
 
 namespace contort {
 
-// Order of evaluation on one part: overwrite, then ik on top, then additive.
+// The layers of a part in the order of their evaluation: overwrite, then ik on top, then additive.
 enum class Layer : std::uint8_t { overwrite, ik, additive };
 std::string_view layer_name(Layer layer);
 
@@ -21,9 +21,9 @@ struct IntendedAction {
   int sequence = 0;  // indices into the spec; sequences of interrupts are numbered after those of the queue
   int clip = 0;
   int action = 0;
-  int part = 0;      // of the character: the part that it moves
+  int part = 0;      // index into the character's parts: the part that it moves
   int named = 0;     // the part that the spec names
-  std::string name;  // that the spec uses
+  std::string name;  // the action's name in the spec
   Layer layer = Layer::overwrite;
   double start = 0.0;
   double end = 0.0;
@@ -31,7 +31,7 @@ struct IntendedAction {
   double blend_out = 0.0;
   int first_frame = 0;  // the whole frames in which it moves the part
   int last_frame = 0;
-  bool further = false;  // the generator added it on this part, to carry out what was asked for on the named one
+  bool further = false;  // the generator added it on this part, to fulfil the request on the named one
   bool operator==(const IntendedAction&) const = default;
 };
 
@@ -59,12 +59,12 @@ struct IntendedSequence {
 struct Goal {
   int first_frame = 0;
   int last_frame = -1;     // inclusive
-  int part = 0;            // that was sent
-  int socket = 0;          // of the character: what shall be there
-  int target_socket = -1;  // another socket of the character, wherever it is by then; -1: target_m
+  int part = 0;            // the part that was sent to the target
+  int socket = 0;          // index into the character's sockets: the point that shall reach the target
+  int target_socket = -1;  // another socket of the character, at its place in that frame; -1: target_m is the target
   Vec3 target_m{0.0};      // in the character's frame: on the ground under the root, +Z forward
   bool in_world = false;   // target_m is in the world
-  double within_m = 0.0;   // the distance that the generator allows itself, where it is more than a check would
+  double within_m = 0.0;   // the tolerance that the generator declares, if it is larger than that of the check
   bool operator==(const Goal&) const = default;
 };
 
@@ -73,18 +73,18 @@ struct Goal {
 struct Grasp {
   int first_frame = 0;
   int last_frame = -1;  // inclusive
-  int joint = 0;        // of the character: the bodies on it, and on joints beyond it, are the hand
-  int body = 0;         // of the character: the object
+  int joint = 0;        // joint of the character: the bodies on it, and on joints beyond it, are the hand
+  int body = 0;         // body of the character: the object
   bool operator==(const Grasp&) const = default;
 };
 
 // The reason for which a request cannot be met.
 enum class Shortfall : std::uint8_t {
-  out_of_reach,  // the limb is too short, or what it stands on too high, too low or too steep
+  out_of_reach,  // the limb is too short, or its ground is too high, too low or too steep
   joint_range,
   joint_speed,
   clearance,  // bodies would overlap
-  rule_failed,  // a rule that a user wrote stopped
+  rule_failed,  // the script of a user's action stopped
 };
 std::string_view shortfall_name(Shortfall shortfall);
 
@@ -92,7 +92,7 @@ std::string_view shortfall_name(Shortfall shortfall);
 struct UnmetRequest {
   int first_frame = 0;
   int last_frame = -1;  // inclusive
-  int part = 0;         // of the character: the part that was to be moved
+  int part = 0;         // part of the character that was to be moved
   std::string action;   // the name that the spec uses
   Shortfall why = Shortfall::out_of_reach;
   bool operator==(const UnmetRequest&) const = default;

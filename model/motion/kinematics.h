@@ -14,7 +14,7 @@ Rigid joint_motion(const Joint& joint, std::span<const double> row);
 void forward_kinematics(const Character& character, std::span<const double> row, int first, int last,
                         std::span<Rigid> world);
 
-// The same for these joints, carriers first.
+// Does the same for the listed joints, which must be in order from carriers to carried.
 void forward_kinematics(const Character& character, std::span<const double> row, std::span<const int> joints,
                         std::span<Rigid> world);
 

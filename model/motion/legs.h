@@ -9,18 +9,19 @@
 
 namespace contort {
 
-inline constexpr int kMaxLegs = 8;  // of one character; further ones do not walk
+inline constexpr int kMaxLegs = 8;  // most legs of a character; further ones do not walk
 
 struct Leg {
-  int part = 0;       // has the reach chain
-  int foot_part = 0;  // has the sole; may be the same
+  int part = 0;       // the part with the reach chain
+  int foot_part = 0;  // the part with the sole; may be the same
   int sole = 0;       // socket
-  std::vector<int> joints;      // of both parts, carriers first
+  std::vector<int> joints;      // joints of both parts, carriers first
   std::array<int, 3> ankles{};  // joints between the chain's tip and the sole
   int ankle_count = 0;
-  bool has_ankle_pair = false;  // two, one on the other: solved exactly
+  bool has_ankle_pair = false;  // the ankle is two hinges, one carrying the other, which inverse kinematics solves
+                                // exactly
   Vec3 home_m{0.0};          // the sole at rest, in the character's frame (on the ground under the root)
-  Vec3 hip_m{0.0};           // the chain's first joint, there too
+  Vec3 hip_m{0.0};           // the chain's first joint at rest, in the character's frame
   Vec3 sole_from_ankle{0.0};  // the chain's tip at rest, in the sole's frame
   double length_m = 0.0;     // from hip to ankle, as far as the range of the joint between them allows
   double tilts_rad = kPi / 2;  // how far the ankle tilts the sole about its Z to either side; pi/2 where no hinge does

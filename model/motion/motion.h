@@ -25,7 +25,7 @@ struct ActionSpan {
   int sequence = 0;    // indices into the spec
   int clip = 0;
   int action = 0;
-  int part = 0;  // of the character
+  int part = 0;  // index into the character's parts
   bool operator==(const ActionSpan&) const = default;
 };
 
@@ -43,7 +43,7 @@ struct QueueSpan {
 struct AimSpan {
   int first_frame = 0;
   int last_frame = 0;  // inclusive
-  int socket = 0;      // of the character; its +Z shall point at the target
+  int socket = 0;      // socket of the character, whose +Z must point at the target
   Vec3 target_m{0.0};  // in the world
   bool operator==(const AimSpan&) const = default;
 };
@@ -53,7 +53,7 @@ enum class Footing : std::uint8_t {
   standing,  // on its soles, flat
   airborne,  // on nothing
   tipping,   // on edges or corners of soles
-  fallen,    // on anything else, or as good as lying
+  fallen,    // on anything else, or nearly lying
 };
 
 struct Stance {
@@ -61,8 +61,8 @@ struct Stance {
   bool overpowered = false;   // a joint needed more than its strength to hold the pose
   std::uint8_t planned = 0;   // bit i: leg i stands in the target
   std::uint8_t standing = 0;  // bit i: leg i stands
-  Vec3 zmp_m{0.0};            // zero moment point, where standing; of the tick in which it was nearest to the edge
-  double margin_m = 0.0;      // of it inside the support area, < 0 outside
+  Vec3 zmp_m{0.0};            // zero moment point of a standing figure, in the tick in which it was nearest to the edge
+  double margin_m = 0.0;      // distance of the zero moment point inside the support area; < 0 outside
   bool operator==(const Stance&) const = default;
 };
 
@@ -70,7 +70,7 @@ struct Stance {
 struct ImpactMark {
   int frame = 0;
   int joint = 0;
-  Vec3 point_m{0.0};      // in the world, before it moved anything
+  Vec3 point_m{0.0};      // the point that was hit, in the world, at the time of the impact
   Vec3 impulse_N_s{0.0};  // in the world
   bool operator==(const ImpactMark&) const = default;
 };
@@ -80,7 +80,7 @@ struct Response {
   int dof_count = 0;                  // freedoms: six of the root, then those of the joints in order; see dynamics/multibody.h
   std::vector<double> target_coords;  // frames x coord_count: the motion that was followed
   std::vector<Rigid> target_root;     // frames
-  std::vector<double> efforts;        // frames x dof_count, N m or N, the greatest of a frame; 0 for the root
+  std::vector<double> efforts;        // frames x dof_count: greatest effort in the frame, N m or N; 0 for the root
   std::vector<double> control;        // frames x dof_count: accelerations that dynamic control added
   std::vector<Stance> stances;        // frames
   std::vector<ImpactMark> impacts;
@@ -94,6 +94,9 @@ struct Motion {
   int coord_count = 0;         // doubles in a row, see Character
   std::vector<double> coords;  // frame_count * coord_count
   std::vector<Rigid> root;     // frame_count: world_from_root
+  // The time of each frame, ascending, for motions made elsewhere with uneven steps; rate_hz is then the mean rate.
+  // Empty: a frame is at frame / rate_hz.
+  std::vector<double> times_s;
   std::vector<ActionSpan> spans;
   std::vector<QueueSpan> queue;  // the queue's history
   std::vector<AimSpan> aims;     // in the order of their first frames
@@ -106,6 +109,13 @@ struct Motion {
   std::span<double> row(int frame) {
     return std::span(coords).subspan(static_cast<std::size_t>(frame) * static_cast<std::size_t>(coord_count),
                                      static_cast<std::size_t>(coord_count));
+  }
+  double time_s(int frame) const {
+    return times_s.empty() ? frame / rate_hz : times_s[static_cast<std::size_t>(frame)];
+  }
+  // Returns 1 / (time from the frame before to `frame`), in Hz; `frame` >= 1.
+  double rate_into_hz(int frame) const {
+    return times_s.empty() ? rate_hz : 1.0 / (time_s(frame) - time_s(frame - 1));
   }
   bool operator==(const Motion&) const = default;
 };

@@ -17,13 +17,7 @@ using Lanes [[gnu::vector_size(16)]] = double;
 }  // namespace twos
 
 #ifdef __x86_64__
-// All that follows may use AVX2, without fused multiplication.
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#endif
+#include "model/core/avx2_begin.inl"
 
 namespace avx2 {
 
@@ -33,11 +27,7 @@ using Lanes [[gnu::vector_size(32)]] = double;
 
 }  // namespace avx2
 
-#ifdef __clang__
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "model/core/avx2_end.inl"
 #endif
 
 std::vector<PlacingKernel> find_kernels() {

@@ -1,5 +1,5 @@
 // Forward kinematics of whole motions, several frames in each instruction. The result has the same bits as
-// forward_kinematics: the lanes do its operations in its order, and none is fused.
+// forward_kinematics: each SIMD lane does the same operations in the same order, without fused multiply-adds.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Parameters of actions, as a generator declares them, for specs, for the fuzzer and for people.
+// Parameters of actions, as a generator declares them. Specs, the fuzzer and help texts use them.
 #pragma once
 
 #include <string>
@@ -21,17 +21,17 @@ enum class ParamType {
 enum class Domain {
   uniform,       // anywhere in [low, high]
   joint_range,   // within the limits of the joint that the parameter is named after
-  within_reach,  // a point that the part's reach chain can just about reach
+  within_reach,  // a point in or slightly beyond the reach of the part's chain
   around,        // a point some metres around the character
 };
 
-// A value may have another sign or meaning on the other side of the character. Specs say what they mean; the files of
-// actions are written for the left side, as parts are.
+// The change of a value between the left and the right side of the character. Action files are written for the left
+// side, as parts are, and their values are mirrored; values in specs never are.
 enum class Mirrored {
   same,
   opposite,  // an angle to the left is one to the right
   point,     // x changes its sign
-  rotation,  // a rotation vector: y and z do
+  rotation,  // a rotation vector: y and z change their signs
 };
 
 struct ParamDef {
@@ -39,17 +39,18 @@ struct ParamDef {
   ParamType type = ParamType::number;
   double low = 0.0;
   double high = 0.0;
-  ParamValue preset = 0.0;             // the value where a spec gives none
-  std::vector<std::string> choices{};  // of a choice
+  ParamValue preset = 0.0;             // the value if a spec gives none
+  std::vector<std::string> choices{};  // the words of a choice
   bool optional = false;               // a spec may leave it out, and the action then has no such value
   Domain domain = Domain::uniform;
   Mirrored mirrored = Mirrored::same;
   std::string help;
-  std::vector<std::string> points{};  // of object_point and own_point: the names that this part can use
+  std::vector<std::string> points{};  // for object_point and own_point: the names that this part can use
   bool is_characteristic = false;     // a file gave the preset: it is part of what makes the action that action
   std::vector<ParamValue> special{};  // values that are drawn in half of the cases, each as often as the others
-  double steps = 0.0;                 // steps_of() this parameter, where its name does not tell them
-  std::vector<Vec3> box{};            // of a vector: its lowest and highest components, where they differ
+  double steps = 0.0;                 // steps_of() this parameter, if they do not follow from its name
+  std::vector<Vec3> box{};            // for a vector: the lowest and highest value of each component, if these differ
+                                      // between components
   bool operator==(const ParamDef&) const = default;
 };
 

@@ -24,7 +24,7 @@ struct ClipDesc {
 // Returns the end of the clip's last action, in frames of its content.
 double natural_length(const ClipDesc& clip);
 
-// Returns the length for a spec that wants this many frames; 0 means the natural length.
+// Returns `wanted`, or the natural length if `wanted` is 0.
 double stretched(double natural, int wanted_frames);
 
 // Returns the clip's length in frames of its sequence's content: natural or stretched, and at the clip's speed.

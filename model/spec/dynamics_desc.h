@@ -12,26 +12,26 @@ namespace contort {
 
 enum class Mode {
   kinematic,  // the motion is what actions make of it
-  tracking,   // a figure follows that motion by joint accelerations, each joint by itself; its feet stand
-  dynamic,    // and gives way to loads and impacts, keeps its balance, and has no more strength than it has
+  tracking,   // a simulated figure follows that motion, each joint by itself; standing feet stay in place
+  dynamic,    // as tracking; in addition it yields to loads and impacts, keeps its balance, and has limited strength
 };
 std::span<const std::string_view> mode_names();  // in the order of the enum
 
-// A box that a part carries, and that the target motion does not know of.
+// A box that a part carries. The target motion is made without it.
 struct LoadDesc {
   std::string slot;
-  std::string socket;           // of that slot's part
+  std::string socket;           // a socket of that slot's part
   Vec3 position_m{0.0};         // the box's centre, in the socket's frame
   Vec3 size_m{0.3, 0.4, 0.15};  // along the socket's axes
-  double mass_kg = 5.0;         // spread evenly
+  double mass_kg = 5.0;         // evenly distributed in the box
   bool operator==(const LoadDesc&) const = default;
 };
 
 // An impact: an instantaneous impulse on a point of a part.
 struct ImpactDesc {
-  int frame = 0;  // before it moves on
+  int frame = 0;  // it acts at the beginning of this frame
   std::string slot;
-  std::string joint;      // of that slot's part; "": its first one, or what the part is fixed to
+  std::string joint;      // joint of that slot's part; "": its first joint, or the joint to which the part is fixed
   Vec3 point_m{0.0};      // in the joint's frame
   Vec3 impulse_N_s{0.0};  // along the axes of the start (StartDesc)
   bool operator==(const ImpactDesc&) const = default;
@@ -39,7 +39,7 @@ struct ImpactDesc {
 
 struct DynamicsDesc {
   Mode mode = Mode::kinematic;
-  int ticks_per_frame = 0;  // of control; 0: as many as make 120 a second
+  int ticks_per_frame = 0;  // control steps per frame; 0: as many as give 120 per second
   std::vector<LoadDesc> loads;
   std::vector<ImpactDesc> impacts;
   bool operator==(const DynamicsDesc&) const = default;

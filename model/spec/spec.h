@@ -18,18 +18,18 @@ namespace contort {
 
 // The place and heading of the character in frame 0.
 struct StartDesc {
-  Vec3 position_m{0.0};      // its height is the ground's there
+  Vec3 position_m{0.0};      // its height is that of the ground at this place
   double heading_deg = 0.0;  // about +Y; 0 faces +Z
   double ahead_m = 0.0;      // distance of the hips in front of their place over the feet: legs lean from the ankles
   double lower_m = 0.0;      // distance of the hips below their height on stretched legs: knees stay bent
   bool operator==(const StartDesc&) const = default;
 };
 
-// An animation of the library, made elsewhere, that the character plays instead of sequences.
+// An animation file of the library that the character plays instead of sequences.
 struct RecordingDesc {
   std::string name;                           // "": none
-  std::string clip;                           // of that file; "": its first one
-  double from_s = 0.0;                        // leaves out what comes before: a reference pose, say
+  std::string clip;                           // clip of that file; "": its first one
+  double from_s = 0.0;                        // skips the beginning of the clip, such as a reference pose
   std::map<std::string, std::string> joints;  // the animation's node -> the character's joint, where names differ
   bool operator==(const RecordingDesc&) const = default;
 };
@@ -44,10 +44,10 @@ struct Spec {
   std::vector<InterruptDesc> interrupts;
   RecordingDesc recording;
   DynamicsDesc dynamics;
-  std::string only_slot;  // the part of this slot moves alone, as the whole moves it; "": all do
-  int only_sequence = 0;  // plays this one alone, from the state that those before it leave; counted from 1, those of
-                          // interrupts after the queue's; 0: all
-  int only_clip = 0;      // of that sequence, the same; 0: all
+  std::string only_slot;  // only the part of this slot moves, as it does in the whole motion; "": all parts move
+  int only_sequence = 0;  // only this sequence is played, from the state that earlier ones leave; counted from 1,
+                          // sequences of interrupts after those of the queue; 0: all
+  int only_clip = 0;      // only this clip of that sequence is played, in the same way; 0: all
   bool operator==(const Spec&) const = default;
 };
 
@@ -56,9 +56,9 @@ Result<Spec> parse_spec(std::string_view json);
 
 // Prints canonical text: sorted keys, no spaces, defaults left out, shortest numbers that read back to the same bits.
 std::string print_spec(const Spec& spec);
-std::string pretty_spec(const Spec& spec);  // the same, indented for people
+std::string pretty_spec(const Spec& spec);  // prints it indented, for people
 
-// Name of the spec by its content: content_id of the canonical text.
+// Returns the spec's name by its content: content_id of the canonical text.
 std::string spec_id(const Spec& spec);
 
 std::string spec_schema();

@@ -23,7 +23,7 @@ void fields(V& v, const ActionUse*) {
   v.field("duration_frames", &ActionUse::duration_frames, kFrames, "Period of the action; a longer one plays slower.");
   v.field("speed", &ActionUse::speed, kSpeed, "Speed of progress within the period.");
   v.field("blend_in_frames", &ActionUse::blend_in_frames, kBlendIn,
-          "Duration of the blend at the beginning of a course; 0 is a cut, -1 takes as long as the way needs.");
+          "Duration of the blend at the beginning of a course; 0 is a cut, -1 takes as long as the distance needs.");
   v.field("blend_out_frames", &ActionUse::blend_out_frames, kBlendOut, "Duration of the fade before the end.");
   v.field("params", &ActionUse::params, {.max_count = 64}, "Parameters by the names that the action declares.");
 }
@@ -112,7 +112,7 @@ void fields(V& v, const DynamicsDesc*) {
           "Steps of control for each frame; 0 chooses the number that makes 120 steps a second.");
   v.field("loads", &DynamicsDesc::loads, {.max_count = 16},
           "Boxes whose mass the target motion does not take into account.");
-  v.field("impacts", &DynamicsDesc::impacts, {.max_count = 64}, "Blows.");
+  v.field("impacts", &DynamicsDesc::impacts, {.max_count = 64}, "Impacts that strike the character.");
 }
 
 template <class V>

@@ -20,7 +20,7 @@ struct Surface {
 
 // A ground's angles, as queries need them.
 struct GroundAngles {
-  double sin = 0.0;  // of the heading of a slope or steps
+  double sin = 0.0;  // sine of the heading of a slope or steps
   double cos = 1.0;
   double rise = 0.0;  // tangent of a slope
 };
@@ -36,17 +36,17 @@ class Environment {
 
   // Distance to the ground is along its normal under the point, exact for planes and slopes.
   Surface nearest_ground(const Vec3& point_m) const;
-  // Whether a quick look shows that nearest_ground() is farther than distance_m for each point of a ball. False may mean
-  // that the look was too quick.
+  // Returns true if a cheap test shows that nearest_ground() is farther than distance_m for each point of a ball. False
+  // may also mean that the test could not tell.
   bool is_surely_over_ground(const Vec3& center_m, double radius_m, double distance_m) const;
   // Returns obstacle = -1 and an infinite distance if there are no obstacles.
   Surface nearest_obstacle(const Vec3& point_m) const;
 
-  // The parts of its description, in its own frame.
+  // The ground and obstacles of the description, in the environment's own frame.
   const Rigid& world_from_environment() const { return world_from_environment_; }
   const Ground& ground() const { return ground_; }
   std::span<const ObstacleDesc> obstacles() const { return obstacles_; }
-  int find_obstacle(std::string_view name) const;  // -1 where there is none
+  int find_obstacle(std::string_view name) const;  // -1 if there is none
 
  private:
   friend Result<Environment> build_environment(const EnvironmentDesc& desc);
@@ -58,12 +58,12 @@ class Environment {
   Ground ground_;
   GroundAngles angles_;
   std::vector<ObstacleDesc> obstacles_;  // in the environment's frame
-  std::vector<Quat> turns_;              // of obstacles that are boxes; none for the others
-  std::vector<Polyhedron> polyhedra_;    // of obstacles that are hulls; empty ones for the others
+  std::vector<Quat> turns_;              // rotations of obstacles that are boxes; no rotation for the others
+  std::vector<Polyhedron> polyhedra_;    // hulls of obstacles that are hulls; empty for the others
   bool level_ = true;
-  double level_m_ = 0.0;   // of level ground, in the world
+  double level_m_ = 0.0;   // height of level ground, in the world
   bool is_flat_ = true;    // its normal is the same everywhere: level ground, and the treads of steps
-  Vec3 up_{0.0, 1.0, 0.0};  // this normal, in the world
+  Vec3 up_{0.0, 1.0, 0.0};  // the normal of flat ground, in the world
   double highest_m_ = 0.0;  // no ground is higher, in the world
   double least_up_ = 1.0;   // no normal has a smaller y
 };

@@ -47,8 +47,8 @@ struct ObstacleDesc {
 };
 
 struct EnvironmentDesc {
-  Vec3 position_m{0.0};      // The place of its origin, ground and obstacles together,
-  double heading_deg = 0.0;  // and its turn about +Y.
+  Vec3 position_m{0.0};      // The place of its origin: ground and obstacles move together.
+  double heading_deg = 0.0;  // Its turn about +Y.
   Ground ground;
   std::vector<ObstacleDesc> obstacles;
   bool operator==(const EnvironmentDesc&) const = default;

@@ -286,6 +286,7 @@
       position: `${at + 1} of ${ways.length}`,
       ...stripOf(data), ...(image && { picture: { src: image.currentSrc || image.src, alt: image.alt } }),
       command: command ? command.textContent : '',
+      loadEngine: 'engine' in root.dataset && ((src) => load('script', { src })),
     };
   };
 

@@ -11,7 +11,7 @@ namespace contort {
 
 struct ProbedView {
   View view;
-  int visible_pixels = 0;  // of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
+  int visible_pixels = 0;  // pixels of all highlighted pieces, in a picture of 96 x 72; 0: hidden from every side
 };
 
 // Draws the frame from each of the views. Chooses the first view in which the least visible highlight group is about

@@ -34,7 +34,8 @@ class Backdrop {
   const MeshBuffer& meshes_;
   const ShadowMap& shadows_;
   unsigned sky_ = 0, level_ = 0, shaped_ = 0;  // programs
-  unsigned no_vertices_ = 0;                   // Core profile draws nothing without a vertex array, even an empty one.
+  unsigned no_vertices_ = 0;                   // OpenGL's core profile draws nothing unless a vertex array is bound,
+                                               // even an empty one.
 };
 
 }  // namespace contort

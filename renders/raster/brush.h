@@ -14,8 +14,8 @@ namespace contort {
 struct Paint {
   float alpha = 1.0f;
   float rim = 1.0f;
-  const glm::mat4* flatten = nullptr;  // For shadows.
-  const Vec3* color = nullptr;         // Instead of the instance's own.
+  const glm::mat4* flatten = nullptr;  // Projects onto the ground, for shadows; null: no projection.
+  const Vec3* color = nullptr;         // Replaces the instance's own colour; null: no replacement.
 };
 
 class Brush {
@@ -28,8 +28,8 @@ class Brush {
   Result<Done> create();
   void destroy();
 
-  void begin_shaded(const Eye& eye);                  // Instances are shaded from now on,
-  void begin_flat(const glm::mat4& clip_from_world);  // or have their colour as it is.
+  void begin_shaded(const Eye& eye);                  // Instances are shaded from now on.
+  void begin_flat(const glm::mat4& clip_from_world);  // Instances have their plain colour from now on.
   void draw(const DrawInstance& instance, const Eye& eye, const Paint& paint = {}) const;
 
   // Draws those of the instances that `is_meant` picks, all with one paint.
@@ -51,7 +51,7 @@ class Brush {
   const Gl& gl_;
   const MeshBuffer& meshes_;
   Program shaded_, flat_;
-  const Program* begun_ = nullptr;  // one of the two
+  const Program* begun_ = nullptr;  // the program that is in use
 };
 
 }  // namespace contort

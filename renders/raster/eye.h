@@ -12,7 +12,7 @@ struct Eye {
   Eye(const Camera& camera, int width, int height);
 
   glm::mat4 clip_from_world;
-  Vec3 center_m, at, to_light;  // `at` from the centre, m; `to_light` is a unit vector
+  Vec3 center_m, at, to_light;  // `at` is relative to the centre, m; `to_light` is a unit vector
   glm::mat4 light_from_world;
 };
 

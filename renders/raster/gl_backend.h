@@ -16,7 +16,8 @@ class GlBackend {
   virtual ~GlBackend() = default;
   virtual bool make_current() = 0;                  // On the calling thread.
   virtual void release() = 0;                       // The calling thread has no context afterwards.
-  virtual void* function(const char* gl_name) = 0;  // May be non-null for names that do not exist.
+  virtual void* function(const char* gl_name) = 0;  // The address of a function; it may be non-null even if the
+                                                    // function does not exist.
   virtual std::string name() const = 0;
 };
 

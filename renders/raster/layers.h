@@ -5,18 +5,18 @@
 
 namespace contort {
 
-// Drawn first, with depth.
+// True for instances that are drawn first, with depth.
 inline bool is_opaque(const DrawInstance& instance) { return !instance.ghost && !instance.on_top; }
 
-// A piece of the grey figure that a motion's target is: all of these are one layer.
+// True for pieces of the grey figure that shows a motion's target; together they are one layer.
 inline bool is_ghost_figure(const DrawInstance& instance) {
   return instance.ghost && !instance.mark && instance.highlight == 0;
 }
 
-// Blended over what is opaque, one by one.
+// True for instances that are blended over the opaque ones, one by one.
 inline bool is_translucent(const DrawInstance& instance) { return instance.ghost && !is_ghost_figure(instance); }
 
-// Drawn again, faintly, where something is in front.
+// True for instances that are drawn again, faintly, where something is in front of them.
 inline bool shines_through(const DrawInstance& instance) {
   return instance.highlight > 0 || (instance.mark && !instance.ghost && !instance.on_top);
 }

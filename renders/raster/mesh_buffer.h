@@ -21,7 +21,7 @@ class MeshBuffer {
 
   // Sets the triangles to which mesh numbers refer from now on.
   void set(std::span<const Triangles> meshes);
-  void bind() const;  // what draw() needs, until something else is bound
+  void bind() const;  // must precede draw(), unless nothing else was bound since
   void draw(int mesh) const;
 
  private:

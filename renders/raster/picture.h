@@ -17,15 +17,15 @@ struct Rgb8 {
 void fill(Image& image, int x, int y, int width, int height, Rgb8 color);
 void paste(Image& image, const Image& piece, int x, int y);  // The piece must lie inside.
 
-// A monospaced face by full path: names are looked up differently on every system, and without a face nothing is
-// written. `fits` is how many characters have room in so many pixels.
+// A monospaced font, by its full path, because names of fonts differ between systems. Without the font no text is
+// written. `fits` returns the number of characters that fit into a width in pixels.
 struct Face {
   std::string path;
   int fits(int width_px, int size_px) const { return static_cast<int>(width_px / (0.6021 * size_px)); }
 };
 
-// The text that can be drawn: ASCII. OpenImageIO 2.4 draws other characters as wrong ones (a degree sign as the digit
-// 0), so signs of ours are spelled out and the rest is "?". Longer text is cut, with "..." at its end.
+// Returns the text as drawable ASCII. OpenImageIO 2.4 draws other characters wrongly (a degree sign as the digit 0), so
+// known signs are spelled out and all others become "?". Text that is too long is cut and ends in "...".
 std::string drawable_text(std::string_view text, int max_chars);
 
 // Writes drawable text with the baseline's left end at (x, y). Code: render.no_font.

@@ -8,7 +8,7 @@
 
 namespace contort {
 
-// Checks the input. Codes: those of StripRenderer::render about its input.
+// Checks the input. It has the codes of StripRenderer::render for bad input.
 Result<Done> check_rows(const RowsInput& input);
 
 // Draws the rows. If text cannot be drawn, the reason is appended to `warnings`.

@@ -3,10 +3,10 @@
 
 namespace contort::shaders {
 
-// A software rasterizer runs both sides of every branch, so what differs in kind is a program of its own.
+// A software rasterizer runs both sides of every branch, so different kinds of surfaces have separate programs.
 
-// Everything with triangles. `rim` is how much of a translucent surface stays where one looks at it squarely (1: all).
-// Each pow() is felt: the highlight is a 16th power by squaring, and gamma is 2.
+// The program for all triangles. `rim` is the opacity of a translucent surface that faces the camera (1: opaque). pow()
+// is slow here, so the highlight's 16th power is made by squaring, and gamma is 2.
 inline constexpr char kSolidVertex[] = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -45,7 +45,7 @@ void main() {
 }
 )";
 
-// The colour as it is.
+// The program that draws the plain colour.
 inline constexpr char kFlatVertex[] = R"(#version 330 core
 layout(location = 0) in vec3 position;
 uniform mat4 clip_from_world;
@@ -59,7 +59,7 @@ out vec4 pixel;
 void main() { pixel = color; }
 )";
 
-// One triangle that covers the picture, shaded from `bottom` to `top`.
+// The sky: one triangle that covers the picture, shaded from `bottom` to `top`.
 inline constexpr char kBackgroundVertex[] = R"(#version 330 core
 out float height;
 void main() {
@@ -90,9 +90,10 @@ void main() {
 }
 )";
 
-// Ground, of two kinds, after one of the two lines below: a line each metre, fainter ones each 25 cm, all fading toward
-// `reach`. Shaped ground comes through kSolidVertex: shaded, less translucent, darker on risers, and with the shadow from
-// the map; level ground is left as flat as it is, its shadows are drawn onto it. `show` 0 draws nothing but depth.
+// The two programs for ground, which begin with one of the two lines below. Both draw a line each metre and fainter
+// ones each 25 cm, which fade toward `reach`. Shaped ground uses the vertex program kSolidVertex; it is shaded, less
+// translucent, darker on risers, and has the shadows of the shadow map. Level ground is not shaded, and shadows are
+// drawn onto it separately. With `show` 0 only depth is drawn.
 inline constexpr char kLevel[] = "#version 330 core\n";
 inline constexpr char kShaped[] = "#version 330 core\n#define SHAPED\n";
 inline constexpr char kGroundFragment[] = R"(
@@ -127,7 +128,8 @@ float shadow(vec3 n) {
 
 vec4 ground(float line) {
   vec3 n = normalize(facing);
-  float slant = 1.0 - smoothstep(0.0, 0.5, n.y);  // 1 on a riser, which a line along it would paint as a whole
+  float slant = 1.0 - smoothstep(0.0, 0.5, n.y);  // 1 on a riser, where no lines are drawn: a line along the riser
+                                                  // would cover all of it
   float light = 0.62 + 0.5 * max(dot(n, to_light), 0.0) - 0.3 * slant;
   vec3 surface = mix(sqrt(color.rgb) * light, vec3(0.24, 0.29, 0.36), clamp(line * 1.6, 0.0, 1.0) * (1.0 - slant));
   return vec4(mix(surface, vec3(0.05, 0.07, 0.10), 0.3 * shadow(n)), color.a);

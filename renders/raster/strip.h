@@ -27,19 +27,20 @@ struct StripInput {
   const Motion& motion;              // A motion of this character.
   const Finding* finding = nullptr;  // Null: frames are evenly spaced and nothing is highlighted.
   std::string title{};               // "" for the finding's check and subject.
-  std::string note{};                // Stands out after the line of figures; "" for none.
-  std::string replay_command{};      // Goes into the PNG as "Comment".
+  std::string note{};                // Shown prominently after the line of numbers; "" for none.
+  std::string replay_command{};      // Stored in the PNG as "Comment".
   int tile_width = 320;              // Pixels, with the caption; in [96, 2048].
   int tile_height = 240;
   int columns = 4;                // In [1, 16].
   int tiles = 8;                  // In [1, 64]; fewer are drawn when the motion has fewer frames.
-  const Motion* ghost = nullptr;  // Drawn translucent behind, frame by frame: the motion that was aimed for.
+  const Motion* ghost = nullptr;  // The target motion, drawn translucent behind the figure, frame by frame.
   std::string font = kStripFont;
   const Environment* environment = nullptr;  // Null: a level plane at height 0.
   const DynamicsDesc* dynamics = nullptr;    // The spec's dynamics: its loads are drawn. Null: none.
   std::vector<int> frames{};                 // Empty: `tiles` of them are chosen.
-  std::optional<double> azimuth_rad{};       // The direction of view, see View. None: from where most is seen.
-  bool colliders = false;                    // Drawn as wires around the figure.
+  std::optional<double> azimuth_rad{};       // The direction of view, see View. Empty: the view that shows most of the
+                                             // highlight.
+  bool colliders = false;                    // true: colliders are drawn as wires around the figure.
   const Skin* skin = nullptr;                // Drawn instead of the parts' meshes.
 };
 
@@ -63,12 +64,14 @@ struct RowsInput {
 
 struct StripDone {
   std::vector<int> frames;      // The frames on the tiles.
-  int visible_pixels = 0;       // Pixels of the highlight at the worst frame. 0: it only shines through, if at all.
-  std::vector<StripTile> tiles; // of render: from where each is seen, and where it is in the picture
+  int visible_pixels = 0;       // Pixels of the highlight at the worst frame. 0: it is hidden, or visible only through
+                                // other pieces.
+  std::vector<StripTile> tiles; // filled by render(): the camera of each tile, and its place in the picture
   std::vector<Issue> warnings;  // render.no_font: the picture was written, without text.
 };
 
-// Draws many strips with one OpenGL context, which costs about as much as a strip. Belongs to one thread at a time.
+// Draws many strips with one OpenGL context, because making a context takes about as long as drawing a strip. Only one
+// thread at a time may use it.
 class StripRenderer {
  public:
   // Creates a renderer. Code: render.no_opengl, and others of Renderer::create.
@@ -77,10 +80,10 @@ class StripRenderer {
   ~StripRenderer();
 
   // Writes one PNG: a header, and a tile per frame. All tiles have one camera, chosen to show the highlight at the
-  // worst frame; it moves along only with a figure that travels. Equal input, Mesa and font version: equal bytes.
-  // With a path for it, the finding's half second as an animated WebP too: one tile, from the same side, at half speed.
-  // Codes: render.no_frames, render.wrong_motion, render.bad_frame, render.bad_size, render.png, render.webp,
-  // render.gl_error, file.unwritable.
+  // worst frame; it moves along only with a figure that travels. Equal input, Mesa and font version: equal bytes. If a
+  // path for it is given, it also writes the finding's half second as an animated WebP: one tile, from the same side,
+  // at half speed. Codes: render.no_frames, render.wrong_motion, render.bad_frame, render.bad_size, render.png,
+  // render.webp, render.gl_error, file.unwritable.
   Result<StripDone> render(const StripInput& input, const std::string& png_path, const std::string& webp_path = "");
 
   // Draws only the finding's worst frame, as a strip of one tile: a tile of a contact sheet. The codes of render().

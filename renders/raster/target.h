@@ -17,7 +17,7 @@ class Target {
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 
-  // Makes it the target of drawing, in this size. Codes: render.bad_size, render.framebuffer.
+  // Makes this the target of drawing, in this size. Codes: render.bad_size, render.framebuffer.
   Result<Done> use(int width, int height);
 
   // Returns RGBA, 4 bytes per pixel, rows from the bottom (as in OpenGL).

@@ -1,10 +1,12 @@
 // Checks of clips: each has an exemplar just inside its limit and one just outside. And what could not judge a clip.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
 #include "checks/judge_clip.h"
+#include "tests/checks/clip_legs.h"
 
 namespace contort {
 namespace {
@@ -13,6 +15,7 @@ struct ShownClip {
   Asset asset;
   bool is_loop = false;
   std::optional<double> max_gap_m;
+  std::vector<ClipFoot> feet{};
 };
 
 // Three joints above each other, 0.3 m apart, of which the last has a channel.
@@ -108,17 +111,35 @@ ShownClip of_length(double inside) {
   return shown;
 }
 
+// The left leg is moved by its hip from 1 s to 2 s, and stays there.
+ShownClip with_leg_moved(const Vec3& way) {
+  ShownClip shown{fixtures::person_on_legs(), false, {}, fixtures::kTwoFeet};
+  AssetClip clip;
+  const auto place = [&](double t_s) { return std::min(std::max(t_s - 1.0, 0.0), 1.0) * way; };
+  fixtures::move_node(shown.asset, fixtures::kLeftThigh, place, clip);
+  shown.asset.clips.push_back(clip);
+  return shown;
+}
+
+// A quarter of the leg's length is allowed.
+ShownClip with_slide(double inside) { return with_leg_moved({0.25 * fixtures::kLegLength - inside, 0.0, 0.0}); }
+
+// Six hundredths of it are.
+ShownClip with_sunken_foot(double inside) { return with_leg_moved({0.0, -0.06 * fixtures::kLegLength + inside, 0.0}); }
+
 const std::map<std::string, std::function<ShownClip(double)>>& clip_exemplars() {
   static const std::map<std::string, std::function<ShownClip(double)>> all = {
       {"loop_seam", gaping},    {"part_gap", pulled_out}, {"translation_pop", out_of_place},
-      {"scale_pop", blown_up}, {"jitter", shaking},      {"bind_pose_flash", flashing}, {"quaternion_length", of_length}};
+      {"scale_pop", blown_up}, {"jitter", shaking},      {"bind_pose_flash", flashing}, {"quaternion_length", of_length},
+      {"foot_slide", with_slide}, {"ground_penetration", with_sunken_foot}};
   return all;
 }
 
 ClipEvaluation judged_clip(const ShownClip& shown) {
   const CheckSettings settings;
-  return judge_clip({shown.asset, shown.asset.clips[0], settings, shown.is_loop, shown.max_gap_m}, {100.0, {}, {}},
-                    nullptr);
+  const std::vector<ClipFoot>* feet = shown.feet.empty() ? nullptr : &shown.feet;
+  return judge_clip({shown.asset, shown.asset.clips[0], settings, shown.is_loop, shown.max_gap_m, feet},
+                    {100.0, {}, {}}, nullptr);
 }
 
 std::string reason_for(const std::vector<NotJudged>& not_judged, const std::string& check) {

@@ -1,10 +1,12 @@
 // Checks of generators that are programs of their own: each has a motion just inside its limit and one just outside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "checks/judge.h"
 #include "model/core/math.h"
+#include "model/motion/kinematics.h"
 #include "tests/checks/small_character.h"
 
 namespace contort {
@@ -70,6 +72,61 @@ Execution rising(double room) {
   return made;
 }
 
+constexpr int kPopFrame = 6;  // of twelve
+
+// Rest, but from one frame on the root is higher, or turned, and stays so.
+Execution root_elsewhere(double up_m, double turn_rad) {
+  Execution made = resting();
+  Motion& motion = made.motion;
+  const std::vector<double> row(motion.row(0).begin(), motion.row(0).end());
+  for (; motion.frame_count < 12; ++motion.frame_count) {
+    motion.root.push_back(made.character->rest_root());
+    motion.coords.insert(motion.coords.end(), row.begin(), row.end());
+  }
+  for (int frame = kPopFrame; frame < 12; ++frame) {
+    Rigid& root = motion.root[static_cast<std::size_t>(frame)];
+    root.p_m.y += up_m;
+    root.q = axis_angle(Vec3(0, 1, 0), turn_rad) * root.q;
+  }
+  made.foreign->quaternion_lengths.assign(12 * made.character->joints().size(), 1.0);
+  made.foreign->off_axis_rad.assign(12 * made.character->joints().size(), 0.0);
+  return made;
+}
+
+// A twentieth of the figure's size.
+Execution root_raised(double room) {
+  const Character character = small::build();
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, character.rest_root(), character.rest_coords(), world);
+  Vec3 low = world[0].p_m, high = low;
+  for (const Rigid& joint : world) low = glm::min(low, joint.p_m), high = glm::max(high, joint.p_m);
+  const Vec3 size = high - low;
+  return root_elsewhere(0.05 * std::max({0.2, size.x, size.y, size.z}) - room, 0.0);
+}
+
+// The right arm must lift half as far as the left one, and a degree more.
+Execution not_following(double room) {
+  Execution made = resting();
+  const int left = made.character->find_joint("arm_left/lift"), right = made.character->find_joint("arm_right/lift");
+  made.couplings = {{right, left, 0.5, kDegree}};
+  for (int frame = 0; frame < made.motion.frame_count; ++frame) {
+    made.motion.row(frame)[static_cast<std::size_t>(made.character->joint(left).coord)] = 4.0 * kDegree;
+    made.motion.row(frame)[static_cast<std::size_t>(made.character->joint(right).coord)] = 2.0 * kDegree + room;
+  }
+  return made;
+}
+
+TEST(ForeignChecks, AFollowerThatIsReadFromARotationMayBeWholeTurnsAway) {
+  Execution made = not_following(2e-6);
+  const Joint& right = made.character->joint(made.couplings[0].joint);
+  for (int frame = 0; frame < made.motion.frame_count; ++frame)
+    made.motion.row(frame)[static_cast<std::size_t>(right.coord)] -= 2.0 * kPi;
+  const auto count = [&] { return Judge().evaluate(made, "mimic_error").findings.size(); };
+  EXPECT_EQ(count(), 1U);
+  made.couplings[0].is_of_rotation = true;
+  EXPECT_EQ(count(), 0U);
+}
+
 using ForeignExemplar = Execution (*)(double room);
 
 const std::map<std::string, ForeignExemplar>& foreign_exemplars() {
@@ -77,6 +134,8 @@ const std::map<std::string, ForeignExemplar>& foreign_exemplars() {
       {"quaternion_length", with_length},
       {"off_axis", turned_off_axis},
       {"contact_slide", rising},
+      {"root_pop", root_raised},
+      {"mimic_error", not_following},
       {"rest_error", [](double room) { return with_other(Equality::rest, kDegree, room); }},
       {"fresh_error", [](double room) { return with_other(Equality::fresh, kDegree, room); }},
       {"none_error", [](double room) { return with_other(Equality::none, kDegree, room); }},
@@ -91,7 +150,7 @@ const std::map<std::string, ForeignExemplar>& foreign_exemplars() {
 
 TEST(ForeignChecks, HaveALimitThatTheyKeep) {
   for (const CheckDef& check : all_checks()) {
-    if (check.needs != Needs::foreign) continue;
+    if (check.needs != Needs::foreign && check.needs != Needs::couplings) continue;
     const auto exemplar = foreign_exemplars().find(std::string(check.name));
     ASSERT_NE(exemplar, foreign_exemplars().end()) << check.name << " has no exemplar: add one to this file";
     EXPECT_TRUE(Judge().evaluate(exemplar->second(2e-6)).findings.empty()) << check.name;
@@ -100,6 +159,39 @@ TEST(ForeignChecks, HaveALimitThatTheyKeep) {
     EXPECT_EQ(outside.findings[0].check, check.name);
     EXPECT_NEAR(outside.findings[0].worst_margin, -2e-6, 1e-12) << check.name;
   }
+}
+
+std::vector<std::string> pops_of_root(const Execution& made) {
+  std::vector<std::string> subjects;
+  for (const Finding& finding : Judge().evaluate(made, "root_pop").findings) subjects.push_back(finding.subject);
+  return subjects;
+}
+
+TEST(RootPop, IsATurnThatTheDeclaredSpeedDoesNotAllow) {
+  Execution made = root_elsewhere(0.0, 0.3);
+  EXPECT_TRUE(pops_of_root(root_elsewhere(0.0, 0.2)).empty());
+  made.foreign->root_max_speed_rad_s = 0.29 * made.motion.rate_hz;
+  EXPECT_EQ(pops_of_root(made), std::vector<std::string>{"root rotation"});
+  made.foreign->root_max_speed_rad_s = 0.31 * made.motion.rate_hz;
+  EXPECT_TRUE(pops_of_root(made).empty());
+}
+
+TEST(RootPop, IsNoneWhereTheManifestAllowsOne) {
+  Execution made = root_elsewhere(0.5, 1.0);
+  EXPECT_EQ(pops_of_root(made).size(), 2U);
+  made.foreign->travels = {{kPopFrame - 2, kPopFrame}};
+  EXPECT_TRUE(pops_of_root(made).empty());
+  made.foreign->travels = {{0, kPopFrame - 1}};
+  EXPECT_EQ(pops_of_root(made).size(), 2U);
+  made.foreign->jumps = {kPopFrame};
+  EXPECT_TRUE(pops_of_root(made).empty());
+}
+
+TEST(RootPop, IsNoneInAWalkThatBeginsAtOnce) {
+  Execution made = root_elsewhere(0.0, 0.0);
+  for (int frame = kPopFrame; frame < 12; ++frame)
+    made.motion.root[static_cast<std::size_t>(frame)].p_m.z += 0.2 * (frame - kPopFrame + 1);
+  EXPECT_TRUE(pops_of_root(made).empty());
 }
 
 TEST(ForeignChecks, DoNotJudgeTheBuiltInGenerator) {

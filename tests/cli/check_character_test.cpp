@@ -76,6 +76,31 @@ TEST_F(CheckCharacter, APopIsReportedOnce) {
   EXPECT_EQ(pops, 1) << clip["findings"];
 }
 
+// As the leg of an engine's solver that knows no ranges: thigh, shin and foot, the shin turned against its knee.
+std::string bvh_of_a_leg(double shin_deg) {
+  std::string text =
+      "HIERARCHY\nROOT Hips\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT Thigh\n{\nOFFSET 0.1 0 0\n"
+      "CHANNELS 3 Zrotation Xrotation Yrotation\nJOINT Shin\n{\nOFFSET 0 -0.45 0.02\nCHANNELS 3 Zrotation Xrotation "
+      "Yrotation\nEnd Site\n{\nOFFSET 0 -0.45 -0.02\n}\n}\n}\n}\nMOTION\nFrames: 12\nFrame Time: 0.0333333\n";
+  for (int frame = 0; frame < 12; ++frame) text += "0 0 0 0 0 0 0 " + std::to_string(shin_deg) + " 0\n";
+  return text;
+}
+
+TEST_F(CheckCharacter, AKneeThatBendsBackwardsIsFoundInABvh) {
+  spill(folder_ / "map.json", R"({"format": "contort.map/1", "joints": {"Thigh": "leg_left/hip_rot", "Shin": "leg_left/knee"}})");
+  const auto checked = [&](double shin_deg, bool has_character) {
+    spill(folder_ / "leg.bvh", bvh_of_a_leg(shin_deg));
+    std::vector<std::string> arguments = {"check", folder_ / "leg.bvh", "--unit", "m"};
+    if (has_character) arguments.insert(arguments.end(), {"--character", "human", "--map", folder_ / "map.json"});
+    return contort_program(arguments);
+  };
+  const Ran backwards = checked(-33.0, true);
+  EXPECT_EQ(backwards.code, 1) << backwards.out << backwards.err;
+  EXPECT_TRUE(tells_of(backwards.out, "joint_range  leg_left/knee min")) << backwards.out;
+  EXPECT_EQ(checked(33.0, true).code, 0) << "as knees bend";
+  EXPECT_EQ(checked(-33.0, false).code, 0) << "nothing says what the joint is";
+}
+
 TEST_F(CheckCharacter, ACharacterThatMatchesNothingIsAnError) {
   for (const char* name : {"stranger", "root"}) {
     const std::string file = folder_ / (std::string(name) + ".bvh");

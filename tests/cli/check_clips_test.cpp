@@ -71,6 +71,30 @@ TEST_F(CheckClips, AnAmcIsJudgedByItsOwnLimits) {
   EXPECT_EQ(out["clips"][0]["findings"][0]["worst_frame"], 7);
 }
 
+// How many findings of joint_range there are, and how many of them have this subject.
+std::pair<int, int> range_findings(const Ran& ran, const std::string& subject) {
+  const Json out = Json::parse(ran.out, nullptr, false);
+  std::pair<int, int> counts;
+  for (const Json& finding : out.at("clips").at(0).at("findings"))
+    if (finding.at("check") == "joint_range")
+      ++counts.first, counts.second += finding.at("subject") == subject ? 1 : 0;
+  return counts;
+}
+
+TEST_F(CheckClips, ALimitThatTheCharacterHasFromTheFileIsJudgedOnce) {
+  const std::string asf = file("tiny.asf", small_asf()), library = folder_ / "people";
+  const std::string amc = file("tiny_01.amc", small_amc());
+  ASSERT_EQ(contort_program({"import", asf, "-o", library}).code, 0);
+  const std::vector<std::string> call = {"--library", library, "check", amc, "--character", "tiny", "--json"};
+  EXPECT_EQ(range_findings(contort_program(call), "hand ry max"), std::pair(3, 1));
+  const std::string of_file = "\"high_deg\": 45.0", part = library + "/tiny_arm.json";
+  ASSERT_TRUE(has(slurp(part), of_file));
+  spill(part, replaced(slurp(part), of_file, "\"high_deg\": 40.0"));
+  const Ran narrower = contort_program(call);
+  EXPECT_EQ(range_findings(narrower, "hand ry max"), std::pair(4, 1)) << narrower.err << narrower.out;
+  EXPECT_EQ(range_findings(narrower, "arm/hand_ry max").second, 1) << "that limit is the character's own now";
+}
+
 TEST_F(CheckClips, TheSkeletonIsTheOneNamedMostAlike) {
   const std::string amc = file("07_01.amc", small_amc());
   Ran ran = contort_program({"check", amc});
@@ -134,13 +158,13 @@ TEST_F(CheckClips, AllClipsAreOneLineEachWorstFirst) {
   const Ran ran = contort_program({"check", folder_.path(), "--all-clips", "--allow-unreadable"});
   EXPECT_EQ(ran.code, 1) << ran.err;
   const std::vector<std::string> lines = lines_of(ran.out);
-  ASSERT_EQ(lines.size(), 14U) << ran.out;
+  ASSERT_EQ(lines.size(), 16U) << ran.out;
   EXPECT_TRUE(has(lines[0], "wild.BVH: clip wild: findings 1, pops 0, peak 5000.0 deg/s at arm, ")) << lines[0];
   EXPECT_TRUE(has(lines[1], "a.bvh: clip a: findings 0")) << lines[1];
   EXPECT_TRUE(has(lines[2], "calm.bvh: clip calm: findings 0")) << lines[2];
   EXPECT_TRUE(has(lines[3], "broken.bvh: unreadable: bvh.bad_syntax at line 1: ")) << lines[3];
   EXPECT_EQ(lines[4], "Judged: 5 checks on 1 channel, in 3 motions");
-  EXPECT_EQ(lines[13], "RESULT findings=1 clips=3 files=4 unreadable=1");
+  EXPECT_EQ(lines[15], "RESULT findings=1 clips=3 files=4 unreadable=1");
   EXPECT_TRUE(has(ran.err, "clips per second")) << ran.err;
   EXPECT_FALSE(has(ran.out, "clips per second"));
 }

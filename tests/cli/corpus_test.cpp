@@ -81,28 +81,47 @@ TEST_F(StoredCorpus, EveryCommandHasHelpWithAnExample) {
 TEST_F(StoredCorpus, ListShowsWhatIsAskedFor) {
   ASSERT_EQ(corpus("ack", {left().id, "--owner", "ana", "--ticket", "12"}).code, 0);
   const auto shown = [&](const std::vector<std::string>& filters) { return last_line(corpus("list", filters).out); };
-  EXPECT_EQ(shown({}), "2 buckets, 1 gating");
-  EXPECT_EQ(shown({"--state", "open"}), "1 buckets, 0 gating");
-  EXPECT_EQ(shown({"--state", "open", "--state", "new"}), "2 buckets, 1 gating");
-  EXPECT_EQ(shown({"--state", "fixed"}), "0 buckets, 0 gating");
-  EXPECT_EQ(shown({"--check", "joint_range", "--character", "human"}), "2 buckets, 1 gating");
-  EXPECT_EQ(shown({"--check", "pop"}), "0 buckets, 0 gating");
-  EXPECT_EQ(shown({"--character", "mech"}), "0 buckets, 0 gating");
+  const char* both = "2 failures of 1 cause, 1 fails a build";
+  EXPECT_EQ(shown({}), both);
+  EXPECT_EQ(shown({"--state", "open"}), "1 failure of 1 cause, 0 fail a build");
+  EXPECT_EQ(shown({"--state", "open", "--state", "new"}), both);
+  EXPECT_EQ(shown({"--state", "fixed"}), "0 failures of 0 causes, 0 fail a build");
+  EXPECT_EQ(shown({"--check", "joint_range", "--character", "human"}), both);
+  EXPECT_EQ(shown({"--check", "pop"}), "0 failures of 0 causes, 0 fail a build");
+  EXPECT_EQ(shown({"--character", "mech"}), "0 failures of 0 causes, 0 fail a build");
   EXPECT_EQ(corpus("list", {"--state", "odd"}).code, 2);
   const Json list = Json::parse(corpus("list", {"--json"}).out, nullptr, false);
   ASSERT_EQ(list.size(), 2U);
   for (const Json& entry : list) EXPECT_EQ(entry["gating"], entry["id"] != left().id);
 }
 
+TEST_F(StoredCorpus, ListNamesTheCauseOfEachFailure) {
+  const std::string text = corpus("list").out;
+  const std::string cause = Json::parse(corpus("list", {"--json"}).out).at(0).at("cause").get<std::string>();
+  EXPECT_TRUE(text.starts_with("1. ") && says(text, "leaves its range") && says(text, "\n    cause " + cause + "\n"));
+  EXPECT_TRUE(says(text, left().id + "  joint_range of " + kElbow + ", human, fails a build\n")) << text;
+  EXPECT_TRUE(says(corpus("show", {left().id}).out, cause + ": "));
+}
+
+TEST_F(StoredCorpus, ListTellsFixedFailuresAndUnreadableOnesApart) {
+  const Bucket unread = left(), right = buckets()[buckets()[0].id == unread.id ? 1 : 0];
+  spill(corpus_.folder_of(unread) + "/" + unread.min, "not a case");
+  ASSERT_TRUE(corpus_.change(right, [](Bucket old) { return old.state = BucketState::fixed, Result(old); }));
+  const std::string text = corpus("list").out;
+  EXPECT_TRUE(says(text, "Failures whose smallest case cannot be read:\n    new ")) << text;
+  EXPECT_TRUE(says(text, "Fixed failures:\n    fixed        " + right.id)) << text;
+  EXPECT_EQ(last_line(text), "2 failures of 0 causes, 1 fails a build");
+}
+
 TEST_F(StoredCorpus, SidesCanBeFolded) {
   const Ran folded = corpus("list", {"--fold-sides"});
   const std::vector<std::string> lines = lines_of(folded.out);
-  ASSERT_EQ(lines.size(), 2U) << folded.out;
+  ASSERT_EQ(lines.size(), 4U) << folded.out;
   const std::string first = buckets()[0].id, second = buckets()[1].id;
-  EXPECT_TRUE(says(lines[0], "new          " + first)) << lines[0];
-  EXPECT_TRUE(lines[0].ends_with("  other side: " + second + " GATES")) << lines[0];
-  EXPECT_EQ(lines[1], "2 buckets, 2 gating");
-  EXPECT_EQ(lines_of(corpus("list").out).size(), 3U);
+  EXPECT_TRUE(says(lines[2], "new          " + first)) << lines[2];
+  EXPECT_TRUE(lines[2].ends_with("  other side: " + second + ", fails a build")) << lines[2];
+  EXPECT_EQ(lines[3], "2 failures of 1 cause, 2 fail a build");
+  EXPECT_EQ(lines_of(corpus("list").out).size(), 5U);
   EXPECT_EQ(corpus("list", {"--fold-sides", "--json"}).code, 2);
 }
 

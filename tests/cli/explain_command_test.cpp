@@ -82,6 +82,19 @@ TEST_F(ExplainCommand, ACheckAgainstRulesMakesNoMotionAndSaysWhatIsKnown) {
   EXPECT_TRUE(nlohmann::json::parse(fine.out)["known"].empty());
 }
 
+TEST_F(ExplainCommand, TakesEveryIdThatCausesPrints) {
+  store(kBent);
+  const nlohmann::json causes = nlohmann::json::parse(contort_program({"causes", folder_ / "c", "--json"}).out);
+  const nlohmann::json& cause = causes.at("causes").at(0);
+  for (const nlohmann::json& of : {cause, cause.at("buckets").at(0)}) {
+    const std::string id = of.at("id").get<std::string>();
+    const Ran told = contort_program({"explain", folder_ / "c", "--stored", "--cause", id});
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_TRUE(told.out.ends_with("RESULT causes=1 with_rule=0\n")) << told.out;
+    EXPECT_EQ(contort_program({"corpus", "note", folder_ / "c", "--cause", id, "--text", "seen"}).code, 0);
+  }
+}
+
 TEST_F(ExplainCommand, RefusesWhatItCannotUse) {
   EXPECT_EQ(contort_program({"explain", folder_ / "nowhere"}).code, 2);
   store(kBent);

@@ -1,6 +1,7 @@
 // Programs under test as a user has them: contort generator check, and --generator with every command.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -15,7 +16,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string script(const std::string& name) { return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + name + ".py"; }
+// A broken program, with its arguments: "moods crash".
+std::string script(const std::string& words) {
+  const std::size_t end = std::min(words.find(' '), words.size());
+  return "/usr/bin/python3 " CONTORT_SOURCE_DIR "/tests/guest/broken/" + words.substr(0, end) + ".py" + words.substr(end);
+}
 
 // The lines about faults and the notes, without what is in order.
 std::string remarks_of(const std::string& out) {
@@ -34,6 +39,15 @@ TEST(GeneratorCheck, FindsNothingWrongWithAGoodProgram) {
       << ran.out;
   EXPECT_NE(ran.out.find("determinism: The same request gives the same bits"), std::string::npos);
   EXPECT_NE(ran.out.find("not judged: self_collision: no two bodies are judged as a pair"), std::string::npos);
+}
+
+TEST(GeneratorCheck, SaysWhichJointsFollowOthers) {
+  const std::string follows = "  wrist follows elbow: 0.5 times its angle from rest, plus 0 degrees\n";
+  const Ran good = contort_program({"generator", "check", script("follower 0.5")});
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  EXPECT_NE(good.out.find(follows), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("mimic_error"), std::string::npos) << good.out;
+  EXPECT_EQ(remarks_of(good.out), "");
 }
 
 // The same reason is told once, with the number of motions.
@@ -77,6 +91,11 @@ TEST(GeneratorCheck, TellsEachWayToBreakThePromisesInOneRightSentence) {
   }
 }
 
+TEST(GeneratorCheck, DoesNotSayTwiceThatTheGeneratorRefuses) {
+  const std::string out = contort_program({"generator", "check", script("refuses")}).out;
+  EXPECT_NE(out.find("but the generator refuses it: the angle is too large\n"), std::string::npos) << out;
+}
+
 class ProgramUnderTest : public testing::Test {
  protected:
   Ran fuzz(const std::string& name, const std::vector<std::string>& more) {
@@ -101,6 +120,14 @@ TEST_F(ProgramUnderTest, IsCleanWhereItKeepsItsPromises) {
   EXPECT_EQ(ran.err, "");
 }
 
+TEST_F(ProgramUnderTest, WhoseJointDoesNotFollowItsLeaderIsFound) {
+  const Ran ran = fuzz("follower 0.9", {"--cases", "60"});
+  EXPECT_EQ(ran.code, 1) << ran.out << ran.err;
+  const std::vector<Json> cases = minimal_cases();
+  ASSERT_FALSE(cases.empty());
+  for (const Json& found : cases) EXPECT_EQ(found["expect"]["check"], "mimic_error") << found["expect"];
+}
+
 TEST_F(ProgramUnderTest, ThatCrashesIsFoundWithItsLastWords) {
   EXPECT_EQ(fuzz("crash", {"--cases", "60"}).code, 1);
   const std::vector<Json> cases = minimal_cases();
@@ -120,6 +147,29 @@ TEST_F(ProgramUnderTest, ThatHangsIsFoundAndLeavesNothingBehind) {
   const std::vector<Json> cases = minimal_cases();
   ASSERT_FALSE(cases.empty());
   EXPECT_EQ(cases[0]["expect"]["check"], "timeout");
+}
+
+TEST_F(ProgramUnderTest, ThatRefusesMotionsSaysWhyInTheSummaryAndOnThePage) {
+  const Ran ran = fuzz("refuses", {"--cases", "400", "--report", folder_ / "report", "--gl", "none"});
+  EXPECT_EQ(ran.code, 4) << ran.out << ran.err;
+  EXPECT_NE(ran.out.find(" of 400 motions: the angle is too large\n"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(" of 400 motions: there are too many swings\n"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.out.find("100 % of 400 cases"), std::string::npos) << "what was refused is not clean: " << ran.out;
+  EXPECT_LE(lines_of(ran.out).size(), 40U);
+  const std::string page = slurp(folder_ / "report/index.html");
+  EXPECT_NE(page.find(" of 400 motions: the angle is too large</li>"), std::string::npos);
+  int refused = 0;
+  const Json report = Json::parse(slurp(folder_ / "report/report.json"));
+  for (const Json& reason : report["refusals"]) refused += reason["cases"].get<int>();
+  const std::string last = "contort: the generator refused " + std::to_string(refused) + " of 400 requests";
+  EXPECT_NE(ran.err.find(last), std::string::npos) << ran.err;
+}
+
+TEST_F(ProgramUnderTest, ThatRefusesEverythingWasNotTested) {
+  const Ran ran = fuzz("moods refuse_all", {"--cases", "40", "--report", folder_ / "report", "--gl", "none"});
+  EXPECT_EQ(ran.code, 4) << ran.out << ran.err;
+  EXPECT_NE(ran.out.find("The generator refused every case, so that nothing was judged.\n"), std::string::npos) << ran.out;
+  EXPECT_NE(slurp(folder_ / "report/index.html").find("<h1>Nothing was tested</h1>"), std::string::npos);
 }
 
 TEST_F(ProgramUnderTest, IsReplayedReportedAndRefusedForAnotherOne) {
@@ -155,6 +205,81 @@ TEST_F(ProgramUnderTest, IsComparedWithAnother) {
   const Ran sides = contort_program({"replay", corpus(), "--generator", script("nan"), "--against", script("good")});
   EXPECT_NE(sides.out.find("against: passes"), std::string::npos) << sides.out << sides.err;
   EXPECT_NE(sides.out.find("first difference at frame"), std::string::npos) << sides.out;
+}
+
+// The rows of an audit by action.
+std::map<std::string, Json> audited(const std::string& mood, const std::vector<std::string>& more, int code) {
+  std::vector<std::string> arguments = {"audit", "--generator", script("moods " + mood), "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Ran ran = contort_program(arguments);
+  EXPECT_EQ(ran.code, code) << ran.out << ran.err;
+  std::map<std::string, Json> rows;
+  for (const Json& row : Json::parse(ran.out)) rows[row["action"]] = row;
+  return rows;
+}
+
+TEST(AuditOfAProgram, CountsEachMotionInWhichItEndsAndGoesOn) {
+  const std::map<std::string, Json> rows = audited("crash_above", {"--draws", "40", "--jobs", "2"}, 1);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows.at("swing")["clean"], 40);
+  const Json& sulk = rows.at("sulk");
+  EXPECT_EQ(sulk["draws"], 40);
+  EXPECT_GT(sulk["clean"], 5);
+  EXPECT_GT(sulk["findings"]["crash"], 5);
+  EXPECT_EQ(sulk["clean"].get<int>() + sulk["findings"]["crash"].get<int>(), 40);
+  EXPECT_EQ(sulk["endings"]["crash"].get<std::string>().find(
+                "the program ended: exit 1; it printed: moods: nobody sulks at "), 0U) << sulk;
+  EXPECT_EQ(audited("crash_above", {"--draws", "40", "--jobs", "1"}, 1), rows);
+}
+
+TEST(AuditOfAProgram, StopsARowInWhichItIsTooOftenTooLate) {
+  const std::map<std::string, Json> rows =
+      audited("hang", {"--draws", "30", "--jobs", "2", "--case-timeout", "0.3"}, 1);
+  EXPECT_EQ(rows.at("swing")["clean"], 30);
+  EXPECT_EQ(rows.at("sulk")["draws"], 8);
+  EXPECT_EQ(rows.at("sulk")["findings"]["timeout"], 8);
+}
+
+TEST(AuditOfAProgram, CountsRefusedMotionsByTheirReason) {
+  const std::map<std::string, Json> rows = audited("refuse", {"--draws", "20"}, 4);
+  const Json& sulk = rows.at("sulk");
+  EXPECT_EQ(sulk["refused"], 20);
+  EXPECT_EQ(sulk["clean"], 0);
+  ASSERT_EQ(sulk["refusals"].size(), 1U) << "numbers make no other reason: " << sulk;
+  EXPECT_EQ(sulk["refusals"].begin().value(), 20);
+}
+
+TEST_F(ProgramUnderTest, ThatEndsInMostDrawsCannotBeExplainedAndSaysSo) {
+  ASSERT_EQ(fuzz("lying_speed", {"--cases", "20"}).code, 1);
+  const Ran ran = contort_program({"explain", corpus(), "--generator", script("moods leave"), "--draws", "60"});
+  EXPECT_EQ(ran.code, 4) << ran.out << ran.err;
+  EXPECT_NE(ran.err.find("explain.program_ended: cause "), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("because the generator makes no motion of 60 of 60 requests like the minimal case: the program "
+                         "ended: exit 5"), std::string::npos) << ran.err;
+  EXPECT_TRUE(ran.out.find("with_rule=0\n") != std::string::npos) << ran.out;
+}
+
+TEST_F(ProgramUnderTest, ThatEndsIsToldByEveryCommandInOneSentence) {
+  ASSERT_EQ(fuzz("moods crash", {"--cases", "12"}).code, 1);
+  const std::string mood = script("moods crash");
+  std::string found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus() + "/buckets"))
+    if (entry.path().filename().string().starts_with("min-")) found = entry.path().string();
+  ASSERT_FALSE(found.empty());
+  const std::string sentence = "the program ended: exit 1; it printed: moods: nobody sulks at ";
+  const Ran checked = contort_program({"check", found, "--generator", mood});
+  EXPECT_EQ(checked.code, 1);
+  EXPECT_EQ(checked.out.find("crash  " + sentence), 0U) << checked.out << checked.err;
+  EXPECT_EQ(last_line(checked.out), "RESULT findings=1");
+  const Ran json = contort_program({"check", found, "--generator", mood, "--json"});
+  EXPECT_EQ(Json::parse(json.out)["findings"][0]["check"], "crash");
+  const Ran generated = contort_program({"generate", found, "--generator", mood, "-o", folder_ / "x.json"});
+  EXPECT_EQ(generated.code, 1);
+  EXPECT_NE(generated.err.find("generator.ended: "), std::string::npos) << generated.err;
+  EXPECT_NE(generated.err.find(sentence), std::string::npos) << generated.err;
+  EXPECT_EQ(contort_program({"replay", found, "--generator", mood}).code, 1);
+  const Ran sides = contort_program({"replay", found, "--generator", mood, "--against", script("moods none")});
+  EXPECT_NE(sides.out.find("against: passes"), std::string::npos) << sides.out << sides.err;
 }
 
 TEST_F(ProgramUnderTest, IsNoProgramForSpecsOfTheBuiltInOne) {

@@ -61,6 +61,28 @@ TEST_F(ImportCommand, IsNotMixedIntoOtherPeoplesFiles) {
   EXPECT_EQ(contort_program({"import", path, "-o", folder_.path()}).code, 0) << "beside the model itself";
 }
 
+TEST_F(ImportCommand, UsesTheSrdfBesideAUrdfUnlessItIsTold) {
+  const std::string urdf = folder_ / "arm.urdf";
+  spill(urdf, R"(<robot name="arm"><link name="a"/></robot>)");
+  spill(folder_ / "arm.srdf", R"(<robot name="arm"/>)");
+  const auto imported = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> call = {"import", urdf, "-o", library(), "--force", "--json"};
+    call.insert(call.end(), more.begin(), more.end());
+    const Ran ran = contort_program(call);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return nlohmann::json::parse(ran.out);
+  };
+  EXPECT_EQ(imported({}).at("srdf"), folder_ / "arm.srdf");
+  EXPECT_NE(slurp(library() + "/arm.import.md").find("0 disabled pairs from arm.srdf"), std::string::npos);
+  EXPECT_TRUE(imported({"--srdf", "none"}).at("srdf").is_null());
+  spill(folder_ / "second.srdf", R"(<robot name="arm"><passive_joint name="j"/></robot>)");
+  EXPECT_EQ(imported({"--srdf", folder_ / "second.srdf"}).at("srdf"), folder_ / "second.srdf");
+  const Ran several = contort_program({"import", urdf, "-o", library(), "--force"});
+  EXPECT_EQ(several.code, 2);
+  EXPECT_NE(several.err.find("srdf.several"), std::string::npos) << several.err;
+  EXPECT_NE(several.err.find("--srdf FILE chooses one"), std::string::npos) << several.err;
+}
+
 TEST_F(ImportCommand, TakesTheModelAlongForPictures) {
   const std::string path = model(fixtures::rigged(fixtures::person()));
   ASSERT_EQ(contort_program({"import", path, "-o", library()}).code, 0);

@@ -136,7 +136,8 @@ TEST_F(Usage, AFileOfAnotherKindIsCalledThat) {
   expect_refused({"check", file("c.json", R"({"asset": {"version": "2.0"}})")}, 2, "c.json holds no animation");
   expect_refused({"check", file("d.urdf", "<robot name=\"a\"/>")}, 2, "d.urdf is a robot in URDF");
   expect_refused({"check", file("e.npz", "import numpy")}, 2, "e.npz is named like NumPy arrays (NPZ)");
-  expect_refused({"check", file("f.csv", "t,x\n0,1\n")}, 2, "f.csv is a table of numbers (CSV)");
+  expect_refused({"check", file("f.csv", "t,x\n0,1\n")}, 2, "f.csv has values of joints without a skeleton; --character");
+  expect_refused({"replay", file("f.csv", "t,x\n0,1\n")}, 2, "f.csv is a table of numbers (CSV)");
   const std::string lfs = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
   for (const char* name : {"g.bvh", "g.glb", "g.vrm", "g.amc", "g.fbx"})
     expect_refused({"check", file(name, lfs)}, 2, "run git lfs pull");

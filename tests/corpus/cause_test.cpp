@@ -39,7 +39,7 @@ TEST(Cause, HeadlinesAreSentences) {
   impact.is_simulated = true;
   EXPECT_EQ(cause_headline(impact, "balance", "figure"), "Figure loses balance after an impact, simulated");
   EXPECT_EQ(cause_headline(cause_by(CauseScope::alone, {"walk"}), "residue", "leg_left"),
-            "Left leg does not come back during walk");
+            "Left leg does not return to its earlier posture during walk");
   EXPECT_EQ(cause_headline(cause_by(CauseScope::alone, {"walk"}), "self_collision", "hand"),
             "Hand goes through an obstacle during walk");
 }

@@ -6,6 +6,8 @@
 
 #include "generator/generate.h"
 #include "model/core/files.h"
+#include "model/geometry/distance.h"
+#include "model/motion/kinematics.h"
 #include "tests/generator/scenes_of_one.h"
 
 namespace contort {
@@ -68,6 +70,21 @@ class Played {
       }
     });
     return range;
+  }
+
+  // Between any two bodies that must not touch.
+  double least_gap_m(int frame) const {
+    std::vector<Rigid> world(character().joints().size());
+    forward_kinematics(character(), motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);
+    double least_m = 1.0;
+    for (const ColliderPair& pair : character().judged_colliders()) {
+      const auto solid = [&](int collider) {
+        const Collider& own = character().colliders()[static_cast<std::size_t>(collider)];
+        return moved(world[static_cast<std::size_t>(own.joint)], solid_of(own));
+      };
+      least_m = std::min(least_m, signed_distance(solid(pair.a), solid(pair.b), 0.1));
+    }
+    return least_m;
   }
 
   double largest_deviation_deg(int first_frame = 0) const {
@@ -154,6 +171,14 @@ TEST(Experiment, AfterABlowItKeepsItsBalanceAndReturnsWithinItsStrength) {
       EXPECT_LE(efforts[k], controlled.figure().strength_high[k] * (1 + 1e-9)) << f << " " << k;
       EXPECT_GE(efforts[k], controlled.figure().strength_low[k] * (1 + 1e-9)) << f << " " << k;
     }
+  }
+}
+
+TEST(Experiment, NoBodyGoesThroughAnother) {
+  for (const char* name : {kA, kB, kC, kD}) {
+    const Played controlled(name, Mode::dynamic, kTicks);
+    for (int f = 0; f < controlled.motion.frame_count; ++f)
+      EXPECT_GE(controlled.least_gap_m(f), 0.0) << name << " frame " << f;
   }
 }
 

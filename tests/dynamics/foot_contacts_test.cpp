@@ -35,7 +35,7 @@ struct StandingHuman {
     const TargetMotion target(figure.body, generate(stage));
     equation.begin(figure, moving_start(figure.body, target));
     plan = ContactPlan(fixtures::human(), figure, kLevelGround, lifting_feet(stage));
-    contacts.begin(figure, kLevelGround, plan, 60.0);
+    contacts.begin(figure, kLevelGround, plan, 60.0, 1.0 / 120.0);
     place();
   }
   void place() {
@@ -74,6 +74,32 @@ struct StandingHuman {
 Impact blow_on(const char* joint_name, const Vec3& impulse_N_s) {
   return {0, static_cast<int>(&fixtures::joint(fixtures::human(), joint_name) - fixtures::human().joints().data()),
           Vec3(0.0), impulse_N_s};
+}
+
+TEST(ContactPlan, SolesGoOnAtItsEndsAsTheyGoBesideThem) {
+  const Stage stage = fixtures::stage_of({});
+  Motion motion = lifting_feet(stage);
+  for (int f = 0; f < 4; ++f) motion.root[static_cast<std::size_t>(f)].p_m = Vec3(0.0, 1.0, 0.01 * f);
+  const ContactPlan plan(fixtures::human(), build_figure(fixtures::human(), stage.legs, {}), kLevelGround, motion);
+  for (const double frame : {-0.25, 0.0, 3.0, 3.25})
+    EXPECT_NEAR(plan.sole_at(frame, 0).linear.z, 0.01 * motion.rate_hz, 1e-9) << frame;
+}
+
+TEST(ContactPlan, CountsTheFramesToWhereASoleBears) {
+  const Stage stage = fixtures::stage_of({});
+  const ContactPlan plan(fixtures::human(), build_figure(fixtures::human(), stage.legs, {}), kLevelGround,
+                         lifting_feet(stage));
+  EXPECT_EQ(plan.airborne(1, 1), 0);
+  EXPECT_EQ(plan.airborne(2, 1), 1);
+  EXPECT_EQ(plan.airborne(3, 1), 2);
+}
+
+TEST(ContactPlan, ASoleThatNeverBearsIsAirborneForAllFrames) {
+  const Stage stage = fixtures::stage_of({});
+  Motion motion = lifting_feet(stage);
+  for (Rigid& root : motion.root) root.p_m.y += 1.0;
+  const ContactPlan plan(fixtures::human(), build_figure(fixtures::human(), stage.legs, {}), kLevelGround, motion);
+  for (int frame = 0; frame < 4; ++frame) EXPECT_EQ(plan.airborne(frame, 0), 4) << frame;
 }
 
 TEST(FootContacts, SolesComeAndGoAsPlanned) {
@@ -220,7 +246,7 @@ TEST(LooseMotion, AFigureInTheAirFallsWithGravityAndTouchesNothing) {
   loose.fall(human.equation, std::vector<double>(human.equation.size(), 0.0), actuation);
   EXPECT_NEAR(actuation.acceleration[1], -kGravity_m_s2, 1e-9);
   const std::vector<TouchPoint> touches = touch_points(fixtures::human(), human.figure);
-  loose.move(fixtures::human(), human.equation, touches, kLevelGround, human.momentum());
+  loose.move(fixtures::human(), human.equation, touches, {}, kLevelGround, human.momentum());
   EXPECT_NEAR(human.momentum().force.y, -human.equation.weight_N() * kContactTick_s, 1e-9);
   const Quat upright = human.equation.state.root.q;
   EXPECT_EQ(loose.footing(upright, upright), Footing::airborne);

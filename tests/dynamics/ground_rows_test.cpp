@@ -23,7 +23,7 @@ struct Leaning {
     const Motion motion = generate(stage);
     plan = ContactPlan(fixtures::human(), figure, kFlatGround, motion);
     equation.begin(figure, moving_start(figure.body, TargetMotion(figure.body, motion)));
-    contacts.begin(figure, kFlatGround, plan, 60.0);
+    contacts.begin(figure, kFlatGround, plan, 60.0, 1.0 / 120.0);
     equation.place();
     equation.find_mass();
     contacts.lead_all();

@@ -73,13 +73,14 @@ RC_GTEST_PROP(BallEnds, KeepATurnOfATickInside, ()) {
   RC_ASSERT(beyond_rad(ball, coords, turn) < 2e-3);
 }
 
-// A blow on a hind leg while the other is lifted topples the dog; the tail whips about, within its ranges.
+// A blow on the tail while a hind leg is lifted topples the dog; the tail whips about, within its ranges, also where a
+// contact turns it.
 TEST(BallEnds, HoldTheTailOfADogThatFalls) {
   Spec spec;
   spec.character.name = "quadruped";
   spec.dynamics.mode = Mode::dynamic;
   ImpactDesc blow;
-  blow.slot = "leg_hind_right", blow.impulse_N_s = Vec3(0.0, 0.0, -3.5);
+  blow.slot = "tail", blow.impulse_N_s = Vec3(19.0, 0.0, 0.0);
   spec.dynamics.impacts = {blow};
   ActionUse use;
   use.action = "reach", use.slot = "leg_hind_left";

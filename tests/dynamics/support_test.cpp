@@ -129,7 +129,7 @@ class Squat {
     Tracked out;
     std::vector<double> acceleration(state_.velocity.size());
     for (int i = 0; i < target_.last_frame() * ticks_; ++i) {
-      track(body_, target_, static_cast<double>(i) / ticks_, tick_s_, {}, state_, acceleration);
+      track(body_, target_, static_cast<double>(i) / ticks_, tick_s_, {}, state_, track_, acceleration);
       place(body_, state_.root, state_.coords, scratch_);
       std::vector<double> none(state_.velocity.size(), 0.0), forces(state_.velocity.size());
       inverse_dynamics(body_, state_.velocity, none, 0.0, scratch_, forces);
@@ -168,6 +168,7 @@ class Squat {
   int ticks_;
   double tick_s_;
   FigureState state_;
+  TrackScratch track_;
   std::vector<Rigid> world_;
   std::vector<LedSole> feet_;
   DynamicsScratch scratch_;

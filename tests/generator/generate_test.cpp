@@ -184,36 +184,73 @@ TEST(Generate, BallsStayUnitQuaternionsAndAllIsFinite) {
 }
 
 // The rule of docs/reference/timeline.md, by counting: in each layer the action that started last, of all so far, has
-// the part while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. An additive
-// may last up to half a second longer, while its part is on its way back; one that moves a leg ends when a course takes
-// the legs over.
+// the part while it lasts. Further actions, which an aim acquires, take nothing from actions of the spec. A leg goes back
+// to the course that the root follows when its own action is over or fades. An additive may last up to half a second
+// longer, while its part is on its way back; one that moves a leg ends when a course takes the legs over.
+class SpanRule {
+ public:
+  explicit SpanRule(const Stage& stage) : actions_(stage.timeline.actions) {
+    for (int start = 0; const PlannedSequence& sequence : stage.timeline.sequences)  // nothing is cut here
+      offset_.push_back(start), start += sequence.length;
+  }
+  int offset(const PlannedAction& a) const { return offset_[static_cast<std::size_t>(a.sequence)]; }
+  double starts(const PlannedAction& a) const { return offset(a) + a.start; }
+
+  bool has(const PlannedAction& a, int frame) const {
+    const PlannedAction* course = a.def->layer == Layer::ik ? course_of(a.part, frame) : nullptr;
+    if (course == nullptr) return is_last(a, frame);
+    if (a.def->spread != Spread::legs) return is_last(a, frame) && !fades(a, frame);
+    if (a.use != course->use) return false;
+    return std::ranges::none_of(actions_, [&](const PlannedAction& b) {
+      return b.further < 0 && b.part == a.part && b.def->layer == Layer::ik && b.def->spread != Spread::legs &&
+             is_last(b, frame) && !fades(b, frame);
+    });
+  }
+
+ private:
+  bool is_last(const PlannedAction& a, int frame) const {
+    if (frame < a.first_frame + offset(a) || frame > a.last_frame + offset(a)) return false;
+    return std::ranges::all_of(actions_, [&](const PlannedAction& b) {  // one that has moved already and came later
+      const bool competes = b.further < 0 && a.def->layer != Layer::additive && &a != &b && a.part == b.part &&
+                            a.def->layer == b.def->layer && starts(b) < frame;
+      return !competes ||
+             ((starts(a) > starts(b) || (starts(a) == starts(b) && &a > &b)) && starts(a) < frame);
+    });
+  }
+  bool fades(const PlannedAction& a, int frame) const { return not_blended_out(a, frame - offset(a)) < 1.0; }
+  // That of a leg or foot.
+  const PlannedAction* course_of(int part, int frame) const {
+    for (const PlannedAction& root : actions_)
+      if (root.part == 0 && root.further < 0 && root.def->spread == Spread::legs && is_last(root, frame))
+        for (const PlannedAction& a : actions_)
+          if (part != 0 && a.part == part && a.use == root.use) return &a;
+    return nullptr;
+  }
+
+  std::span<const PlannedAction> actions_;
+  std::vector<int> offset_;
+};
+
 void expect_spans_fit(const Stage& stage) {
   const Motion motion = generate(stage);
-  std::vector<int> offset;  // of each sequence on the time line: nothing is cut here
-  for (int start = 0; const PlannedSequence& sequence : stage.timeline.sequences)
-    offset.push_back(start), start += sequence.length;
-  const auto starts = [&](const PlannedAction& a) { return offset[static_cast<std::size_t>(a.sequence)] + a.start; };
+  const SpanRule rule(stage);
   for (const PlannedAction& a : stage.timeline.actions)
     for (int frame = 0; a.further < 0 && frame < motion.frame_count; ++frame) {
-      const int own = offset[static_cast<std::size_t>(a.sequence)];
-      bool has = a.first_frame + own <= frame && frame <= a.last_frame + own;
-      for (const PlannedAction& b : stage.timeline.actions)  // one that has moved already and came later
-        if (b.further < 0 && a.def->layer != Layer::additive && &a != &b && a.part == b.part &&
-            a.def->layer == b.def->layer && starts(b) < frame)
-          has = has && (starts(a) > starts(b) || (starts(a) == starts(b) && &a > &b)) && starts(a) < frame;
-      const bool may_be_taken_over = a.def->layer == Layer::additive && is_of_leg(stage.legs, a.part) &&
-                                     std::ranges::any_of(stage.timeline.actions, [&](const PlannedAction& b) {
-                                       return b.def->spread == Spread::legs && starts(a) < starts(b) && starts(b) <= frame;
-                                     });
+      const bool has = rule.has(a, frame);
+      const bool may_be_taken_over =
+          is_of_leg(stage.legs, a.part) && std::ranges::any_of(stage.timeline.actions, [&](const PlannedAction& b) {
+            return b.def->spread == Spread::legs && (a.def->layer == Layer::additive || b.further >= 0) &&
+                   rule.starts(a) < rule.starts(b) && rule.starts(b) <= frame;
+          });
       int covered = 0;
       for (const ActionSpan& span : motion.spans)
         covered += span.sequence == a.sequence && span.clip == a.clip && span.action == a.action &&
                    span.part == a.part && span.first_frame <= frame && frame <= span.last_frame;
-      const int over = frame - (a.last_frame + own);
+      const int over = frame - (a.last_frame + rule.offset(a));
       const bool may_linger = a.def->layer == Layer::additive && over > 0 && over <= 30;
       if (may_be_taken_over) {
         ASSERT_LE(covered, has || may_linger ? 1 : 0) << "action " << a.use << " frame " << frame;
-      } else if (starts(a) < frame && !may_linger) {
+      } else if (rule.starts(a) < frame && !may_linger) {
         ASSERT_EQ(covered, has ? 1 : 0) << "action " << a.use << " frame " << frame;
       }
     }

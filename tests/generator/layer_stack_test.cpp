@@ -40,7 +40,7 @@ struct Scene {
   }
   LevelPlay whole;
   Playback at_frame(int frame) const { return {timeline, history, whole, {}, kRate_hz, frame}; }
-  LayerStack::Change advance(int frame, std::size_t part = 0) { return stack.advance(at_frame(frame), part); }
+  LayerStack::Change advance(int frame, std::size_t part = 0) { return stack.advance(at_frame(frame), part, {}); }
   LayerStack::Change play_to(int frame) {
     LayerStack::Change change;
     for (int f = now; f <= frame; ++f) change = advance(f);
@@ -144,22 +144,47 @@ TEST(LayerStack, ACourseOfLegsThatFollowsLegsPlacesTheFeetAtOnceAndTheRootBlends
   Scene scene({action(kWalk, 0, 60, 10.0)});
   LayerStack foot;
   scene.advance(0);
-  foot.advance(scene.at_frame(0), 0);
+  foot.advance(scene.at_frame(0), 0, {});
   EXPECT_FALSE(places_foot(scene.at_frame(0), scene.stack.ik(), 0));
   LayerStack leg;
   scene.timeline.part_order = {0, 1};
   scene.timeline.of_part = {{0}, {0}};
-  leg.advance(scene.at_frame(0), 1);
+  leg.advance(scene.at_frame(0), 1, scene.stack.ik());
   EXPECT_TRUE(places_foot(scene.at_frame(0), leg.ik(), 1));
 
-  // A key pose has bent the leg before: then its joints blend.
+  // A key pose has bent the leg before: then it comes to the course step by step.
   Scene bent({action(kKeyPose, 0, 5), action(kWalk, 10, 60, 10.0)});
   bent.timeline.part_order = {0, 1};
   bent.timeline.of_part = {{}, {0, 1}};
   LayerStack bent_leg;
-  for (int frame = 0; frame <= 10; ++frame) bent_leg.advance(bent.at_frame(frame), 1);
+  LayerStack::Change change;
+  for (int frame = 0; frame <= 10; ++frame) change = bent_leg.advance(bent.at_frame(frame), 1, {});
   EXPECT_EQ(bent_leg.ik().action, 1);
-  EXPECT_FALSE(places_foot(bent.at_frame(10), bent_leg.ik(), 1));
+  EXPECT_TRUE(change.returns);
+}
+
+TEST(LayerStack, ALegReturnsToTheCourseOfTheRootWhenItsOwnActionEndsOrFades) {
+  for (const double fade : {0.0, 8.0}) {
+    Scene scene({action(kWalk, 0, 60), action(kReach, 10, 30, fade)});
+    scene.timeline.actions[1].use = scene.timeline.actions[0].use + 1;
+    scene.timeline.part_order = {0, 1};
+    scene.timeline.of_part = {{0}, {0, 1}};
+    LayerStack leg;
+    for (int frame = 0; frame <= 60; ++frame) {
+      const Playback playback = scene.at_frame(frame);
+      scene.stack.advance(playback, 0, {});
+      const LayerStack::Change change = leg.advance(playback, 1, scene.stack.ik());
+      EXPECT_EQ(change.returns, frame == (fade > 0.0 ? 23 : 31)) << frame;
+      EXPECT_EQ(leg.ik().action, frame > 10 && frame < (fade > 0.0 ? 23 : 31) ? 1 : 0) << frame;
+    }
+  }
+}
+
+TEST(LayerStack, ACourseThatWaitsForAFrameComesInFromItsBegin) {
+  Scene scene({action(kWalk, 0, 60), action(kWalk, 20, 60, 1.0)});
+  scene.play_to(21);
+  EXPECT_EQ(scene.stack.ik().action, 1);
+  EXPECT_EQ(come_in(scene.at_frame(21), scene.stack.ik()), 0.0);
 }
 
 TEST(AdditiveWeight, ACutAdditiveFadesOutWithinItsFadeAndInAgainWhereItGoesOn) {

@@ -100,9 +100,12 @@ TEST(Symmetry, AMovedSceneGivesTheMovedMotion) {
   EXPECT_GE(judged, kLeast);
 }
 
+bool is_course_of_legs(const std::string& action) { return find_action(action)->spread == Spread::legs; }
+
 // Starts on whole frames, so that the frames of the plain motion are every second one of the slow motion. Blends have
-// lengths of content: those that take their time take the same time at any speed. A leg that leaves a course to reach does
-// so a frame later, which is half a frame of content in the slow motion: it may find another way there.
+// lengths of content: those that take their time take the same time at any speed, and so do those of courses of legs
+// that are too short for the way. A leg that leaves a course to reach does so a frame later, which is half a frame of
+// content in the slow motion: it may find another way there.
 Spec whole_frames(std::int64_t index) {
   Spec spec = drawn(index);
   spec.interrupts.clear();
@@ -111,7 +114,10 @@ Spec whole_frames(std::int64_t index) {
     for (ClipDesc& clip : sequence.clips) {
       std::erase_if(clip.actions, [](const ActionUse& use) { return use.action == "reach" && use.slot.starts_with("leg"); });
       clip.speed = 1.0, clip.duration_frames = 0;
-      for (ActionUse& use : clip.actions) use.speed = 1.0, use.blend_in_frames = std::max(0, use.blend_in_frames);
+      for (ActionUse& use : clip.actions) {
+        use.speed = 1.0;
+        use.blend_in_frames = is_course_of_legs(use.action) ? 0 : std::max(0, use.blend_in_frames);
+      }
     }
   });
   return spec;

@@ -1,139 +1,49 @@
-// Prints one line per golden scene: name, a shape that is easy to reason about (frames, findings), and hashes. `test`
-// builds this with several compilers and optimisation levels, runs it as on several CPUs, and compares with
-// expected.txt.
-#include <cmath>
+// Prints the golden hashes. `test` builds this with several compilers and optimisation levels, runs it as on several
+// CPUs, and compares with expected.txt. With --drawn-specs it prints the specs of the drawn cases instead, for
+// wasm_main.cpp.
 #include <cstdio>
-#include <random>
+#include <string_view>
+#include <vector>
 
-#include "corpus/evaluator.h"
 #include "fuzz/draw.h"
 #include "fuzz/parallel.h"
-#include "generator/dynamics/recursions.h"
-#include "model/core/detmath.h"
-#include "model/core/hash.h"
-#include "model/geometry/round_distances.h"
-#include "tests/dynamics/states.h"
-#include "tests/scenes.h"
-#include "tests/stage_evaluator.h"
+#include "generator/built_in.h"
+#include "tests/golden/hashes.h"
 
-namespace contort {
+namespace contort::golden {
 
 namespace {
 
-void add_findings(Hash64& hash, const std::vector<Finding>& findings) {
-  for (const Finding& finding : findings) {
-    hash.add(finding.check);
-    hash.add(finding.subject);
-    hash.add(static_cast<std::uint64_t>(finding.worst_frame));
-    hash.add(finding.worst_margin);
-  }
-}
-
-void print_scene(const NamedScene& named) {
-  const Result<Stage> stage = build_stage(scene(named.name), stock_library());
-  StageEvaluator evaluator;
-  const Evaluation evaluation = evaluator.run(*stage);
-  Hash64 findings;
-  add_findings(findings, evaluation.findings);
-  std::printf("%s frames=%d findings=%zu motion=%s margins=%s\n", std::string(named.name).c_str(),
-              evaluation.frame_count, evaluation.findings.size(), to_hex(evaluation.motion_hash).c_str(),
-              to_hex(findings.value()).c_str());
-}
-
-void print_math() {
-  Hash64 hash;
-  for (int i = -20000; i <= 20000; ++i) {
-    const double x = i * 0.0137;
-    for (const double value :
-         {det::sin(x), det::cos(x), det::atan2(x, 1.7 - 0.001 * i), det::acos(x / 300.0), det::exp(0.01 * x)})
-      hash.add(value);
-  }
-  std::printf("detmath values=200005 hash=%s\n", to_hex(hash.value()).c_str());
-}
-
-// 4950 pairs of capsules by one of the kernels. No scene would tell: a machine uses the fastest that it has.
-void print_round(const char* which, const RoundKernel& kernel) {
-  std::mt19937_64 engine(5);
-  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; };
-  const auto point = [&] {
-    const double x = uniform(), y = uniform(), z = uniform();
-    return Vec3(x, y, z);
-  };
-  std::vector<Solid> solids;
-  std::vector<ColliderPair> pairs;
-  for (int b = 0; b < 100; ++b) {
-    const Vec3 from = point(), to = point();
-    solids.push_back(solid_of(Capsule{from, to, 0.05}));
-    for (int a = 0; a < b; ++a) pairs.push_back({a, b});
-  }
-  std::vector<double> distances_m(pairs.size());
-  round_distances(solids, pairs, distances_m, kernel);
-  Hash64 hash;
-  for (const double distance_m : distances_m) hash.add(distance_m);
-  std::printf("round_distances kernel=%s pairs=%zu hash=%s\n", which, pairs.size(), to_hex(hash.value()).c_str());
-}
-
-// The recursions of dynamics by one set of instructions, on what place() and inverse_dynamics() prepared.
-void print_recursions(const char* which, const RecursionSet& set) {
-  Hash64 hash;
-  for (const char* name : {"human", "mech", "quadruped"}) {
-    const Multibody body = Multibody::of(*build_character({name, {}, {}}, stock_library()));
-    const auto n = static_cast<std::size_t>(body.dof_count());
-    std::mt19937_64 engine(5);
-    std::vector<double> forces(n), matrix(n * n), product(n);
-    for (int i = 0; i < 20; ++i) {
-      const fixtures::DynamicsState state = fixtures::any_state(body, engine);
-      DynamicsScratch scratch;
-      place(body, state.root, state.coords, scratch);
-      inverse_dynamics(body, state.velocity, state.acceleration, kGravity_m_s2, scratch, forces);
-      scratch.composite.resize(body.links().size());
-      set.place_links(body, state.coords, scratch);
-      set.sum_forces(body, state.velocity, state.acceleration, scratch, forces);
-      set.fill_mass_matrix(body, scratch, matrix);
-      set.multiply(matrix, state.acceleration, product);
-      for (const std::vector<double>* values : {&forces, &matrix, &product})
-        for (const double value : *values) hash.add(value);
-    }
-  }
-  std::printf("recursions set=%s hash=%s\n", which, to_hex(hash.value()).c_str());
-}
+Spec drawn(Generator& generator, int i) { return draw_spec({{"human", "mech", "quadruped"}}, generator, 7, i); }
 
 // Cases drawn by the fuzzer, on so many threads: the threads must not show.
-void print_drawn(int jobs) {
-  constexpr int kCases = 200;
-  std::vector<std::uint64_t> hashes(kCases);
+void print_drawn_on(int jobs) {
+  std::vector<std::uint64_t> hashes(kDrawnCases);
   std::vector<BuiltInGenerator> generators(static_cast<std::size_t>(jobs));
   parallel_for(
-      jobs, kCases,
+      jobs, kDrawnCases,
       [&](int worker, int i) {
         BuiltInGenerator& generator = generators[static_cast<std::size_t>(worker)];
-        const Spec spec = draw_spec({{"human", "mech", "quadruped"}}, generator, 7, i);
         Evaluator evaluator(generator);
-        const Result<Evaluation> run = evaluator.run(spec);
-        if (!run) return;
-        const Evaluation& evaluation = *run;
-        Hash64 hash;
-        hash.add(print_spec(spec));
-        hash.add(evaluation.motion_hash);
-        add_findings(hash, evaluation.findings);
-        hashes[static_cast<std::size_t>(i)] = hash.value();
+        hashes[static_cast<std::size_t>(i)] = hash_of(drawn(generator, i), evaluator);
       },
       [] {});
-  Hash64 all;
-  for (const std::uint64_t hash : hashes) all.add(hash);
-  std::printf("drawn seed=7 cases=%d jobs=%d hash=%s\n", kCases, jobs, to_hex(all.value()).c_str());
+  print_drawn(jobs, hashes);
+}
+
+// An empty line follows each of them.
+void print_drawn_specs() {
+  BuiltInGenerator generator;
+  for (int i = 0; i < kDrawnCases; ++i) std::printf("%s\n\n", print_spec(drawn(generator, i)).c_str());
 }
 
 }  // namespace
 
-}  // namespace contort
+}  // namespace contort::golden
 
-int main() {
-  contort::print_math();
-  contort::print_round("slowest", contort::round_kernels().front());
-  contort::print_round("fastest", contort::round_kernels().back());
-  contort::print_recursions("slowest", contort::recursion_sets().front());
-  contort::print_recursions("fastest", contort::recursion_sets().back());
-  for (const contort::NamedScene& named : contort::all_scenes()) contort::print_scene(named);
-  for (const int jobs : {1, 4}) contort::print_drawn(jobs);
+int main(int count, char** words) {
+  using namespace contort::golden;
+  if (count == 2 && std::string_view(words[1]) == "--drawn-specs") return print_drawn_specs(), 0;
+  print_fixed();
+  for (const int jobs : {1, 4}) print_drawn_on(jobs);
 }

@@ -27,7 +27,8 @@ const std::vector<Layer> kLayers = {
     {"formats/gltf", {"model/*"}},
     {"formats/mocap", {"model/core", "model/asset"}},
     {"formats/robot", {"model/*"}},
-    {"formats/detect", {"model/core", "model/asset", "formats/gltf", "formats/mocap"}},
+    {"formats/table", {"model/core", "model/asset"}},
+    {"formats/detect", {"model/core", "model/asset", "formats/gltf", "formats/mocap", "formats/table"}},
     {"generator/motion", {"model/*"}},
     {"generator/actions", {"model/*", "generator/motion"}},
     {"generator/timeline", {"model/*", "generator/motion", "generator/actions"}},
@@ -47,6 +48,7 @@ const std::vector<Layer> kLayers = {
       "server"}},
     {"cli/render_main.cpp",
      {"model/*", "formats/*", "generator", "process", "checks", "corpus", "renders", "renders/raster", "cli"}},
+    {"wasm", {"model/*", "generator/*", "renders"}},
     {"tests", {"*"}},
     {"bench", {"*"}},
 };
@@ -60,6 +62,7 @@ struct Door {
 const std::vector<Door> kDoors = {
     {"nlohmann/", "model/core/json_value_fields.h"},
     {"tiny_gltf.h", "formats/gltf/*.cpp"},
+    {"tiny_gltf.h", "wasm/tiny_gltf.cpp"},
     {"draco/", "formats/gltf/draco.cpp"},
     {"meshoptimizer.h", "formats/gltf/meshopt.cpp"},
     {"rapidcheck", "fuzz/draw*.cpp"},

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "guest/guest_figure.h"
 #include "guest/manifest_check.h"
 
 namespace contort {
@@ -22,6 +23,28 @@ const std::string kWave = R"({"name":"wave","slots":["arm_l"]})";
 std::string refusal_of(const std::string& json) {
   const Result<GuestManifest> manifest = parse_manifest(json);
   return manifest ? "" : manifest.issue().code + " at " + manifest.issue().pointer;
+}
+
+// Two hinges, of which the arm follows as it says.
+std::string with_follower(const std::string& follows, const std::string& more_of_tail = "") {
+  return manifest_with(kHips + R"(,{"name":"arm","parent":"hips","slot":"arm_l","type":"hinge","follows":)" + follows +
+                           R"(},{"name":"tail","parent":"hips","slot":"tail","type":"hinge")" + more_of_tail + "}",
+                       kWave);
+}
+
+TEST(GuestManifests, SayWhichJointsFollowOthers) {
+  const Result<GuestManifest> manifest =
+      parse_manifest(with_follower(R"({"joint":"tail","multiplier":-0.5,"offset_deg":10})"));
+  ASSERT_TRUE(manifest) << to_line(manifest.issue());
+  const GuestCharacter& hero = manifest->characters[0];
+  EXPECT_EQ(hero.joints[1].follows, (GuestFollow{"tail", -0.5, 10.0}));
+  const std::vector<Coupling> couplings = couplings_of(hero, {0, 5, 7});
+  ASSERT_EQ(couplings.size(), 1U);
+  EXPECT_EQ(couplings[0].joint, 5);
+  EXPECT_EQ(couplings[0].leader, 7);
+  EXPECT_EQ(couplings[0].multiplier, -0.5);
+  EXPECT_NEAR(couplings[0].offset, 10.0 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(print_manifest(*manifest).find("\"follows\":null"), std::string::npos) << "the others say nothing";
 }
 
 TEST(GuestManifests, MayLeaveOutWhatHasADefault) {
@@ -85,6 +108,20 @@ TEST(GuestManifests, TellFaultsWhereTheyStand) {
        "generator.unknown_collider at /characters/0/may_touch/0"},
       {manifest_with(kHips + R"(,{"name":"arm","parent":"hips","slot":"arm_l","swing_axis":[0,1,0]})", kWave),
        "generator.bad_axis at /characters/0/joints/1/swing_axis"},
+      {with_follower(R"({"joint":"arms"})"), "generator.unknown_joint at /characters/0/joints/1/follows/joint"},
+      {with_follower(R"({"multiplier":2})"), "generator.missing_field at /characters/0/joints/1/follows"},
+      {with_follower(R"("tail")"), "generator.wrong_type at /characters/0/joints/1/follows"},
+      {with_follower(R"({"joint":"tail","multiplier":1e9})"),
+       "generator.out_of_range at /characters/0/joints/1/follows/multiplier"},
+      {with_follower(R"({"joint":"tail","offset_deg":"much"})"),
+       "generator.wrong_type at /characters/0/joints/1/follows/offset_deg"},
+      {with_follower(R"({"joint":"tail","ratio":2})"), "generator.unknown_field at /characters/0/joints/1/follows/ratio"},
+      {with_follower(R"({"joint":"hips"})"), "generator.bad_follower at /characters/0/joints/1/follows/joint"},
+      {with_follower(R"({"joint":"arm"})"), "generator.bad_follower at /characters/0/joints/1/follows/joint"},
+      {with_follower(R"({"joint":"tail"})", R"(,"follows":{"joint":"arm"})"),
+       "generator.bad_follower at /characters/0/joints/1/follows/joint"},
+      {manifest_with(kHips + R"(,{"name":"arm","parent":"hips","follows":{"joint":"hips"}})", kWave),
+       "generator.bad_follower at /characters/0/joints/1/follows"},
       {manifest_with(both, kWave, R"(,"convention":{"up":"+z","forward":"-z"})"),
        "generator.bad_convention at /convention/forward"},
   };

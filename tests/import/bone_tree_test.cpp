@@ -84,7 +84,7 @@ TEST(BoneTree, NotesEachGuess) {
   RiggedFigure figure = drawn({{"hips", -1, 9}, {"hat", -1, 1}});
   make_one_tree(figure);
   ASSERT_EQ(figure.notes.size(), 1u);
-  EXPECT_EQ(figure.notes[0], "\"hat\" has no parent in the file; here it hangs on the root.");
+  EXPECT_EQ(figure.notes[0], "\"hat\" has no parent in the file; here it is attached to the root.");
 }
 
 }  // namespace

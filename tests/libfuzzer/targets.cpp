@@ -99,6 +99,11 @@ Texts gltf_seeds() {
 Texts bvh_seeds() { return {small_bvh(), replaced(small_bvh(), "0.25", "0.01")}; }
 Texts asf_amc_seeds() { return {small_asf() + small_amc()}; }
 
+Texts joint_table_seeds() {
+  return {"t,a,b,note\n0,0.1,0.3,x\n0.5,0.2,0.5,y\n0.7,0.3,0.7,\n", "# a log\n\"time [ms]\";a [deg];b\n0,5;10;0\n1,5;20;0\n",
+          "%time,field.header.stamp,field.name0,field.position0\n5,7,a,0.1\n6,9,a,0.2\n"};
+}
+
 Texts generator_seeds() {
   const std::string joints = R"([{"name":"hips","position":[0,1,0]},{"name":"knee","parent":"hips","slot":"leg",)"
                              R"("type":"hinge","axis":[1,0,0],"low_deg":-10,"high_deg":120}])";
@@ -143,6 +148,7 @@ constexpr Target kTargets[] = {
     {"gltf", try_gltf, gltf_seeds},
     {"bvh", try_bvh, bvh_seeds},
     {"asf_amc", try_asf_amc, asf_amc_seeds},
+    {"joint_table", try_joint_table, joint_table_seeds},
     {"generator", try_generator, generator_seeds},
     {"aim_table", try_aim_table, aim_table_seeds},
     {"robot", try_robot, robot_seeds},

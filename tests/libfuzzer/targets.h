@@ -17,6 +17,7 @@ bool try_description(std::string_view bytes);  // part, object, character, actio
 bool try_gltf(std::string_view bytes);         // a GLB, or the JSON of a .gltf
 bool try_bvh(std::string_view bytes);
 bool try_asf_amc(std::string_view bytes);    // an ASF, and after a line that begins with "#!" its AMC
+bool try_joint_table(std::string_view bytes);  // joint values, as a motion of a character
 bool try_generator(std::string_view bytes);  // a manifest, and after a line "#!" frames of its first character
 bool try_robot(std::string_view bytes);      // an MJCF, or a URDF and after "#!" its SRDF
 bool try_aim_table(std::string_view bytes);  // the postures of a table; header and hash are put around them

@@ -14,8 +14,9 @@ namespace {
 constexpr double kRate_hz = 60.0;
 
 struct Elbow {
-  Elbow() : coords(fixtures::human().rest_coords().begin(), fixtures::human().rest_coords().end()) {
-    path.begin(fixtures::human(), coords, kRate_hz);
+  explicit Elbow(std::span<const double> easy = {})
+      : coords(fixtures::human().rest_coords().begin(), fixtures::human().rest_coords().end()) {
+    path.begin(fixtures::human(), coords, kRate_hz, easy);
   }
   // The angle that the elbow reaches in the next frame, rad; `behind` if that is not where it is wanted.
   double follow(double wanted_rad) {
@@ -39,6 +40,34 @@ TEST(JointPath, WhatCanBeHadAtOnceIsPassedOnBitByBit) {
     EXPECT_EQ(elbow.follow(wanted_rad), wanted_rad) << f;
     EXPECT_FALSE(elbow.behind) << f;
   }
+}
+
+TEST(JointPath, AJumpIsFollowedWithinAnEasyAccelerationAndNotBeyond) {
+  constexpr double kEasy_rad_s2 = 7.0;
+  const std::vector<double> easy(fixtures::human().joints().size(), kEasy_rad_s2);
+  Elbow elbow(easy);
+  double before = 0.0, step_before = 0.0;
+  for (int f = 1; f <= 120; ++f) {
+    const double now = elbow.follow(2.0), step = now - before;
+    EXPECT_LE(now, 2.0 + 1e-12) << f;
+    EXPECT_LE(std::fabs(step - step_before) * kRate_hz * kRate_hz, kEasy_rad_s2 + 1e-9) << f;
+    before = now, step_before = step;
+  }
+  EXPECT_EQ(before, 2.0);
+}
+
+// With the easy acceleration alone it would need 4 rad to lose this speed.
+TEST(JointPath, AJointThatWasMovedOutOfTheWayDoesNotCoastOn) {
+  constexpr double kEasy_rad_s2 = 7.0, kStep_rad = 0.13;
+  const std::vector<double> easy(fixtures::human().joints().size(), kEasy_rad_s2);
+  Elbow elbow(easy);
+  const std::vector<double> before = elbow.coords;
+  elbow.coords[elbow.at()] = kStep_rad;
+  elbow.path.correct(elbow.part, before, elbow.coords);
+  double farthest = 0.0;
+  for (int f = 1; f <= 60; ++f) farthest = std::max(farthest, elbow.follow(kStep_rad));
+  EXPECT_GT(farthest, kStep_rad);
+  EXPECT_LT(farthest, 1.0);
 }
 
 TEST(JointPath, AJumpIsFollowedWithinSpeedAndAccelerationAndNotBeyond) {

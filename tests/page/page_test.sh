@@ -7,18 +7,8 @@ set -euo pipefail
 project=$1
 binaries=$2
 names=${3:-}
-chromium=${CHROMIUM:-/usr/bin/chromium}
-for needed in npm node "$chromium"; do
-  command -v "$needed" >/dev/null || { echo "skipped: there is no $needed"; exit 77; }
-done
-
-modules=$binaries/page_test_modules
-mkdir -p "$modules"
-cp "$project"/tests/page/package*.json "$modules/"
-(cd "$modules" && npm ci --include=dev --ignore-scripts --no-audit --no-fund)
-
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+# shellcheck source=tests/page/browser.sh
+source "$project/tests/page/browser.sh" npm node
 browse() { node --test-reporter=spec ${names:+--test-name-pattern="$names"} "$project/tests/page/run.mjs" --modules "$modules/node_modules" --chromium "$chromium" "$@"; }
 
 browse --contort "$binaries/contort" --viewer "$binaries/page" | tee "$scratch/log"

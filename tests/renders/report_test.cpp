@@ -78,7 +78,7 @@ TEST(Report, SaysHowFarTheSearchGot) {
   model.search.met_once = 7, model.search.lone_cases = 2;
   const std::string html = report_html(model);
   EXPECT_TRUE(contains(html, "met after 1\u202F500 of 3\u202F000 cases"));
-  EXPECT_TRUE(contains(html, "2 cases showed what no other did, so about 1 in 1\u202F500 further cases"));
+  EXPECT_TRUE(contains(html, "2 cases showed a family that no other case showed, so about 1 in 1\u202F500 further cases"));
   EXPECT_FALSE(contains(html, "Guided"));
   model.search.arms = {{"guided", 5, 0, 0}};
   EXPECT_TRUE(contains(report_html(model), "Guided cases follow others"));
@@ -316,6 +316,14 @@ TEST(Report, AllowsNoScriptButItsOwnAndNoNetwork) {
   EXPECT_FALSE(contains(html, "http:"));
   EXPECT_FALSE(contains(html, "https:"));
   EXPECT_FALSE(contains(body_of(html), " style="));
+}
+
+TEST(Report, AllowsWebAssemblyOnlyWhereItHasTheEngine) {
+  ReportModel model = hostile_model();
+  EXPECT_FALSE(contains(report_html(model), "wasm-unsafe-eval"));
+  model.has_engine = true;
+  EXPECT_TRUE(contains(report_html(model), "' 'wasm-unsafe-eval'; base-uri"));
+  EXPECT_TRUE(contains(report_html(model), "<html lang='en' data-engine>"));
 }
 
 TEST(Report, IsTheSameForTheSameModel) { EXPECT_EQ(report_html(hostile_model()), report_html(hostile_model())); }

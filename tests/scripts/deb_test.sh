@@ -41,6 +41,7 @@ gzip -dc "$doc/changelog.Debian.gz" | grep -q "^contort ($(field Version)) "
 gzip -dc "$doc/changelog.gz" | cmp - "$project/CHANGELOG.md"
 grep -q '^License: Expat' "$doc/copyright"
 if [ -e root/usr/share/contort/page ]; then grep -q 'three.js authors' "$doc/copyright"; fi
+if [ -e root/usr/share/contort/page/engine.js ]; then grep -q 'The Emscripten Authors' "$doc/copyright"; fi
 if [ -n "$(find root/usr -perm /022 -not -type l)" ]; then fail "others may write: $(find root/usr -perm /022)"; fi
 
 on_machine --remove contort >log 2>&1 || { cat log; exit 1; }

@@ -59,6 +59,24 @@ assert all(a in ids + ["SPDXRef-DOCUMENT"] and b in ids for a, _, b in related)
 assert sbom["spdxVersion"] == "SPDX-2.3" and sbom["creationInfo"]["created"].endswith("Z")
 END
 
+# With engine.js, the list and the licences name what is in that, too.
+mkdir -p "$scratch/engine/share/contort/page"
+[ -f "$build/page/engine.js" ] || echo '// the engine' >"$scratch/engine/share/contort/page/engine.js"
+DESTDIR='' cmake --install "$build" --prefix "$scratch/engine" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+documents=$scratch/engine/share/doc/contort
+python3 - "$documents/contort.spdx.json" <<'END'
+import json, sys
+sbom = json.load(open(sys.argv[1], encoding="utf-8"))
+names = [package["name"] for package in sbom["packages"]]
+assert len(names) == len(set(names)), "a package is there twice"
+linked = {r["relatedSpdxElement"] for r in sbom["relationships"] if r["relationshipType"] == "STATIC_LINK"}
+assert {"SPDXRef-deb-emscripten", "SPDXRef-deb-libtinygltf-dev"} <= linked, linked
+END
+for name in emscripten libtinygltf-dev; do
+  [ ! -d "/usr/share/doc/$name" ] || grep -qi copyright "$documents/licences/$name.txt"
+done
+if [ ! -f "$build/page/engine.js" ] && grep -q emscripten "$sbom"; then fail "Emscripten is named without engine.js"; fi
+
 # Whose code is in the programs and pages, their licences are there, too.
 inside="libcli11-dev libglm-dev librapidcheck-dev libxxhash-dev nlohmann-json3-dev"
 if [ -f "$build/page/viewer.js" ]; then inside="$inside three uplot"; fi

@@ -3,6 +3,7 @@ import { finished, jobText, post, sentence } from '../src/api.js';
 import { el } from '../src/dom.js';
 import { interval, margin } from '../src/format.js';
 import { button } from './fields.js';
+import { hasEngine, openTrial } from './trial_page.js';
 
 const kShown = 60;
 
@@ -34,6 +35,11 @@ class Row {
     this.look = button('Look', () => app.look(this.finding.worst), { 'aria-label': `Look: ${name}` });
     this.save = button('Save as case', () => this.store(), { 'aria-label': `Save as case: ${name}` });
     this.buttons.append(this.look);
+    if (hasEngine()) {
+      this.trial = button('Try other values', () => this.guarded(() => openTrial(app, this.mode, this.finding)),
+        { 'aria-label': `Try other values: ${name}` });
+      this.buttons.append(this.trial);
+    }
     if (app.writes) this.buttons.append(this.save);
   }
 
@@ -51,6 +57,7 @@ class Row {
     this.retired = true;
     this.old.hidden = false;
     this.look.remove();
+    this.trial?.remove();
   }
 
   say(text) {

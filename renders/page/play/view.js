@@ -40,7 +40,7 @@ export class PlayView {
       again: (text) => { this.restored = text; },
     });
     this.build(container);
-    listenForKeys(this.keys());
+    this.stopKeys = listenForKeys(this.keys());
     requestAnimationFrame(() => this.tick());
   }
 
@@ -69,13 +69,14 @@ export class PlayView {
     this.alarm = el('p', { class: 'problem', role: 'alert' });
     this.alarm.hidden = true;
     this.title = el('p', { class: 'about dim' });
-    container.append(el('div', { class: 'case playground' },
+    this.element = el('div', { class: 'case playground' },
       el('header', { class: 'top' }, el('h1', { text: 'Playground' }), this.title,
         this.catalogue.corpus === false ? null :
           el('nav', { 'aria-label': 'Pages' }, el('a', { href: '/', text: 'Report' }))),
       el('main', {}, el('div', { class: 'seen' }, this.stage.frame, this.transport.element, this.alarm, this.note,
         this.findings.element, this.timeline.whole),
-      el('div', { class: 'side' }, ...this.panels.map(({ element }) => element)))));
+      el('div', { class: 'side' }, ...this.panels.map(({ element }) => element))));
+    container.append(this.element);
     this.transport.showToggles({ ...this.stage.toggles, hand: true });
     this.touch();
   }
@@ -88,6 +89,17 @@ export class PlayView {
       set: (name) => { this.stage.set(name, !this.stage.toggles[name]); this.showToggles(); },
       hand: () => { this.hand = !this.hand; this.showToggles(); this.touch(); },
     };
+  }
+
+  // Something else takes the place and the keys of the playground.
+  leave() {
+    this.element.hidden = true;
+    this.stopKeys();
+  }
+
+  comeBack() {
+    this.element.hidden = false;
+    this.stopKeys = listenForKeys(this.keys());
   }
 
   showToggles() {

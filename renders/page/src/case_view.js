@@ -2,6 +2,7 @@
 import { readCase } from './case_data.js';
 import { Controls } from './controls.js';
 import { el } from './dom.js';
+import { startEngine } from './engine.js';
 import { margin, roleName, seconds } from './format.js';
 import { factsElement, headElement } from './head.js';
 import { listenForKeys } from './keys.js';
@@ -12,6 +13,7 @@ import { specElement } from './spec_view.js';
 import { Stage } from './stage.js';
 import { nearestTile, readStrip } from './strip_view.js';
 import { Timeline } from './timeline.js';
+import { Trial } from './trial.js';
 
 const kSlow = 45;  // Milliseconds per picture while playing.
 
@@ -37,14 +39,24 @@ export class CaseView {
     const { options } = this;
     const head = headElement(this.data, options.position, {
       close: () => this.close(), previous: options.onPrevious, next: options.onNext,
-    });
+    }, options.back);
     this.title = head.title;
     this.facts = el('div', { class: 'facts-place' });
     this.legend = el('div', { class: 'legend-place' });
     this.below = el('div', { class: 'below' });
+    if (options.loadEngine && this.data.motions[0].spec !== null) this.trial = this.makeTrial();
     return el('div', { class: 'case' }, head.element,
       el('div', { class: 'facts-row' }, this.facts, this.controls.motionGroup), this.stage.frame,
-      this.legend, this.controls.element, this.below);
+      this.legend, this.controls.element, this.trial?.element ?? '', this.below);
+  }
+
+  // It stands outside of what each new motion replaces, so that a field keeps its focus.
+  makeTrial() {
+    return new Trial(this.data, {
+      engine: () => startEngine(this.options.loadEngine),
+      show: (motion) => this.show('changed', motion, null, this.player.frame, true),
+      back: () => this.chooseMotion(0, this.player.frame),
+    });
   }
 
   calls() {
@@ -80,10 +92,15 @@ export class CaseView {
   // `frame` missing: its worst one.
   chooseMotion(which, frame) {
     const { motions } = this.data;
+    const both = which === 'both';
+    this.show(which, motions[both ? 0 : which], both ? motions.find(({ role }) => role === 'original') : null, frame);
+  }
+
+  show(which, motion, other, frame, keepView = false) {
     this.player.pause();
     this.both = which === 'both';
-    this.motion = motions[this.both ? 0 : which];
-    this.other = this.both ? motions.find((motion) => motion.role === 'original') : null;
+    this.motion = motion;
+    this.other = other;
     this.facts.replaceChildren(factsElement(this.data, this.motion));
     this.controls.showMotion(which, this.motion);
     this.showBelow();
@@ -93,7 +110,7 @@ export class CaseView {
     this.stage.stripButton.hidden = !this.hasStrip();
     const shown = [this.motion, this.other].filter(Boolean);
     this.stage.frames = this.frames();
-    this.loaded = this.stage.setMotions(shown, false).then(() => { this.element.dataset.ready = String(which); });
+    this.loaded = this.stage.setMotions(shown, keepView).then(() => { this.element.dataset.ready = String(which); });
   }
 
   showBelow() {
@@ -107,7 +124,7 @@ export class CaseView {
 
   commandElement() {
     const { command } = this.options;
-    if (!command) return null;
+    if (!command || this.motion.role === 'changed') return null;
     return el('section', { class: 'again' }, el('h2', { text: 'See it again' }),
       el('div', { class: 'command' }, el('code', { text: command }),
         el('button', { type: 'button', class: 'copy', text: 'Copy', 'aria-label': 'Copy the replay command' })));
@@ -191,6 +208,7 @@ export class CaseView {
     this.player.pause();
     this.stopKeys();
     clearTimeout(this.controls.telling);
+    this.trial?.dispose();
     this.timeline.dispose();
     this.stage.dispose();
     this.element.remove();

@@ -10,7 +10,7 @@ export function bytesOf(text) {
   return bytes;
 }
 
-function unzipped(bytes) {
+export function unzipped(bytes) {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 

@@ -53,7 +53,7 @@ export function intervals(runs) {
   return `${runs.length} times: frames ${texts.slice(0, -1).join(', ')} and ${texts.at(-1)}`;
 }
 
-export const kRoleNames = { minimal: 'Minimal', original: 'Original', worst: 'Worst seen' };
+export const kRoleNames = { minimal: 'Minimal', original: 'Original', worst: 'Worst seen', changed: 'With your values' };
 
 export function roleName(role) {
   return Object.hasOwn(kRoleNames, role) ? kRoleNames[role] : role || 'Motion';

@@ -1,0 +1,17 @@
+# The libraries that the native build links.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(rapidcheck CONFIG REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tinyxml2 REQUIRED)
+# OpenImageIO's own CMake package needs programs that its -dev package does not bring.
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+find_package(ZLIB REQUIRED)
+find_package(draco CONFIG REQUIRED)
+find_package(meshoptimizer CONFIG REQUIRED)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+pkg_check_modules(LUA REQUIRED IMPORTED_TARGET lua5.4)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpmux)

@@ -1,0 +1,30 @@
+// Finds the SRDF of a robot in the places where packages of ROS and MoveIt keep it beside the URDF.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/core/result.h"
+
+namespace contort {
+
+// An SRDF that cannot be read, and why.
+struct UnreadableSrdf {
+  std::string file;
+  Issue issue;
+  bool operator==(const UnreadableSrdf&) const = default;
+};
+
+// The files that were found. Files with equal texts count once.
+struct SrdfsBeside {
+  std::vector<std::string> fitting;         // their robot has the URDF's name
+  std::vector<std::string> of_others;       // of the URDF's own package: their robot has another name
+  std::vector<UnreadableSrdf> unreadable{}; // of the URDF's own package
+  bool operator==(const SrdfsBeside&) const = default;
+};
+
+// Looks for *.srdf in the URDF's folder, in `srdf` and `config` in it and beside it, and in the same folders of each
+// package beside the URDF's own whose name ends with "moveit_config". At most 256 files are read.
+SrdfsBeside srdfs_beside(const std::string& urdf_file, const std::string& robot_name);
+
+}  // namespace contort

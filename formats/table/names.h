@@ -1,0 +1,32 @@
+// Tells from the names of a table's columns which one has the times, in which unit values are, and which columns of an
+// export of ROS belong together.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contort {
+
+struct NameAndUnit {
+  std::string name;
+  std::string unit;  // "deg" of "elbow [deg]" or "elbow (deg)"; "" if the name has no unit
+};
+NameAndUnit split_unit(std::string_view name);
+
+// Seconds in one unit of a column of times; nothing if the name is of no such column.
+std::optional<double> seconds_per_unit(std::string_view name);
+
+// The column of the times among these names: a message's own stamp in an export of ROS, else the first that has a name
+// of times; -1 if no column has times.
+int find_times(const std::vector<std::string>& names);
+
+inline constexpr char kTimeNames[] =
+    "time, t, timestamp, stamp, secs or seconds, in seconds, or with a unit such as time_ms or \"time [ns]\"";
+
+// The number of an entry of a list in an export of ROS: 3 of "field.position3", "position_3" and "position[3]"; -1 if
+// the name is no entry of `list`.
+int entry_of(std::string_view list, std::string_view name);
+
+}  // namespace contort

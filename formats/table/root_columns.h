@@ -1,0 +1,23 @@
+// Tells from the names of a table's columns which ones say where a robot's root is: "root_x", "base_position_x",
+// "pelvis_tx", "pose.position.x", and for the quaternion "root_qw", "base_orientation_w", "pose.orientation.w".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace contort {
+
+enum class RootNumber { x, y, z, qx, qy, qz, qw };
+inline constexpr std::size_t kRootNumbers = 7;
+
+// Returns the number of the root that a column of this name has; nullopt if it has none of them. A name
+// consists of words for the root, at most one word for the quantity, and the axis, whatever the case.
+std::optional<RootNumber> root_number_of(std::string_view column);
+
+// The names of the seven columns as a message shows them.
+inline constexpr std::array<std::string_view, kRootNumbers> kRootNames = {"root_x",  "root_y",  "root_z", "root_qx",
+                                                                          "root_qy", "root_qz", "root_qw"};
+
+}  // namespace contort

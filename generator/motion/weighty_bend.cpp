@@ -1,0 +1,114 @@
+#include "generator/motion/weighty_bend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "generator/motion/foot_roll.h"
+#include "model/core/index.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kLifts_m_s2 = 6.0;
+constexpr double kLeans_rad_s2 = 12.0;
+constexpr int kStops = 24;
+constexpr int kSteps = 32;  // of a course
+
+// Whether hips that go so far down stay within both accelerations all the way.
+bool is_calm(const BendCourse& course, double deepest) {
+  const double step_s = course.bend.takes_s / kSteps;
+  const auto root_at = [&](int step) {
+    const double progress = std::clamp(static_cast<double>(step) / kSteps, 0.0, 1.0);
+    return course.bend.frame_at(deepest * course.share_at(progress)).root;
+  };
+  for (int n = 0; n <= kSteps; ++n) {
+    const Rigid before = root_at(n - 1), now = root_at(n), after = root_at(n + 1);
+    const double lift = after.p_m.y - 2.0 * now.p_m.y + before.p_m.y;
+    const Vec3 lean = to_rotation_vector(after.q * glm::conjugate(now.q)) +
+                      to_rotation_vector(before.q * glm::conjugate(now.q));
+    if (std::fabs(lift) > kLifts_m_s2 * step_s * step_s || length(lean) > kLeans_rad_s2 * step_s * step_s) return false;
+  }
+  return true;
+}
+
+Vec3 center_of_mass(const Character& character, std::span<const Rigid> world) {
+  Vec3 moment(0.0);
+  double mass_kg = 0.0;
+  for (std::size_t j = 0; j < world.size(); ++j) {
+    const Joint& joint = character.joints()[j];
+    moment += joint.mass_kg * (world[j] * joint.center_of_mass_m), mass_kg += joint.mass_kg;
+  }
+  return mass_kg > 0.0 ? moment / mass_kg : Vec3(0.0);
+}
+
+std::vector<Rigid> soles_of(const Character& character, std::span<const Leg> legs, std::span<const Rigid> world) {
+  std::vector<Rigid> soles;
+  for (const Leg& leg : legs) soles.push_back(world_from_socket(character, world, leg.sole));
+  return soles;
+}
+
+Vec3 mean_place_m(std::span<const Rigid> soles) {
+  Vec3 sum(0.0);
+  for (const Rigid& sole : soles) sum += sole.p_m;
+  return sum / static_cast<double>(soles.size());
+}
+
+// Where the weight should be.
+struct Bearing {
+  Vec3 point_m{0.0};
+  double around_m = 0.0;  // as near to it as this is good enough
+};
+
+// The mean over the legs: of a sole that lies as it lay at first at an offset from it, of one that has risen on its toes
+// a little behind their tips.
+Bearing bearing_of(std::span<const Leg> legs, std::span<const Rigid> first, std::span<const Rigid> soles,
+                   const Vec3& from_sole) {
+  constexpr double kRisen_rad = 0.02, kBehindTips_m = 0.03, kOfLength = 0.25;
+  Bearing mean;
+  const double share = 1.0 / static_cast<double>(legs.size());
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (rotation_angle(glm::conjugate(first[i].q) * soles[i].q) > kRisen_rad) {
+      mean.point_m += share * (soles[i] * (lower_end_m(legs[i], soles[i]) - Vec3(0.0, 0.0, kBehindTips_m)));
+    } else {
+      mean.point_m += share * (soles[i].p_m + from_sole);
+      mean.around_m += share * kOfLength * (legs[i].high_m.z - legs[i].low_m.z);
+    }
+  }
+  return mean;
+}
+
+}  // namespace
+
+double calm_bend(const BendCourse& course) {
+  for (int stop = kStops; stop > 0; --stop)
+    if (const double share = static_cast<double>(stop) / kStops; is_calm(course, share)) return share;
+  return 0.0;
+}
+
+Vec3 shift_over_feet_m(const Character& character, std::span<const Leg> legs, const Bend& bend,
+                       std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row) {
+  constexpr int kRefinements = 3;
+  if (legs.empty()) return Vec3(0.0);
+  stand_bent(character, legs, bend.frame_at(0.0), world, scratch.world, row);
+  const std::vector<Rigid> first = soles_of(character, legs, scratch.world);
+  const Vec3 from_sole = center_of_mass(character, scratch.world) - mean_place_m(first);
+  GaitFrame low = bend.frame_at(1.0);
+  Vec3 shift_m(0.0);
+  for (int round = 0; round < kRefinements; ++round) {
+    stand_bent(character, legs, low, world, scratch.world, row);
+    const std::vector<Rigid> soles = soles_of(character, legs, scratch.world);
+    const Bearing bearing = bearing_of(legs, first, soles, from_sole);
+    Vec3 off_m = bearing.point_m - center_of_mass(character, scratch.world);
+    off_m.y = 0.0;
+    const double far_m = length(off_m);
+    if (far_m <= bearing.around_m) break;
+    off_m *= 1.0 - bearing.around_m / far_m;
+    low.root.p_m += off_m, shift_m += off_m;
+  }
+  return shift_m;
+}
+
+}  // namespace contort

@@ -1,0 +1,25 @@
+// Squats and crouches of a figure with mass: its hips go down slowly enough, and move so that its centre of mass stays
+// over its feet.
+#pragma once
+
+#include "generator/motion/stand_on.h"
+
+namespace contort {
+
+// A bend, and how its share of the way goes with the progress of its course, both [0, 1].
+struct BendCourse {
+  const Bend& bend;
+  FunctionRef<double(double)> share_at;
+};
+
+// The largest share of the way down, [0, 1], on which the hips accelerate upward and downward by at most 6 m/s^2 and
+// lean by at most 12 rad/s^2: a standing figure presses on its soles, and leans over them, no more than they can hold.
+double calm_bend(const BendCourse& course);
+
+// Returns the level movement of the hips, m, with which the centre of mass at the end of the way down is near the point
+// where it is at its begin, or above the toes of feet whose heels have risen. `world`, `scratch` and `row` are as for
+// deepest_bend().
+Vec3 shift_over_feet_m(const Character& character, std::span<const Leg> legs, const Bend& bend,
+                       std::span<const Rigid> world, const TrialSpace& scratch, std::span<double> row);
+
+}  // namespace contort

@@ -1,0 +1,21 @@
+// A joint of the robot's file that a character was made from. It converts values of the file's joints to coordinates of
+// the character.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace contort {
+
+struct FileJoint {
+  std::string joint{};       // the joint of the character, "arm/elbow"; "" if it does not move in the character
+  double at_rest = 0.0;      // its value in the character's rest pose, where the coordinate is 0; rad or m
+  std::string follows{};     // the joint of the file that it follows (URDF's mimic); "" for none
+  double multiplier = 1.0;   // factor for the value of that joint
+  double offset = 0.0;       // rad or m; is added to the product
+  bool operator==(const FileJoint&) const = default;
+};
+
+using FileJoints = std::map<std::string, FileJoint>;  // by the file's names
+
+}  // namespace contort

@@ -1,0 +1,88 @@
+// Legs between courses and actions of their own: they change hands without breaking a limit, however short a blend is,
+// and go back to the course when their own action is over.
+#include <gtest/gtest.h>
+
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::stage_of;
+using fixtures::use;
+
+struct Blends {
+  int in_frames = -1, out_frames = 0;
+};
+
+ActionUse course(const char* name, int start_frame, int duration_frames, std::map<std::string, ParamValue> params, Blends blends) {
+  ActionUse made = use(name, "waist", start_frame, duration_frames, std::move(params));
+  made.blend_in_frames = blends.in_frames, made.blend_out_frames = blends.out_frames;
+  return made;
+}
+
+ActionUse leg_reach(int start_frame, int duration_frames, Vec3 target_m) {
+  ActionUse made = use("reach", "leg_right", start_frame, duration_frames, {{"target_m", target_m}});
+  return made;
+}
+
+std::string broken_by(std::vector<ActionUse> actions) {
+  StageEvaluator evaluator;
+  std::string all;
+  for (const Finding& finding : evaluator.run(stage_of({sequence(std::move(actions))}, 10)).findings)
+    all += finding.check + " " + finding.subject + "\n";
+  return all;
+}
+
+TEST(LegHandover, ACourseThatBlendsInTooFastTakesTheTimeThatLegsNeed) {
+  for (const int in_frames : {1, 2, 4, 7})
+    for (const int start_frame : {20, 33, 41}) {
+      const ActionUse deep = course("crouch", 0, 50, {{"share", 0.35}}, {});
+      const ActionUse walk = course("walk", start_frame, 90, {{"speed_m_s", 1.0}}, {in_frames});
+      EXPECT_EQ(broken_by({deep, walk}), "") << in_frames << " frames, from frame " << start_frame;
+    }
+}
+
+TEST(LegHandover, ABendThatFadesOutWhileItGoesDownBeginsInTime) {
+  for (const int out_frames : {1, 3, 8, 20})
+    EXPECT_EQ(broken_by({course("crouch", 0, 34, {{"share", 0.34}}, {-1, out_frames})}), "") << out_frames << " frames";
+}
+
+TEST(LegHandover, ALegGoesBackToTheCourseWhenItsOwnActionIsOver) {
+  for (const int out_frames : {0, 12})
+    for (const char* name : {"crouch", "walk", "turn"}) {
+      ActionUse lifted = leg_reach(30, 40, Vec3(-0.2, 0.4, 0.2));
+      lifted.blend_out_frames = out_frames;
+      const ActionUse under = course(name, 0, 150, {}, {});
+      EXPECT_EQ(broken_by({under, lifted}), "") << name << ", fading for " << out_frames << " frames";
+      const Stage stage = stage_of({sequence({under, lifted})}, 10);
+      const Motion motion = generate(stage), alone = generate(stage_of({sequence({under})}, 10));
+      const double angle = fixtures::coord(motion, 140, *stage.character, "leg_right/knee");
+      EXPECT_NEAR(angle, fixtures::coord(alone, 140, *stage.character, "leg_right/knee"), 0.005) << name;
+    }
+}
+
+TEST(LegHandover, ACourseTakesALegThatIsInTheAir) {
+  for (const int start_frame : {20, 35, 50})
+    for (const char* name : {"crouch", "walk", "squat"}) {
+      const ActionUse lifted = leg_reach(0, 60, Vec3(-0.25, 0.5, -0.2));
+      EXPECT_EQ(broken_by({lifted, course(name, start_frame, 110, {}, {6})}), "") << name << " at " << start_frame;
+    }
+}
+
+TEST(LegHandover, AnAnkleKeepsItsRangeWhileItsLegReaches) {
+  for (const Vec3 target_m : {Vec3(-0.2, 0.8, -0.15), Vec3(-0.3, 0.7, 0.0), Vec3(-0.1, 0.3, 0.4)})
+    EXPECT_EQ(broken_by({course("squat", 0, 110, {}, {}), leg_reach(20, 60, target_m)}).find("joint_range"),
+              std::string::npos);
+}
+
+TEST(LegHandover, ABlowDoesNotDragAFootThatStandsOnItsToes) {
+  for (const double azimuth_deg : {-120.0, 0.0, 90.0}) {
+    const ActionUse blow = use("hit_reaction", "leg_left", 50, 50, {{"azimuth_deg", azimuth_deg}});
+    EXPECT_EQ(broken_by({course("squat", 5, 110, {{"share", 0.39}}, {}), blow}), "") << azimuth_deg;
+  }
+}
+
+}  // namespace
+}  // namespace contort

@@ -1,0 +1,93 @@
+// Legs that an action has moved come back to where their feet stood, or stay on the ground, and keep their distance and
+// speeds on the way.
+#include <gtest/gtest.h>
+
+#include "model/motion/kinematics.h"
+#include "model/motion/legs.h"
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+std::shared_ptr<const Character> stock(const char* name) {
+  return std::make_shared<const Character>(fixtures::built({name, {}, {}}));
+}
+
+std::string broken_in(const Stage& stage) {
+  StageEvaluator evaluator;
+  std::string all;
+  for (const Finding& finding : evaluator.run(stage).findings) all += finding.check + " " + finding.subject + "\n";
+  return all;
+}
+
+Vec3 paw_m(const Character& character, const Motion& motion, int frame) {
+  std::vector<Rigid> world(character.joints().size());
+  forward_kinematics(character, motion.root[static_cast<std::size_t>(frame)], motion.row(frame), world);
+  for (const Leg& leg : find_legs(character))
+    if (character.parts()[static_cast<std::size_t>(leg.part)].slot == "leg_fore_right")
+      return world_from_socket(character, world, leg.sole).p_m;
+  return Vec3(0.0);
+}
+
+ActionUse blow(const char* slot, int start_frame, int frames, double azimuth_deg) {
+  return use("hit_reaction", slot, start_frame, frames, {{"azimuth_deg", azimuth_deg}});
+}
+
+TEST(LegReturns, AHitLegOnATrunkThatBendsPutsItsPawBackWhereItStood) {
+  const auto dog = stock("quadruped");
+  for (const double elevation_deg : {-25.0, 20.0})
+    for (const int start_frame : {0, 2, 20, 45}) {
+      const ActionUse bend = use("direction", "trunk", 0, 40, {{"elevation_deg", elevation_deg}});
+      const Stage stage =
+          fixtures::stage_of({sequence({bend, blow("leg_fore_right", start_frame, 30, 0.0)})}, 20, dog);
+      EXPECT_EQ(broken_in(stage), "") << elevation_deg << " degrees, hit at " << start_frame;
+      const Motion motion = generate(stage);
+      constexpr double kReaches_m = 2e-3;  // a trunk bends until its legs just reach the ground
+      EXPECT_LT(length(paw_m(*dog, motion, motion.frame_count - 1) - paw_m(*dog, motion, 0)), kReaches_m);
+    }
+}
+
+TEST(LegReturns, ALegThatIsCutWithItsFootInTheGroundIsHeldOnTheGround) {
+  const auto mech = stock("mech");
+  InterruptDesc hit;
+  hit.when.frame = 5;
+  hit.sequence = sequence({blow("arm_right", 0, 30, 0.0)});
+  Spec spec;
+  spec.sequences = {sequence({use("reach", "leg_right", 0, 30, {{"target_m", Vec3(0.0, 1.0, -0.11)}})})};
+  spec.interrupts = {hit};
+  const Result<Stage> stage = build_stage(spec, mech);
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  EXPECT_EQ(broken_in(*stage), "");
+  const Motion motion = generate(*stage);
+  EXPECT_EQ(fixtures::coord(motion, 24, *mech, "leg_right/knee"), fixtures::coord(motion, 33, *mech, "leg_right/knee"));
+}
+
+// The room that a lifted foot has over the ground is none, which must not let the leg go on at full speed.
+TEST(LegReturns, ALiftedLegSlowsDownBeforeTheOtherLeg) {
+  const auto mech = stock("mech");
+  for (const Vec3 target_m : {Vec3(0.0, 0.95, -0.16), Vec3(0.1, 0.6, 0.0)})
+    EXPECT_EQ(broken_in(fixtures::stage_of({sequence({use("reach", "leg_right", 0, 30, {{"target_m", target_m}})})},
+                                           10, mech)),
+              "");
+  // A foot that comes in low over the ground is lifted little by little.
+  ActionUse faded = use("reach", "leg_right", 0, 33, {{"target_m", Vec3(0.0, 0.4, 0.5)}});
+  faded.blend_out_frames = 13;
+  EXPECT_EQ(broken_in(fixtures::stage_of({sequence({faded})}, 10, mech)), "");
+  const ActionUse across = use("reach", "leg_right", 0, 30, {{"target_m", Vec3(0.33, 1.0, -0.27)}});
+  EXPECT_EQ(broken_in(fixtures::stage_of({sequence({across, blow("foot_left", 30, 30, 0.0)})})), "");
+}
+
+TEST(LegReturns, ABendThatBlendsInWhileItGoesDownIsNoDeeperThanLegsCan) {
+  for (const int in_frames : {6, 9, 16}) {
+    ActionUse squat = use("squat", "waist", 0, 30, {{"lean_deg", 47.0}});
+    squat.blend_in_frames = in_frames;
+    EXPECT_EQ(broken_in(fixtures::stage_of({sequence({squat})})), "") << in_frames << " frames";
+  }
+}
+
+}  // namespace
+}  // namespace contort

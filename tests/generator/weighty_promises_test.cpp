@@ -1,0 +1,75 @@
+// Motions that the ground can hold: figures with mass shift their weight before they lift a foot, bend over their feet,
+// and aim exactly.
+#include <gtest/gtest.h>
+
+#include "tests/generator/scenes_of_one.h"
+#include "tests/stage_evaluator.h"
+
+namespace contort {
+namespace {
+
+using fixtures::sequence;
+using fixtures::use;
+
+// The findings of one action on a standing figure with mass, one a line; of one check, if it is named.
+std::string found(const std::string& character, ActionUse action, std::string_view check = {}) {
+  Spec spec;
+  spec.character.name = character;
+  spec.dynamics.mode = Mode::tracking;
+  spec.hold_frames = 30;
+  action.blend_in_frames = -1;
+  spec.sequences = {sequence({action})};
+  const Result<Stage> stage = build_stage(spec, stock_library());
+  if (!stage) return to_line(stage.issue());
+  StageEvaluator evaluator;
+  std::string lines;
+  for (const Finding& finding : evaluator.run(*stage).findings)
+    if (check.empty() || finding.check == check) lines += finding.check + " " + finding.subject + "\n";
+  return lines;
+}
+
+TEST(WeightyPromises, ALegIsLiftedWithTheWeightOverTheOther) {
+  for (const char* leg : {"leg_left", "leg_right"}) {
+    for (const double azimuth_deg : {-120.0, 0.0, 60.0})
+      EXPECT_EQ(found("human", use("hit_reaction", leg, 0, 50, {{"azimuth_deg", azimuth_deg}, {"strength_deg", 25.0}})),
+                "")
+          << leg << azimuth_deg;
+  }
+  EXPECT_EQ(found("human", use("hit_reaction", "foot_left", 0, 50, {{"azimuth_deg", 30.0}, {"strength_deg", 20.0}})),
+            "");
+  EXPECT_EQ(
+      found("quadruped", use("hit_reaction", "leg_fore_left", 0, 34, {{"azimuth_deg", 2.0}, {"strength_deg", 49.0}})),
+      "");
+}
+
+TEST(WeightyPromises, SquatsAndCrouchesStayOverTheFeet) {
+  for (const char* bend : {"squat", "crouch"})
+    for (const double lean_deg : {0.0, 20.0, 45.0}) {
+      EXPECT_EQ(found("human", use(bend, "waist", 0, 60, {{"share", 0.15}, {"lean_deg", lean_deg}})), "")
+          << bend << lean_deg;
+      EXPECT_EQ(found("mech", use(bend, "waist", 0, 60, {{"share", 0.15}, {"lean_deg", lean_deg}})), "")
+          << bend << lean_deg;
+    }
+}
+
+TEST(WeightyPromises, WalksAndTurnsKeepTheBalanceWhereFeetComeAndGo) {
+  for (const double heading_deg : {0.0, 90.0, 180.0}) {
+    const std::map<std::string, ParamValue> slow = {{"speed_m_s", 0.5}, {"heading_deg", heading_deg}};
+    EXPECT_EQ(found("human", use("walk", "waist", 0, 180, slow), "balance"), "") << heading_deg;
+    EXPECT_EQ(found("quadruped", use("walk", "hips", 0, 180, slow), "balance"), "") << heading_deg;
+  }
+  EXPECT_EQ(found("human", use("walk", "waist", 0, 180, {{"speed_m_s", 0.5}})), "");
+  const std::map<std::string, ParamValue> behind = {{"target_m", Vec3(2.0, 1.0, -1.0)}};
+  for (const char* name : {"human", "mech"})
+    EXPECT_EQ(found(name, use("turn", "waist", 0, 180, behind), "balance"), "") << name;
+}
+
+TEST(WeightyPromises, HeadsAndTrunksArriveWhereTheyLook) {
+  EXPECT_EQ(
+      found("quadruped", use("aim", "head", 0, 60, {{"point", std::string("face")}, {"target_m", Vec3(1, 1.2, 1.5)}})),
+      "");
+  EXPECT_EQ(found("quadruped", use("look_at", "trunk", 0, 60, {{"target_m", Vec3(1, 3, 2)}})), "");
+}
+
+}  // namespace
+}  // namespace contort
