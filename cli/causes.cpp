@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/input.h"
+#include "cli/outputs.h"
 #include "cli/print.h"
 #include "corpus/baseline.h"
 #include "model/core/json_fields.h"
@@ -38,17 +39,27 @@ std::string absolute(const std::string& path) {
   return error ? path : whole.lexically_normal().string();
 }
 
+std::string mark_of(CauseNews news) {
+  switch (news) {
+    case CauseNews::known: return "      ";
+    case CauseNews::fresh: return "NEW   ";
+    case CauseNews::more: return "MORE  ";
+    case CauseNews::rare: return "RARE  ";
+  }
+  return "";
+}
+
 std::string row_text(const CauseRow& row, std::size_t place, const CausesText& about) {
   const std::string number = std::to_string(place) + ".";
   std::string text = number + std::string(number.size() < 4 ? 4 - number.size() : 1, ' ');
-  text += (about.known.contains(row.id) ? "      " : "NEW   ") + printable(row.headline) + "\n          ";
+  text += mark_of(row.news) + printable(row.headline) + "\n          ";
   text += row.id + ": severity " + rounded_text(row.severity);
   if (about.cases > 0) text += ", " + count_text(row.cases) + " of " + counted(about.cases, "case", "cases");
   text += ", " + counted(std::ssize(row.members), "failure", "failures") + " (" + joined(row.characters) + ")  ";
   return text + replay_command(absolute(row.members.front().path), about.sources) + "\n";
 }
 
-Json row_json(const CauseRow& row, const CausesText& about) {
+Json row_json(const CauseRow& row) {
   const Case& deepest = row.members.front().minimal;
   const Cause cause = cause_of(deepest);
   Json buckets = Json::array();
@@ -60,7 +71,7 @@ Json row_json(const CauseRow& row, const CausesText& about) {
   return {{"id", row.id},
           {"headline", row.headline},
           {"severity", row.severity},
-          {"is_new", !about.known.contains(row.id)},
+          {"news", cause_news_names()[static_cast<std::size_t>(row.news)]},
           {"scope", cause_scope_names()[static_cast<std::size_t>(cause.scope)]},
           {"names", cause.names},
           {"also", cause.also},
@@ -81,12 +92,15 @@ std::string causes_text(std::span<const CauseRow> rows, const CausesText& about)
     text += "and " + counted(std::ssize(rows) - static_cast<std::int64_t>(shown), "other cause", "other causes") +
             ": contort causes --all " +
             shell_quoted(absolute(about.corpus)) + "\n";
+  const auto any = [&](CauseNews news) { return std::ranges::find(rows, news, &CauseRow::news) != rows.end(); };
+  if (any(CauseNews::more)) text += "MORE: known, but now more frequent than chance explains.\n";
+  if (any(CauseNews::rare)) text += "RARE: not seen before, but too rare to say that anything has changed.\n";
   return text;
 }
 
 std::string causes_json(std::span<const CauseRow> rows, const CausesText& about) {
   Json list = Json::array();
-  for (const CauseRow& row : rows) list.push_back(row_json(row, about));
+  for (const CauseRow& row : rows) list.push_back(row_json(row));
   const Json out = {{"format", "contort.causes/1"}, {"cases", about.cases}, {"causes", list}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }
@@ -119,26 +133,20 @@ std::vector<CauseMember> unfixed_members(const Corpus& corpus, Context& context)
 
 namespace {
 
-Result<std::set<std::string>> causes_known_in(const std::string& baseline, const std::vector<CauseMember>& members) {
-  if (baseline.empty()) return cause_ids(members);
-  const Result<Baseline> known = read_baseline(baseline);
-  if (!known) return known.issue();
-  return known->causes;
-}
-
 void run_causes(const CausesOptions& options, Context& context) {
   const Result<Corpus> corpus = Corpus::open(options.corpus);
   if (!corpus) return context.fail(corpus.issue());
   std::vector<CauseMember> members = unfixed_members(*corpus, context);
-  const Result<std::set<std::string>> known = causes_known_in(options.baseline, members);
+  const Result<Baseline> known = load_baseline(options.baseline);
   if (!known) return context.fail(known.issue());
   std::vector<Issue> damaged;
   const std::vector<RunRecord> runs = runs_of(*corpus, damaged);
   for (const Issue& issue : damaged) context.fail(issue);
-  CausesText about{.known = *known, .corpus = options.corpus, .sources = context.sources};
+  CausesText about{.corpus = options.corpus, .sources = context.sources};
   for (const RunRecord& run : runs) about.cases += run.cases;
   const auto buckets = std::ssize(members);
-  const std::vector<CauseRow> rows = causes_of(std::move(members), runs);
+  std::vector<CauseRow> rows = causes_of(std::move(members), runs);
+  if (!options.baseline.empty()) mark_news(rows, *known, group_counts_of(runs, known->runs));
   if (options.all) about.most = rows.size();
   if (options.json) return void(std::printf("%s\n", causes_json(rows, about).c_str()));
   std::printf("%s%s, %s\n", causes_text(rows, about).c_str(), counted(std::ssize(rows), "cause", "causes").c_str(),

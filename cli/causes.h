@@ -28,14 +28,13 @@ Issue no_such_cause(const std::string& prefix);
 
 struct CausesText {
   std::int64_t cases = 0;       // number of cases of the runs
-  std::set<std::string> known{};  // ids of known causes; all others are new
   std::size_t most = 12;        // rows that are printed
   std::string corpus{};         // for the command that shows the others
   const Sources& sources;
 };
 
-// Two lines for each cause: its headline, and how severe and frequent it is with the command that shows its deepest
-// case again. One line counts the causes that are left out.
+// Two lines for each cause: its headline, marked NEW, MORE or RARE (CauseNews), and how severe and frequent it is with
+// the command that shows its deepest case again. One line counts the causes that are left out, and one explains a mark.
 std::string causes_text(std::span<const CauseRow> rows, const CausesText& about);
 
 std::string causes_json(std::span<const CauseRow> rows, const CausesText& about);

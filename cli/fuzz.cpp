@@ -175,18 +175,19 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
 // The ids of the run's buckets that fail a build: those that people know of, or that the baseline has, do not.
 Result<std::set<std::string>> gating_buckets(const RunResult& result, const std::string& today,
                                              const Baseline& baseline) {
+  const GroupCounts now = group_counts_of(std::span(&result.record, 1));
   std::set<std::string> gating;
   for (const std::vector<std::string>* folders : {&result.new_buckets, &result.known_buckets})
     for (const std::string& folder : *folders) {
       const Result<Bucket> bucket = read_bucket(folder);
       if (!bucket) return bucket.issue();
-      if (is_gating(*bucket, today, baseline)) gating.insert(bucket->id);
+      if (is_gating(*bucket, today, baseline, now)) gating.insert(bucket->id);
     }
   return gating;
 }
 
-bool is_any_severe(const FoundCauses& causes, const std::set<std::string>& gating, double least_severity) {
-  return std::ranges::any_of(causes.rows, [&](const CauseRow& row) {
+bool is_any_severe(std::span<const CauseRow> causes, const std::set<std::string>& gating, double least_severity) {
+  return std::ranges::any_of(causes, [&](const CauseRow& row) {
     return row.severity >= least_severity && std::ranges::any_of(row.members, [&](const CauseMember& member) {
              return gating.contains(member.bucket.id);
            });
@@ -195,11 +196,13 @@ bool is_any_severe(const FoundCauses& causes, const std::set<std::string>& gatin
 
 bool any_lead_gates(const RunResult& result, const Corpus& corpus, const std::string& today,
                     const Baseline& baseline) {
+  const GroupCounts now = group_counts_of(std::span(&result.record, 1));
   std::vector<Issue> damaged;
-  const std::set<Family> known = known_families(corpus.buckets(damaged), today, baseline);
+  const std::set<Family> known = known_families(corpus.buckets(damaged), today, baseline, now);
   return std::ranges::any_of(result.waiting, [&](const std::string& path) {
     const Result<Lead> lead = read_lead(path);
-    return lead && !known.contains(family_of(lead->original));
+    return lead && !known.contains(family_of(lead->original)) &&
+           !may_be_chance(family_of(lead->original), now, baseline);
   });
 }
 
@@ -211,7 +214,7 @@ Result<bool> any_gates(const RunResult& result, const Corpus& corpus, const Fuzz
   if (!baseline) return baseline.issue();
   const Result<std::set<std::string>> gating = gating_buckets(result, today, *baseline);
   if (!gating) return gating.issue();
-  if (options.fail_on > 0.0) return is_any_severe(causes_found(result, corpus), *gating, options.fail_on);
+  if (options.fail_on > 0.0) return is_any_severe(causes_found(result, corpus, *baseline), *gating, options.fail_on);
   return !gating->empty() || any_lead_gates(result, corpus, today, *baseline);
 }
 
@@ -315,7 +318,7 @@ void run(FuzzOptions options, Context& context) {
   const int code = exit_code_of(result, !gates || *gates);
   context.exit_code = code;
   print_totals(result, {options.json, options.corpus, options.report, options.shrinks_per_case, *settings,
-                        context.sources, config.against, known->causes});
+                        context.sources, config.against, *known});
   if (!result.issue.code.empty()) context.fail(result.issue, static_cast<Exit>(code));
   if (const Result<Done> closed = log.close(); !closed) context.fail(closed.issue(), kInternal);
   if (result.record.discarded > 0) tell_discarded(result.record, !context.sources.generator.empty());

@@ -22,7 +22,7 @@ std::string name_of_folder(const std::string& path) { return std::filesystem::pa
 
 }  // namespace
 
-FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
+std::vector<CauseRow> causes_found(const RunResult& result, const Corpus& corpus, const Baseline& baseline) {
   std::set<std::string> fresh, touched;
   for (const std::string& folder : result.new_buckets) fresh.insert(name_of_folder(folder));
   touched = fresh;
@@ -34,13 +34,30 @@ FoundCauses causes_found(const RunResult& result, const Corpus& corpus) {
     if (!fresh.contains(name)) before.push_back(member);
     if (touched.contains(name)) found.push_back(std::move(member));
   }
-  return {causes_of(std::move(found), std::span(&result.record, 1)), cause_ids(before)};
+  Baseline known = baseline;
+  const std::set<std::string> ids = cause_ids(before);
+  known.causes.insert(ids.begin(), ids.end());
+  std::set<std::string> counted = baseline.runs;
+  counted.insert(result.record.name);
+  add(group_counts_of(runs_of(corpus, damaged), counted), known.seen);
+  std::vector<CauseRow> rows = causes_of(std::move(found), std::span(&result.record, 1));
+  mark_news(rows, known, group_counts_of(std::span(&result.record, 1)));
+  return rows;
 }
 
 namespace {
 
+// "3 of them new, 1 more frequent than before, 12 too rare to say"
+std::string news_text(std::span<const CauseRow> causes) {
+  const auto with = [&](CauseNews news) { return count_text(std::ranges::count(causes, news, &CauseRow::news)); };
+  std::string text = with(CauseNews::fresh) + " of them new";
+  if (const std::string more = with(CauseNews::more); more != "0") text += ", " + more + " more frequent than before";
+  if (const std::string rare = with(CauseNews::rare); rare != "0") text += ", " + rare + " too rare to say";
+  return text;
+}
+
 // The verdict in one sentence.
-std::string verdict(const RunRecord& record, const FoundCauses& causes) {
+std::string verdict(const RunRecord& record, std::span<const CauseRow> causes) {
   if (record.cases == 0) return "No case ran.";
   const std::int64_t judged = record.cases - record.discarded;
   if (judged == 0) return "The generator refused every case, so that nothing was judged.";
@@ -48,23 +65,16 @@ std::string verdict(const RunRecord& record, const FoundCauses& causes) {
       clean_share(judged, record.failing) + " of " + counted(judged, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
   const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
-  if (causes.rows.empty()) return failing + "; none has a bucket yet, so no cause is known.";
-  const auto is_new = [&](const CauseRow& row) { return !causes.known.contains(row.id); };
-  return failing + ", by " +
-         counted(std::ssize(causes.rows), "cause", "causes") + ", " +
-         count_text(std::ranges::count_if(causes.rows, is_new)) + " of them new.";
+  if (causes.empty()) return failing + "; none has a bucket yet, so no cause is known.";
+  return failing + ", by " + counted(std::ssize(causes), "cause", "causes") + ", " + news_text(causes) + ".";
 }
 
 void print_causes(const RunResult& result, const TotalsRequest& request) {
   const Result<Corpus> corpus = Corpus::open(request.corpus);
   if (!corpus) return;
-  FoundCauses causes = causes_found(result, *corpus);
-  causes.known.insert(request.known_causes.begin(), request.known_causes.end());
+  const std::vector<CauseRow> causes = causes_found(result, *corpus, request.baseline);
   std::printf("%s\n%s", verdict(result.record, causes).c_str(),
-              causes_text(causes.rows, {.cases = result.record.cases,
-                                        .known = causes.known,
-                                        .corpus = request.corpus,
-                                        .sources = request.sources})
+              causes_text(causes, {.cases = result.record.cases, .corpus = request.corpus, .sources = request.sources})
                   .c_str());
 }
 

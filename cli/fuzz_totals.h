@@ -2,22 +2,19 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "corpus/baseline.h"
 #include "corpus/causes.h"
 #include "cli/sources.h"
 #include "fuzz/run.h"
 
 namespace contort::cli {
 
-// The causes of the failures of a run, the most severe first, and the ids of those that the corpus had before.
-struct FoundCauses {
-  std::vector<CauseRow> rows;
-  std::set<std::string> known;
-};
-FoundCauses causes_found(const RunResult& result, const Corpus& corpus);
+// The causes of the failures of a run: first those that neither the baseline nor the corpus had before, then the most
+// severe.
+std::vector<CauseRow> causes_found(const RunResult& result, const Corpus& corpus, const Baseline& baseline);
 
 struct TotalsRequest {
   bool json = false;
@@ -27,7 +24,7 @@ struct TotalsRequest {
   const CheckSettings& settings;
   const Sources& sources;
   const std::optional<AgainstConfig>& against;
-  const std::set<std::string>& known_causes;  // of the baseline: they are not new
+  const Baseline& baseline;
 };
 
 // All but the last line: failures with their commands, waivers, counts, and what is left to do.

@@ -80,7 +80,7 @@ int exit_code_of(Verdict verdict) {
 // A replay fails a build when what it runs still fails, in one way or another, and that is not known.
 bool gates(const BucketReplay& ran, const Bucket& next, const std::string& today, const Baseline& known) {
   const bool fails = ran.shown == Shown::fails || (ran.shown == Shown::gone && ran.verdict == Verdict::different);
-  return fails && is_gating(next, today, known);
+  return fails && is_gating(next, today, known, {});
 }
 
 struct Totals {

@@ -17,6 +17,7 @@
 #include "cli/program_files.h"
 #include "cli/progress_line.h"
 #include "cli/render.h"
+#include "cli/report_causes.h"
 #include "cli/report_folder.h"
 #include "cli/single_file.h"
 #include "cli/tested.h"
@@ -25,7 +26,6 @@
 #include "corpus/corpus.h"
 #include "process/program.h"
 #include "corpus/causes.h"
-#include "corpus/condition.h"
 #include "corpus/leads.h"
 #include "corpus/runs.h"
 #include "fuzz/labels.h"
@@ -76,6 +76,7 @@ std::string picture_name(const ReportRow& row, const Case& stored, const std::st
 struct RowContext {
   const Corpus& corpus;
   const Baseline& known;
+  const GroupCounts& now;        // by the runs of this corpus that the baseline does not have
   const std::string settings;  // the text of --settings
   const Context& context;
   MeasuredValues& measured;
@@ -117,8 +118,11 @@ ReportRow row_of(const Bucket& bucket, const Case& stored, const RowContext& wit
   ReportRow row = row_of_case(stored, path, folder_name(bucket), with);
   row.family = print_family(bucket.family), row.features = bucket.features;
   row.bucket = bucket.id, row.state = state_name(bucket.state);
-  row.gating = is_gating(bucket, day, with.known);
-  row.note = with.known.contains(bucket) ? "in the baseline" : known_text(bucket, day);
+  row.gating = is_gating(bucket, day, with.known, with.now);
+  row.note = with.known.contains(bucket) ? "in the baseline"
+             : bucket.state == BucketState::fresh && may_be_chance(bucket.family, with.now, with.known)
+                 ? "no more frequent than in the baseline, as far as so few cases tell"
+                 : known_text(bucket, day);
   return row;
 }
 
@@ -129,7 +133,8 @@ ReportRow row_of(const Lead& lead, const std::set<Family>& known, const RowConte
   ReportRow row = row_of_case(lead.original, path, "lead-" + name, with);
   row.bucket = name;
   row.state = waits(lead) ? "waiting" : "unconfirmed";
-  row.gating = waits(lead) && !known.contains(family_of(lead.original));
+  const Family family = family_of(lead.original);
+  row.gating = waits(lead) && !known.contains(family) && !may_be_chance(family, with.now, with.known);
   row.note = waits(lead) ? "found when time was up: the next contort fuzz on this corpus shrinks it"
                          : "seen once: a second run did not show it";
   return row;
@@ -155,50 +160,9 @@ std::vector<CauseMember> add_bucket_rows(const std::vector<Bucket>& buckets, con
   return members;
 }
 
-// Without a baseline a cause is new if nobody has looked at any of its failures.
-bool is_new(const CauseRow& row, const Baseline& known, bool has_baseline) {
-  if (has_baseline) return !known.causes.contains(row.id);
-  return std::ranges::all_of(row.members,
-                             [](const CauseMember& member) { return member.bucket.state == BucketState::fresh; });
-}
-
-// The causes of failures that are not fixed, and the headline of each row.
-void add_causes(std::vector<CauseMember> members, const std::vector<RunRecord>& runs, const Baseline& known,
-                ReportModel& model) {
-  std::erase_if(members, [](const CauseMember& member) { return member.bucket.state == BucketState::fixed; });
-  std::map<std::string, std::string> headlines;  // by bucket
-  for (const CauseRow& row : causes_of(std::move(members), runs)) {
-    ReportCause& cause = model.causes.emplace_back();
-    cause.id = row.id, cause.headline = row.headline;
-    cause.severity = row.severity, cause.cases = row.cases;
-    cause.is_new = is_new(row, known, model.has_baseline);
-    cause.characters.assign(row.characters.begin(), row.characters.end());
-    for (const CauseMember& member : row.members) {
-      cause.buckets.push_back(member.bucket.id);
-      headlines[member.bucket.id] = row.headline;
-    }
-    if (!is_abnormal_exit(row.members.front().minimal.expect)) cause.key = folder_name(row.members.front().bucket);
-  }
-  for (ReportRow& row : model.rows)
-    if (const auto at = headlines.find(row.bucket); at != headlines.end()) row.cause = at->second;
-}
-
-// The sentences of rules that were learned from what are still minimal cases of their cause.
-Result<Done> add_conditions(const Corpus& corpus, const std::vector<CauseMember>& members, ReportModel& model) {
-  const Result<std::vector<Condition>> conditions = conditions_of(corpus);
-  if (!conditions) return conditions.issue();
-  std::set<std::string> specs;
-  for (const CauseMember& member : members) specs.insert(spec_id(member.minimal.spec));
-  for (const Condition& condition : *conditions)
-    for (ReportCause& cause : model.causes)
-      if (cause.id == condition.cause && has_rule(condition) && specs.contains(condition.learned_from))
-        cause.conditions[condition.character] = condition_text(condition);
-  return Done{};
-}
-
 void add_lead_rows(const std::vector<Bucket>& buckets, const RowContext& with, ReportModel& model, Media& media,
                    const std::string& out, std::vector<Issue>& damaged) {
-  const std::set<Family> known = known_families(buckets, with.context.day(), with.known);
+  const std::set<Family> known = known_families(buckets, with.context.day(), with.known, with.now);
   for (const Lead& lead : leads_of(with.corpus, damaged)) {
     if (!waits(lead) && !is_unsteady(lead)) continue;
     const std::filesystem::path path = lead_path(with.corpus, lead);
@@ -213,13 +177,15 @@ void fill_rows(const Corpus& corpus, const Baseline& known, MeasuredValues measu
   std::vector<Issue> damaged;
   const Result<std::string> read = read_file(context.settings_file, json_fields::kMaxDocumentBytes);
   // They were read before; without --settings there is no file.
-  const RowContext with{corpus, known, read ? *read : "", context, measured};
+  std::vector<Issue> of_runs;  // add_runs tells them
+  const std::vector<RunRecord> runs = runs_of(corpus, of_runs);
+  const GroupCounts now = group_counts_of(runs, known.runs);
+  const RowContext with{corpus, known, now, read ? *read : "", context, measured};
   const std::vector<Bucket> buckets = corpus.buckets(damaged);
   model.buckets = std::ssize(buckets);
   std::vector<CauseMember> members = add_bucket_rows(buckets, with, model, media, out, damaged);
   add_lead_rows(buckets, with, model, media, out, damaged);
-  std::vector<Issue> of_runs;  // add_runs tells them
-  add_causes(members, runs_of(corpus, of_runs), known, model);
+  add_cause_rows(members, runs, known, now, model);
   if (const Result<Done> added = add_conditions(corpus, members, model); !added) damaged.push_back(added.issue());
   for (const Issue& issue : damaged) context.fail(issue);  // reported, and the rest is still shown
   order_rows(model.rows);

@@ -1,5 +1,6 @@
 #include "corpus/baseline.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "corpus/causes.h"
@@ -23,8 +24,17 @@ Result<Baseline> from_corpus(const std::string& folder) {
   Baseline known;
   std::vector<Bucket> buckets = corpus->buckets(damaged);
   if (!damaged.empty()) return damaged.front();
-  std::erase_if(buckets, [](const Bucket& bucket) { return bucket.state == BucketState::fixed; });
+  const auto fixed = std::ranges::stable_partition(
+      buckets, [](const Bucket& bucket) { return bucket.state != BucketState::fixed; });
+  const std::vector<Bucket> gone(fixed.begin(), fixed.end());
+  buckets.erase(fixed.begin(), fixed.end());
   for (const Bucket& bucket : buckets) known.add(bucket.id, bucket.family);
+  // Damage to a run's record leaves it uncounted; reports say so.
+  std::vector<Issue> of_runs;
+  const std::vector<RunRecord> runs = runs_of(*corpus, of_runs);
+  for (const RunRecord& run : runs) known.runs.insert(run.name);
+  known.seen = group_counts_of(runs);
+  for (const Bucket& bucket : gone) known.seen.of_family.erase(bucket.family);
   // A bucket without a readable minimal case is known all the same.
   known.causes = cause_ids(cause_members(*corpus, std::move(buckets), damaged));
   return known;
@@ -77,15 +87,53 @@ Result<Baseline> read_baseline(const std::string& path) {
   return from_list(path, *list);
 }
 
-bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& known) {
-  return is_gating(bucket, today) && !known.contains(bucket);
+bool may_be_chance(const Family& family, const GroupCounts& now, const Baseline& known) {
+  if (known.seen.groups == 0 || now.groups == 0) return false;
+  if (kind_of_check(family.check) == CheckKind::broken && groups_with(family, known.seen) == 0) return false;
+  return !is_more_frequent(family, now, known.seen);
 }
 
-std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known) {
+bool is_gating(const Bucket& bucket, const std::string& today, const Baseline& known, const GroupCounts& now) {
+  if (!is_gating(bucket, today) || known.contains(bucket)) return false;
+  return bucket.state != BucketState::fresh || !may_be_chance(bucket.family, now, known);
+}
+
+std::set<Family> known_families(const std::vector<Bucket>& buckets, const std::string& today, const Baseline& known,
+                                const GroupCounts& now) {
   std::set<Family> families = known.families;
   for (const Bucket& bucket : buckets)
-    if (bucket.state != BucketState::fixed && !is_gating(bucket, today, known)) families.insert(bucket.family);
+    if (bucket.state != BucketState::fixed && !is_gating(bucket, today, known, now)) families.insert(bucket.family);
   return families;
+}
+
+namespace {
+
+CauseNews news_of(const CauseRow& row, const Baseline& known, const GroupCounts& now) {
+  const auto any = [&](auto&& of_family) {
+    return std::ranges::any_of(row.members,
+                               [&](const CauseMember& member) { return of_family(member.bucket.family); });
+  };
+  if (known.causes.contains(row.id))
+    return any([&](const Family& family) { return is_more_frequent(family, now, known.seen); }) ? CauseNews::more
+                                                                                                : CauseNews::known;
+  if (any([&](const Family& family) { return !may_be_chance(family, now, known); })) return CauseNews::fresh;
+  return any([&](const Family& family) { return groups_with(family, known.seen) > 0; }) ? CauseNews::known
+                                                                                       : CauseNews::rare;
+}
+
+}  // namespace
+
+void add(const Baseline& more, Baseline& known) {
+  known.buckets.insert(more.buckets.begin(), more.buckets.end());
+  known.families.insert(more.families.begin(), more.families.end());
+  known.causes.insert(more.causes.begin(), more.causes.end());
+  known.runs.insert(more.runs.begin(), more.runs.end());
+  add(more.seen, known.seen);
+}
+
+void mark_news(std::vector<CauseRow>& rows, const Baseline& known, const GroupCounts& now) {
+  for (CauseRow& row : rows) row.news = news_of(row, known, now);
+  std::ranges::stable_partition(rows, is_news, &CauseRow::news);
 }
 
 }  // namespace contort

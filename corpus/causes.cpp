@@ -1,6 +1,7 @@
 #include "corpus/causes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -65,6 +66,11 @@ CauseRow row_of(const std::string& id, std::vector<CauseMember> members, std::sp
 }
 
 }  // namespace
+
+std::span<const std::string_view> cause_news_names() {
+  static constexpr std::array<std::string_view, 4> kNames = {"known", "new", "more often", "rare"};
+  return kNames;
+}
 
 double severity_of(CheckKind kind, double median_depth, CauseScope scope, double share) {
   const double depth = std::isfinite(median_depth) ? median_depth / (median_depth + kHalfDepth) : 1.0;

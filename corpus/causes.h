@@ -20,6 +20,16 @@ struct CauseMember {
   std::string path;  // path of the minimal case
 };
 
+// What a baseline (baseline.h) says of a cause.
+enum class CauseNews : std::uint8_t {
+  known,  // the baseline has it, or saw its families about as often
+  fresh,  // the baseline does not have it, and chance does not explain how often it shows
+  more,   // the baseline has it, and chance does not explain how much more often it shows now
+  rare,   // the baseline never saw it, and it shows in too few groups to say whether anything changed
+};
+std::span<const std::string_view> cause_news_names();  // in the order of the enum: "known", "new", "more often", "rare"
+inline bool is_news(CauseNews news) { return news == CauseNews::fresh || news == CauseNews::more; }
+
 struct CauseRow {
   std::string id;
   double severity = 0.0;      // [0, 100]
@@ -28,6 +38,7 @@ struct CauseRow {
                               // if any case ran
   std::set<std::string> characters{};
   std::vector<CauseMember> members{};  // the deepest first, then by name
+  CauseNews news = CauseNews::known;   // mark_news (baseline.h)
 };
 
 // Reads the minimal cases of these buckets. Those that cannot be read are reported in `damaged`.

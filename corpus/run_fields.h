@@ -17,6 +17,7 @@ inline constexpr int kMostShrinks = 1000;  // the most shrinks of one family
 template <class V>
 void fields(V& v, const FamilyCount*) {
   v.field("cases", &FamilyCount::cases, run_rules::kTotal, "Cases that showed it.");
+  v.field("groups", &FamilyCount::groups, run_rules::kTotal, "Groups of cases with at least one of them.");
   v.field("first_index", &FamilyCount::first_index, run_rules::kTotal, "The first of them.");
   v.field("first_indices", &FamilyCount::first_indices,
           {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostShrinks},
@@ -67,6 +68,7 @@ void fields(V& v, const RunRecord*) {
   v.field("cases", &RunRecord::cases, run_rules::kTotal, "Cases that ran.");
   v.field("frames", &RunRecord::frames, run_rules::kTotal, "Frames that they had.");
   v.field("failing", &RunRecord::failing, run_rules::kTotal, "Cases with at least one finding.");
+  v.field("groups", &RunRecord::groups, run_rules::kTotal, "Groups of cases that share a setting; 0: not counted.");
   v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that were refused.");
   using json_fields::Text;
   v.field("tested", &RunRecord::tested,

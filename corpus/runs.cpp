@@ -27,7 +27,7 @@ void add_families(const RunRecord& shard, RunRecord& sum) {
     FamilyCount& all = sum.families[family];
     if (all.cases == 0 || count.first_index < all.first_index)
       all.first_index = count.first_index, all.first_arm = count.first_arm;
-    all.cases += count.cases;
+    all.cases += count.cases, all.groups += count.groups;
     std::vector<std::int64_t> both;
     std::ranges::merge(all.first_indices, count.first_indices, std::back_inserter(both));
     both.resize(std::min(both.size(), static_cast<std::size_t>(sum.shrinks_per_family)));
@@ -66,7 +66,7 @@ RunRecord added_up(const std::vector<RunRecord>& shards) {
   sum.shrinks_per_family = shards.front().shrinks_per_family;
   for (const RunRecord& shard : shards) {
     sum.cases += shard.cases, sum.frames += shard.frames, sum.failing += shard.failing;
-    sum.discarded += shard.discarded;
+    sum.groups += shard.groups, sum.discarded += shard.discarded;
     add_refusals(shard.refusals, sum.refusals);
     for (const auto& [label, count] : shard.tested) sum.tested[label] += count;
     add_families(shard, sum);

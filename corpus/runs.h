@@ -22,6 +22,7 @@ struct FamilyCount {
   // (RunConfig::shrinks_per_case); at most shrinks_per_family of the run.
   std::vector<std::int64_t> first_indices;
   std::string first_arm;  // "guided": how the case of first_index was drawn
+  std::int64_t groups = 0;  // groups of cases (RunRecord::groups) with at least one of them
   bool operator==(const FamilyCount&) const = default;
 };
 
@@ -60,6 +61,7 @@ struct RunRecord {
   std::int64_t cases = 0;
   std::int64_t frames = 0;
   std::int64_t failing = 0;                     // cases with at least one finding
+  std::int64_t groups = 0;                      // groups of cases that share a setting (fuzz/stages.h); 0: not counted
   std::int64_t discarded = 0;                   // drawn specs that were refused; a fault if the generator is built in
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
   std::map<Family, FamilyCount> families;

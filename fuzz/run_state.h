@@ -13,12 +13,19 @@
 
 namespace contort {
 
+// The cases of one epoch of an island (stages.h).
+struct CaseGroup {
+  std::vector<Family> shown;  // by at least one of them, sorted
+  bool operator==(const CaseGroup&) const = default;
+};
+
 struct RunState {
   std::string plan;       // the options of the run; other options mean another run
   std::int64_t next = 0;  // first case of the next round
   RunRecord record;
   std::vector<Island> islands = std::vector<Island>(kIslands);
   std::vector<Ingredients> ingredients = std::vector<Ingredients>(kIslands);
+  std::vector<CaseGroup> groups = std::vector<CaseGroup>(kIslands);  // the present one of each island
   std::vector<SettleTask> wanted;          // failures that are not processed yet
   std::vector<std::string> new_buckets;    // names of folders
   std::vector<std::string> known_buckets;  // names of folders

@@ -1,5 +1,6 @@
 #include "fuzz/run_statistics.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -42,6 +43,18 @@ void RunStatistics::count(const EvaluateReport& report, std::int64_t index, bool
   add_uses(report.waivers, state_.waivers);
 }
 
+// The cases of one epoch of an island are a group. Cases come in order, so that the first one begins it.
+void RunStatistics::count_group(std::int64_t index, const std::vector<Family>& counted) {
+  std::vector<Family>& shown = state_.groups[static_cast<std::size_t>(island_of(index))].shown;
+  if (index == setting_of(index)) shown.clear(), ++state_.record.groups;
+  for (const Family& family : counted) {
+    const auto at = std::ranges::lower_bound(shown, family);
+    if (at != shown.end() && *at == family) continue;
+    shown.insert(at, family);
+    ++state_.record.families[family].groups;
+  }
+}
+
 // Whether this failure is to be settled. It is counted in any case.
 bool RunStatistics::wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name) {
   std::map<Family, FamilyCount>& families = state_.record.families;
@@ -75,6 +88,7 @@ std::vector<SettleTask> RunStatistics::add(const RoundCase& one) {
     if (wants(counted[rank], rank, index, strategy_name))
       wanted.push_back({one.lineage, counted[rank], static_cast<int>(rank), report.motion_hash, one.ends_process, true,
                         report.against ? report.against->base_hash : ""});
+  count_group(index, counted);
   return wanted;
 }
 

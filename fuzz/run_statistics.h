@@ -26,6 +26,7 @@ class RunStatistics {
  private:
   void learn(const Lineage& lineage, const EvaluateReport& report);
   void count(const EvaluateReport& report, std::int64_t index, bool fails, const std::string& strategy_name);
+  void count_group(std::int64_t index, const std::vector<Family>& counted);
   bool wants(const Family& family, std::size_t rank, std::int64_t index, const std::string& strategy_name);
 
   const RunConfig& config_;

@@ -32,6 +32,11 @@ void fields(V& v, const Ingredients*) {
   v.field("failing", &Ingredients::failing, {.max_count = 1000}, "Pairs with a finding.");
 }
 
+template <class V>
+void fields(V& v, const CaseGroup*) {
+  v.field("shown", &CaseGroup::shown, message_rules::kFamilies, "Families that they showed.");
+}
+
 inline const json_fields::Rule kStateFolders{.max_count = 100'000, .text = json_fields::Text::file};
 
 template <class V>
@@ -42,6 +47,7 @@ void fields(V& v, const RunState*) {
   v.field("record", &RunState::record, {.required = true}, "What was done so far.");
   v.field("islands", &RunState::islands, {.max_count = kIslands}, "What the search knows.");
   v.field("ingredients", &RunState::ingredients, {.max_count = kIslands}, "What the stages know, by island.");
+  v.field("groups", &RunState::groups, {.max_count = kIslands}, "The cases of the present epoch, by island.");
   v.field("wanted", &RunState::wanted, {.max_count = 1'000'000}, "Failures that are not settled yet.");
   v.field("new_buckets", &RunState::new_buckets, kStateFolders, "Buckets that this run was the first to fill.");
   v.field("known_buckets", &RunState::known_buckets, kStateFolders, "Buckets that were there before.");

@@ -99,7 +99,11 @@ std::string unfolded_html(const ReportCause& cause, const std::vector<const Repo
 // ---- columns
 
 std::string novelty_html(const ReportCause& cause, const std::vector<const ReportRow*>& rows) {
-  if (cause.is_new) return "<span class='chip state-new'>new</span>";
+  if (is_news(cause.news))
+    return "<span class='chip state-new'>" + std::string(cause_news_names()[static_cast<std::size_t>(cause.news)]) +
+           "</span>";
+  if (cause.news == CauseNews::rare)
+    return "<span class='chip'>rare</span> <span class='dim'>too rare to say</span>";
   const auto fresh = std::ranges::count_if(rows, [](const ReportRow* row) { return row->gating; });
   const std::string more = fresh == 0 ? "" : " <span class='dim'>" + html_text(count_text(fresh)) + " new in it</span>";
   return "<span class='chip'>known</span>" + more;
@@ -148,13 +152,14 @@ std::string new_text(std::int64_t fresh, std::int64_t all) {
 std::string intro_html(const ReportModel& model) {
   std::int64_t failures = 0;
   for (const ReportCause& cause : model.causes) failures += std::ssize(cause.buckets);
-  const auto fresh = std::ranges::count_if(model.causes, &ReportCause::is_new);
+  const auto fresh = std::ranges::count(model.causes, CauseNews::fresh, &ReportCause::news);
   const std::int64_t causes = std::ssize(model.causes);
   const std::string since = model.has_baseline ? " since the " + term_html("baseline") : "";
   return "<p class='order'>" + html_text(count_text(causes)) + " " +
          term_html("cause", causes == 1 ? "cause" : "causes") + (causes == 1 ? " explains " : " explain ") +
          html_text(counted(failures, "failure", "failures")) + "; " + new_text(fresh, causes) + " new" + since +
-         ". The most severe comes first.</p>\n";
+         (model.has_baseline ? ". What is news comes first, then the most severe.</p>\n"
+                             : ". The most severe comes first.</p>\n");
 }
 
 std::string head_row() {

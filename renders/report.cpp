@@ -54,7 +54,7 @@ Json row_json(const ReportRow& row) {
 Json cause_json(const ReportCause& cause) {
   return {{"id", cause.id},       {"headline", cause.headline},     {"severity", cause.severity},
           {"cases", cause.cases}, {"characters", cause.characters}, {"buckets", cause.buckets},
-          {"conditions", cause.conditions}, {"is_new", cause.is_new}};
+          {"conditions", cause.conditions}, {"news", cause_news_names()[static_cast<std::size_t>(cause.news)]}};
 }
 
 Json search_json(const SearchProgress& search) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checks/family.h"
+#include "corpus/causes.h"
 #include "corpus/refusals.h"
 #include "corpus/search_progress.h"
 #include "model/core/result.h"
@@ -65,7 +66,7 @@ struct ReportCause {
   std::string key;                      // key of the row of its deepest case, if that has a motion; else ""
   // Sentences that say when it fails, by character (docs/reference/conditions.md); empty if none were learned.
   std::map<std::string, std::string> conditions{};
-  bool is_new = false;  // not in the baseline; without a baseline: nobody has acknowledged any of its failures
+  CauseNews news = CauseNews::known;  // without a baseline new if nobody has acknowledged any of its failures
 };
 
 struct ReportModel {
@@ -79,7 +80,7 @@ struct ReportModel {
   std::string elapsed;  // "12 min"; "" if the page must be the same every time
   std::vector<ReportRow> rows;
   std::vector<ReportCause> causes;  // the most severe first
-  bool has_baseline = false;        // true: is_new of causes compares with a baseline
+  bool has_baseline = false;        // true: the news of causes compare with a baseline
   bool has_engine = false;          // true: the page plays specs with viewer/engine.js (docs/internals/wasm.md)
   SearchProgress search;            // progress of all runs together
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never

@@ -89,7 +89,7 @@ TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
     EXPECT_EQ(read_case(minimal)->cause.scheme, kCauseScheme) << "the run stores the cause: " << minimal;
   }
   for (const auto& cause : all["causes"]) {
-    EXPECT_FALSE(cause["is_new"].get<bool>());
+    EXPECT_EQ(cause["news"], "known");
     for (const auto& bucket : cause["buckets"]) of_causes.push_back(bucket["id"]);
   }
   std::ranges::sort(listed);
@@ -98,7 +98,7 @@ TEST_F(CausesCommand, OfACorpusHoldEveryBucketOnceAndAreComparedWithABaseline) {
   EXPECT_LE(all["causes"].size(), listed.size());
   contort_program({"fuzz", "--cases", "0", "--corpus", folder_ / "empty"});
   const nlohmann::json fresh = json_of({"causes", folder_ / "a", "--baseline", folder_ / "empty"});
-  for (const auto& cause : fresh["causes"]) EXPECT_TRUE(cause["is_new"].get<bool>());
+  for (const auto& cause : fresh["causes"]) EXPECT_EQ(cause["news"], "new");
   EXPECT_EQ(contort_program({"causes", folder_ / "nowhere"}).code, 2);
 }
 

@@ -98,9 +98,9 @@ TEST_F(ReportOfCorpus, TellsTheMeasuredValueAndItsLimit) {
 TEST_F(ReportOfCorpus, TellsNewCausesFromThoseOfTheBaseline) {
   const auto causes = [&] { return nlohmann::json::parse(slurp(folder_ / "out/report.json"))["causes"]; };
   ASSERT_EQ(report({}).code, 0);
-  EXPECT_EQ(causes()[0]["is_new"], true);
+  EXPECT_EQ(causes()[0]["news"], "new");
   ASSERT_EQ(report({"--baseline", corpus_.folder()}).code, 0);
-  EXPECT_EQ(causes()[0]["is_new"], false);
+  EXPECT_EQ(causes()[0]["news"], "known");
   EXPECT_NE(slurp(folder_ / "out/index.html").find("<span class='chip'>known</span>"), std::string::npos);
 }
 

@@ -229,9 +229,9 @@ TEST(LifecycleTable, AQuarantineLastsThirtyDaysAtMost) {
 
 TEST(LifecycleTable, WhatTheBaselineHasDoesNotGate) {
   const Bucket bucket = in_state(BucketState::fresh);
-  EXPECT_TRUE(is_gating(bucket, kToday, {}));
-  EXPECT_TRUE(is_gating(bucket, kToday, {{"ffffffffffff"}, {bucket.family}}));
-  EXPECT_FALSE(is_gating(bucket, kToday, {{bucket.id}, {}}));
+  EXPECT_TRUE(is_gating(bucket, kToday, {}, {}));
+  EXPECT_TRUE(is_gating(bucket, kToday, {{"ffffffffffff"}, {bucket.family}}, {}));
+  EXPECT_FALSE(is_gating(bucket, kToday, {{bucket.id}, {}}, {}));
 }
 
 Family pop_of(std::string_view subject) { return {"pop", "human", std::string(subject)}; }
@@ -244,9 +244,9 @@ TEST(LifecycleTable, AFamilyIsKnownInTheBaselineOrByABucketThatDoesNotGate) {
     buckets.back().family = pop_of(state_name(state));
     buckets.back().id = state_name(state);
   }
-  EXPECT_EQ(known_families(buckets, kToday, {}), std::set<Family>{pop_of("open")});
+  EXPECT_EQ(known_families(buckets, kToday, {}, {}), std::set<Family>{pop_of("open")});
   const std::set<Family> with_baseline = {pop_of("new"), pop_of("open"), pop_of("other")};
-  EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {pop_of("other")}}), with_baseline);
+  EXPECT_EQ(known_families(buckets, kToday, {{"new"}, {pop_of("other")}}, {}), with_baseline);
 }
 
 // The output of a replay by the other branch's contort: what fails there as well is known.

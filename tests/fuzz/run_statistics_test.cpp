@@ -34,7 +34,17 @@ TEST_F(CountedCases, AddUp) {
   EXPECT_EQ(record.tested.at("ground steps"), 2);
   EXPECT_EQ(record.arms.at("seed"), (StrategyCount{1, 1}));
   EXPECT_EQ(record.arms.at(statistics_.strategy_of_case({1})), (StrategyCount{1, 0}));
-  EXPECT_EQ(record.families.at(knee_), (FamilyCount{1, 0, {0}, "seed"}));
+  EXPECT_EQ(record.families.at(knee_), (FamilyCount{1, 0, {0}, "seed", 1}));
+}
+
+// Four cases of island 0 and one of island 1, then one of island 0 in the next round of its epoch and one in the next
+// epoch.
+TEST_F(CountedCases, OfOneSettingAreOneGroup) {
+  for (const std::int64_t index : {0, 1, 2, 3}) add(index, {knee_});
+  add(kGeneration, {hip_}), add(kRound, {hip_, knee_}), add(kRound * kEpochRounds, {knee_});
+  EXPECT_EQ(state_.record.groups, 3);
+  EXPECT_EQ(state_.record.families.at(knee_).groups, 2);
+  EXPECT_EQ(state_.record.families.at(hip_).groups, 2);
 }
 
 TEST_F(CountedCases, WantTheFirstOfEachFamily) {

@@ -72,14 +72,17 @@ TEST(CausesHtml, OpenTheirDeepestCase) {
 
 TEST(CausesHtml, SayHowOftenAndWhetherTheyAreNew) {
   ReportModel model = model_with({elbow_cause(), elbow_cause()});
-  model.cases = 6000, model.causes[0].is_new = true;
+  model.cases = 6000, model.causes[0].news = CauseNews::fresh;
   const std::string html = causes_html(model, {});
   EXPECT_TRUE(holds(html, "<b>25 %</b> <span class='dim'>1\u202F500 of 6\u202F000 cases</span>"));
   EXPECT_TRUE(holds(html, "<span class='chip state-new'>new</span>"));
   EXPECT_TRUE(holds(html, "<span class='chip'>known</span>"));
   EXPECT_TRUE(holds(html, "causes</abbr> explain 4 failures; 1 is new. The most severe comes first."));
-  model.has_baseline = true;
+  model.has_baseline = true, model.causes[1].news = CauseNews::rare;
   EXPECT_TRUE(holds(causes_html(model, {}), "; 1 is new since the <abbr"));
+  EXPECT_TRUE(holds(causes_html(model, {}), "<span class='chip'>rare</span>"));
+  model.causes[1].news = CauseNews::more;
+  EXPECT_TRUE(holds(causes_html(model, {}), "<span class='chip state-new'>more often</span>"));
 }
 
 // The row of the deepest case, with a film strip of eight tiles.
