@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "generator/dynamics/feet.h"
+#include "generator/dynamics/leg_fit.h"
+#include "generator/dynamics/retreat.h"
+#include "generator/dynamics/shift_rows.h"
 #include "generator/dynamics/soft_height.h"
 #include "generator/dynamics/soft_joints.h"
 #include "generator/dynamics/support_hull.h"
@@ -32,6 +35,8 @@ constexpr double kEasyStretch = 0.97;
 constexpr double kStretched = 0.997;
 constexpr double kLetsGo_s = 0.15;
 constexpr double kUnmoved_m = 1e-4;       // moves below this are not made
+constexpr int kRetreats = 14;
+constexpr double kOff_m = 0.005;          // of the zero moment point from where it should be
 constexpr double kLeastPressure = 0.2;    // of the weight, below which the figure counts as flying
 
 // The force and moment that the ground would have to give in a frame.
@@ -39,13 +44,6 @@ struct Need {
   Vec3 com_m{0.0};
   Vec3 force_N{0.0};
   Vec3 moment_N_m{0.0};  // about the world's origin
-};
-
-// m h u'' - f u = ask for a frame's shift u, both horizontal axes.
-struct Row {
-  double spread = 0.0;  // m h, for differences between frames
-  double pressure_N = 0.0;
-  Vec3 ask{0.0};
 };
 
 // All joints of legs and of what carries them, carriers first; without the root.
@@ -74,16 +72,41 @@ class PossibleTarget {
   BalancePlan run(bool changed) {
     if (changed || is_stretched()) keep_all_soles(), lower_where_needed();
     soften();
-    for (int pass = 0; pass < kPasses; ++pass) {
-      measure();
-      if (!find_shift()) break;
-      move();
-    }
-    measure();
+    settle();
+    for (int again = 0; again < kRetreats && retreat(); ++again) settle();
     return balance();
   }
 
  private:
+  void settle() {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      measure();
+      if (!find_shift()) return;
+      move();
+    }
+    measure();
+  }
+
+  // Brings the figure nearer to standing where its legs cannot take the posture or the ground cannot hold it. Answers
+  // whether there is such a place.
+  bool retreat() {
+    std::vector<char> impossible;
+    for (int f = 0; f < motion_.frame_count; ++f) impossible.push_back(is_impossible(f) ? 1 : 0);
+    if (!retreat_.go(impossible, motion_)) return false;
+    keep_all_soles(), lower_where_needed();
+    return true;
+  }
+
+  bool is_impossible(int frame) {
+    if (plan_.standing(frame) == 0) return false;
+    if (overloaded_[at(frame)]) return true;
+    Vec3 is, wanted;
+    if (find_points(frame, is, wanted) && length(wanted - is) > kOff_m) return true;
+    return legs_fit_.overbend(motion_.row(frame)) ||
+           legs_fit_.overlap(retreat_.lifted(frame), motion_.root[at(frame)], motion_.row(frame), dynamics_);
+  }
+
+
   // Takes the jolts out of the way of the root up and down. Flights keep their heights.
   void soften() {
     std::vector<double> heights_m;
@@ -102,7 +125,7 @@ class PossibleTarget {
 
   void measure() {
     const TargetMotion target(body_, motion_);
-    needs_.clear(), speeds_.clear();
+    needs_.clear(), speeds_.clear(), overloaded_.clear();
     for (int f = 0; f < motion_.frame_count; ++f) measure(target, f);
   }
 
@@ -128,6 +151,20 @@ class PossibleTarget {
     const Vec3 torque = state.root.q * Vec3(forces_[3], forces_[4], forces_[5]);
     needs_.push_back({root + (1.0 / mass_kg) * moment, force, torque + glm::cross(root, force)});
     speeds_.push_back((1.0 / mass_kg) * momentum);
+    overloaded_.push_back(overloads(bears(frame), {torque, force}) ? 1 : 0);
+  }
+
+  // Whether a leg's joint needs more effort than it has while one sole bears everything. `forces_` are those of a figure
+  // that nothing bears, and `ground` what the ground gives, about the root's origin.
+  bool overloads(std::uint8_t bearing, const SpatialForce& ground) {
+    if (std::popcount(bearing) != 1) return false;
+    for (const int dof : figure_.soles[at(std::countr_zero(bearing))].chain_dofs)
+      forces_[at(dof)] -= dot(dynamics_.freedoms[at(dof)], ground);
+    return std::ranges::any_of(figure_.soles, [&](const Sole& sole) {
+      return std::ranges::any_of(sole.leg_dofs, [&](int dof) {
+        return forces_[at(dof)] > figure_.strength_high[at(dof)] || forces_[at(dof)] < figure_.strength_low[at(dof)];
+      });
+    });
   }
 
   // The soles that bear in a frame and beside it: tracking goes from one frame to the next, so the weight must be where
@@ -145,14 +182,16 @@ class PossibleTarget {
   void find_corners(int frame) {
     corners_.clear();
     const std::uint8_t bearing = bears(frame);
-    // Either of two feet may have to bear everything; of four, half of it.
-    const double each_N = needs_[at(frame)].force_N.y * std::min(1.0, 2.0 / std::max(1, std::popcount(bearing)));
+    // Either of two flat feet may have to bear everything; of four, half of it. A figure on its toes shares its weight.
+    const double all_N = needs_[at(frame)].force_N.y, count = std::max(1, std::popcount(bearing));
     for (std::size_t i = 0; i < figure_.soles.size(); ++i) {
       if ((bearing & (1U << i)) == 0) continue;
       const Sole& sole = figure_.soles[i];
       const Rigid world_from_link = plan_.sole(frame, static_cast<int>(i)) * inverse(sole.link_from_sole);
       const std::size_t first = corners_.size();
-      add_bearing_points(sole, plan_.bearing(frame, static_cast<int>(i)), each_N, corners_);
+      const Bearing& on = plan_.bearing(frame, static_cast<int>(i));
+      const double shares = on.corners == kAllCorners ? std::max(1.0, 0.5 * count) : count;
+      add_bearing_points(sole, on, all_N / shares, corners_);
       for (Vec3& corner : std::span(corners_).subspan(first)) corner = world_from_link * corner;
     }
   }
@@ -177,10 +216,10 @@ class PossibleTarget {
   }
 
   // One row of the system: what a shift of this frame must do, and how it depends on the frames beside it.
-  Row row_of(int frame) {
+  ShiftRow row_of(int frame) {
     const Need& need = needs_[at(frame)];
     Vec3 is, wanted;
-    Row row;
+    ShiftRow row;
     row.spread = mass() * motion_.rate_hz * motion_.rate_hz;
     if (find_points(frame, is, wanted)) {
       row.spread *= std::max(need.com_m.y - wanted.y, kLowestBody_m);
@@ -195,38 +234,19 @@ class PossibleTarget {
 
   // The shift of every frame. Answers whether there is anything to move.
   bool find_shift() {
-    std::vector<Row> rows;
+    std::vector<ShiftRow> rows;
     bool any = false;
     for (int f = 0; f < motion_.frame_count; ++f) {
       rows.push_back(row_of(f));
       any = any || length(rows.back().ask) > kUnmoved_m * mass() * kGravity_m_s2;
     }
-    if (any) solve_rows(rows);
+    if (any) solve_shift(rows, pendulum_rate(0), pendulum_rate(rows.size() - 1), shift_m_);
     return any;
   }
 
-  // Gauss's elimination, down and up again. Before the first frame and after the last the shift fades as a pendulum
-  // does.
-  void solve_rows(std::vector<Row>& rows) {
-    const std::size_t count = rows.size();
-    std::vector<double> middle;
-    for (const Row& row : rows) middle.push_back(-2.0 * row.spread - row.pressure_N);
-    for (const std::size_t end : {std::size_t{0}, count - 1})
-      middle[end] += rows[end].spread / (1.0 + pendulum_per_s(end) / motion_.rate_hz);
-    for (std::size_t f = 1; f < count; ++f) {
-      const double share = rows[f].spread / middle[f - 1];
-      middle[f] -= share * rows[f - 1].spread;
-      rows[f].ask -= share * rows[f - 1].ask;
-    }
-    Vec3 next(0.0);
-    for (std::size_t f = count; f-- > 0;) {
-      next = (rows[f].ask - (f + 1 < count ? rows[f].spread : 0.0) * next) / middle[f];
-      shift_m_[f] = next;
-    }
-  }
-
-  double pendulum_per_s(std::size_t frame) const {
-    return std::sqrt(kGravity_m_s2 / std::max(needs_[frame].com_m.y, kLowestBody_m));
+  // By which share of itself a pendulum's shift falls within a frame.
+  double pendulum_rate(std::size_t frame) const {
+    return std::sqrt(kGravity_m_s2 / std::max(needs_[frame].com_m.y, kLowestBody_m)) / motion_.rate_hz;
   }
 
   void move() {
@@ -291,7 +311,7 @@ class PossibleTarget {
   // A sole in the air comes nearer to a hip that has moved away from it, the more the straighter its leg would be:
   // knees that become straight are fast. Before it lands, and after it is lifted, a sole is where it is planned.
   Rigid within_reach(std::size_t leg, int frame) const {
-    Rigid sole = plan_.sole(frame, static_cast<int>(leg));
+    Rigid sole = retreat_.sole(frame, static_cast<int>(leg));
     const double free = plan_.airborne(frame, static_cast<int>(leg)) / (kLetsGo_s * motion_.rate_hz);
     if (free <= 0.0) return sole;
     const Vec3 way = sole * legs_[leg].sole_from_ankle - hip_m(legs_[leg]);
@@ -337,6 +357,9 @@ class PossibleTarget {
   std::vector<double> acceleration_, forces_, missing_m_;
   std::vector<Need> needs_;
   std::vector<Vec3> speeds_, shift_m_, corners_;
+  LegFit legs_fit_{character_, figure_, legs_};
+  Retreat retreat_{character_, plan_, legs_, motion_};
+  std::vector<char> overloaded_;  // by frame
   HullScratch hull_;
 };
 

@@ -22,8 +22,9 @@ struct BalancePlan {
   std::vector<Vec3> zmp_m;    // zero moment point; under the centre of mass in flight
 };
 
-// Moves root and legs of a motion. The figure counts without its loads, of which a target does not know. A motion that
-// is possible stays as it is, bit by bit.
+// Moves root and legs of a motion. The figure counts without its loads, of which a target does not know. Where legs or
+// ground cannot bear the motion, it comes nearer to standing (retreat.h). A motion that is possible stays as it is, bit
+// by bit.
 BalancePlan make_possible(const Character& character, const DynamicFigure& figure, std::span<const double> easy,
                           const ContactPlan& plan, Motion& motion);
 

@@ -52,6 +52,18 @@ TEST(WeightyPromises, SquatsAndCrouchesStayOverTheFeet) {
     }
 }
 
+TEST(WeightyPromises, ALegIsHeldOutOnlyAsFarAsTheOtherOneBears) {
+  for (const Vec3& target_m : {Vec3(-0.86, 0.97, 0.11), Vec3(0.86, 0.97, 0.11), Vec3(-0.6, 1.3, 0.4)})
+    EXPECT_EQ(found("human", use("reach", "leg_right", 0, 57, {{"target_m", target_m}})), "") << target_m.x;
+  for (const Vec3& target_m : {Vec3(0.94, 1.76, 0.08), Vec3(0.78, 1.59, 0.05)})
+    EXPECT_EQ(found("mech", use("reach", "leg_left", 0, 67, {{"target_m", target_m}})), "") << target_m.x;
+}
+
+TEST(WeightyPromises, ACrouchThatLeansBackStaysInTheRangesOfItsAnkles) {
+  const std::map<std::string, ParamValue> back = {{"share", 0.6}, {"lean_deg", -30.0}, {"back_m", -0.07}};
+  for (const char* name : {"human", "mech"}) EXPECT_EQ(found(name, use("crouch", "waist", 0, 60, back)), "") << name;
+}
+
 TEST(WeightyPromises, WalksAndTurnsKeepTheBalanceWhereFeetComeAndGo) {
   for (const double heading_deg : {0.0, 90.0, 180.0}) {
     const std::map<std::string, ParamValue> slow = {{"speed_m_s", 0.5}, {"heading_deg", heading_deg}};

@@ -1,0 +1,145 @@
+#include "generator/dynamics/retreat.h"
+
+#include <algorithm>
+
+#include "model/core/index.h"
+
+namespace contort {
+
+namespace {
+
+constexpr double kShare = 0.25;       // of the way to standing, at once
+constexpr double kNear_s = 0.3;
+constexpr double kStays_m = 0.15;     // a root that travels farther within kNear_s to either side is that of a gait
+constexpr double kStep_m = 0.1;       // a foot that lands as far away, or is turned as far, has made a step
+constexpr double kStep_rad = 0.1;
+constexpr double kLowest_m = 0.03;    // height that a foot keeps over the ground
+constexpr double kLeastSize = 0.02;   // of a lift that can still become smaller
+
+bool any_of(std::span<const char> frames, int first, int end) {
+  first = std::max(first, 0), end = std::min(end, static_cast<int>(frames.size()));
+  return std::ranges::any_of(frames.subspan(at(first), at(end - first)), [](char one) { return one != 0; });
+}
+
+bool is_step(const Rigid& from, const Rigid& to) {
+  return length(to.p_m - from.p_m) > kStep_m || rotation_angle(glm::conjugate(from.q) * to.q) > kStep_rad;
+}
+
+std::vector<char> staying_frames(const Motion& motion, int reach) {
+  std::vector<char> stays;
+  for (int f = 0, last = motion.frame_count - 1; f <= last; ++f) {
+    Vec3 way = motion.root[at(std::min(last, f + reach))].p_m - motion.root[at(std::max(0, f - reach))].p_m;
+    way.y = 0.0;
+    stays.push_back(length(way) < kStays_m ? 1 : 0);
+  }
+  return stays;
+}
+
+}  // namespace
+
+Retreat::Retreat(const Character& character, const ContactPlan& plan, std::span<const Leg> legs, const Motion& motion)
+    : character_(character),
+      plan_(plan),
+      legs_(legs),
+      reach_(std::max(1, static_cast<int>(kNear_s * motion.rate_hz))),
+      stays_(staying_frames(motion, reach_)) {
+  for (int sole = 0; sole < static_cast<int>(legs.size()); ++sole) find_lifts(sole);
+}
+
+void Retreat::find_lifts(int sole) {
+  const int frames = plan_.frame_count();
+  for (int f = 0, last = 0; f < frames; f = last + 1) {
+    last = f;
+    if (plan_.airborne(f, sole) == 0) continue;
+    while (last + 1 < frames && plan_.airborne(last + 1, sole) != 0) ++last;
+    const bool leaves = f > 0, lands = last + 1 < frames;
+    const Rigid& from = plan_.sole(leaves ? f - 1 : lands ? last + 1 : f, sole);
+    const Rigid& to = lands ? plan_.sole(last + 1, sole) : from;
+    if (!is_step(from, to)) lifts_.push_back({sole, f, last, from, to});
+  }
+}
+
+bool Retreat::go(std::span<const char> impossible, Motion& motion) {
+  const bool lowers = lower(impossible), stands_up = stand_up(impossible, motion);
+  return lowers || stands_up;
+}
+
+bool Retreat::lower(std::span<const char> impossible) {
+  bool any = false;
+  for (Lift& lift : lifts_) {
+    if (lift.size <= kLeastSize || !any_of(impossible, lift.first - reach_, lift.last + 1 + reach_)) continue;
+    lift.size *= 1.0 - kShare;
+    any = true;
+  }
+  return any;
+}
+
+// Changes each stretch as a whole, so that it is as smooth as before; a shorter one is between two steps.
+bool Retreat::stand_up(std::span<const char> impossible, Motion& motion) const {
+  const int frames = motion.frame_count;
+  bool any = false;
+  for (int f = 0, end = 0; f < frames; f = end + 1) {
+    for (end = f; end < frames && all_bear(end) && stays_[at(end)] != 0;) ++end;
+    if (end - f < 2 * reach_ || !any_of(impossible, f, end)) continue;
+    any = true;
+    for (int g = f; g < end; ++g) {
+      const int from_start = f == 0 ? reach_ : g - f, to_end = end == frames ? reach_ : end - 1 - g;
+      const double near = std::min(1.0, static_cast<double>(std::min(from_start, to_end)) / reach_);
+      stand_up(g, kShare * minimum_jerk(near), motion.root[at(g)]);
+    }
+  }
+  return any;
+}
+
+void Retreat::stand_up(int frame, double share, Rigid& root) const {
+  const Rigid& rest = character_.rest_root();
+  const Vec3 up(0, 1, 0);
+  const Quat upright = shortest_arc(root.q * (glm::conjugate(rest.q) * up), up) * root.q;
+  root.q = slerp_short(root.q, upright, share);
+  root.p_m.y += share * std::max(0.0, ground_m(frame) + rest.p_m.y - root.p_m.y);
+}
+
+bool Retreat::all_bear(int frame) const {
+  for (int sole = 0; sole < static_cast<int>(legs_.size()); ++sole)
+    if (plan_.airborne(frame, sole) != 0) return false;
+  return true;
+}
+
+// The mean height of all soles.
+double Retreat::ground_m(int frame) const {
+  double sum_m = 0.0;
+  for (int sole = 0; sole < static_cast<int>(legs_.size()); ++sole) sum_m += plan_.sole(frame, sole).p_m.y;
+  return sum_m / static_cast<double>(std::max<std::size_t>(1, legs_.size()));
+}
+
+std::uint8_t Retreat::lifted(int frame) const {
+  std::uint8_t soles = 0;
+  for (const Lift& lift : lifts_)
+    if (lift.first <= frame && frame <= lift.last) soles |= static_cast<std::uint8_t>(1U << lift.sole);
+  return soles;
+}
+
+namespace {
+
+// Along the ground from place to place, as high as planned but not higher than a foot must be to pass over it.
+Rigid lowest(const Rigid& from, const Rigid& to, double share, const Rigid& planned) {
+  const double way = minimum_jerk(share);
+  Rigid low{slerp_short(from.q, to.q, way), glm::mix(from.p_m, to.p_m, way)};
+  low.p_m.y += std::clamp(planned.p_m.y - low.p_m.y, 0.0, kLowest_m);
+  return low;
+}
+
+}  // namespace
+
+Rigid Retreat::sole(int frame, int sole) const {
+  const Rigid& planned = plan_.sole(frame, sole);
+  for (const Lift& lift : lifts_) {
+    if (lift.sole != sole || lift.size == 1.0 || frame < lift.first || frame > lift.last) continue;
+    const double share = static_cast<double>(frame - lift.first + 1) / (lift.last - lift.first + 2);
+    const Rigid low = lowest(lift.from, lift.to, share, planned);
+    return {slerp_short(low.q, planned.q, lift.size), glm::mix(low.p_m, planned.p_m, lift.size)};
+  }
+  return planned;
+}
+
+}  // namespace contort

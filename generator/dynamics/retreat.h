@@ -1,0 +1,55 @@
+// The way back to standing of a target that its legs or the ground cannot bear, such as a leg that is held out too far
+// or a trunk that leans back in a crouch. Lifts of feet that are no steps become smaller, each as a whole, so that the
+// foot goes nearer to the ground between the places where it leaves and lands. Where all soles bear and the figure
+// stays in its place, the root turns upright and rises.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "generator/dynamics/contact_plan.h"
+#include "model/motion/legs.h"
+
+namespace contort {
+
+class Retreat {
+ public:
+  // All but the motion must outlive this object.
+  Retreat(const Character& character, const ContactPlan& plan, std::span<const Leg> legs, const Motion& motion);
+
+  // Goes a part of the way in all lifts and stretches of standing that have one of these frames (`impossible`, by
+  // frame), or have one near by. Changes the root; lifted feet follow from sole(). Answers whether there was a way.
+  bool go(std::span<const char> impossible, Motion& motion);
+
+  // The sole of a frame, as planned or nearer to the ground.
+  Rigid sole(int frame, int sole) const;
+
+  // Bit i: sole i is in a lift that may become smaller.
+  std::uint8_t lifted(int frame) const;
+
+ private:
+  struct Lift {
+    int sole = 0;
+    int first = 0;  // frames in the air
+    int last = 0;
+    Rigid from;
+    Rigid to;
+    double size = 1.0;  // share of the planned way
+  };
+  void find_lifts(int sole);
+  bool lower(std::span<const char> impossible);
+  bool stand_up(std::span<const char> impossible, Motion& motion) const;
+  void stand_up(int frame, double share, Rigid& root) const;
+  bool all_bear(int frame) const;
+  double ground_m(int frame) const;
+
+  const Character& character_;
+  const ContactPlan& plan_;
+  std::span<const Leg> legs_;
+  int reach_ = 1;             // frames that are near by
+  std::vector<char> stays_;   // by frame: the figure does not travel
+  std::vector<Lift> lifts_;
+};
+
+}  // namespace contort
