@@ -185,7 +185,8 @@ bool LimbKeeper::land(const Playback& playback, const Limb& limb) {
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
   for (const int i : limb.legs) {
     home_[at(i)] = home_sole(limb, stage_.legs[at(i)]);
-    is_raised_[at(i)] = !returns(limb) && s_.rules.feet().put_on_ground(at(i), home_[at(i)]);
+    const bool rested_there = is_as_rested(stage_.legs[at(i)]);
+    is_raised_[at(i)] = !returns(limb) && !rested_there && s_.rules.feet().put_on_ground(at(i), home_[at(i)]);
   }
   // A hand that waits beside the thigh, and for which the thigh waits, would keep the leg in the air for good.
   if (land(playback, limb, kComfortable_m) || land(playback, limb, kNarrow_m) || rise(limb)) return true;
