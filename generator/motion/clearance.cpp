@@ -176,7 +176,10 @@ struct Clearance::Case {
     const double enough = std::exchange(enough_m, -kTooNear_m);
     const bool slows = std::ranges::any_of(kCoasts, [&](double steps) {
       for (const int p : limb.parts) coast_part(character, at(p), past.earlier, past.before, steps, shown);
-      for (const int j : limb.joints) clamp_to_range(character.joint(j), shown.coords.data() + character.joint(j).coord);
+      for (const int j : limb.joints) {
+        const Joint& joint = character.joint(j);
+        clamp_to_range(joint, shown.coords.data() + joint.coord);
+      }
       return is_clear_slow_and_smooth();
     });
     enough_m = enough;
