@@ -52,6 +52,9 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
+  // Whether an action moved the foot in the frame before, or it was on its way back from one.
+  bool moves(std::size_t leg) const { return use_[leg] == LegUse::acts || use_[leg] == LegUse::lands; }
+
   // The distance of the foot from where it rested, m. It must have rested.
   double off_m(std::size_t leg, std::span<const Rigid> world) const;
 
