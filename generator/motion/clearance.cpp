@@ -170,16 +170,20 @@ struct Clearance::Case {
     return is_good(smooth.value_or(*good));  // goes there once more
   }
 
+  void coast(double steps) const {
+    for (const int p : limb.parts) coast_part(character, at(p), past.earlier, past.before, steps, shown);
+    for (const int j : limb.joints) {
+      const Joint& joint = character.joint(j);
+      clamp_to_range(joint, shown.coords.data() + joint.coord);
+    }
+  }
+
   // What can stop after a step may be wanted elsewhere next, where no share of the way is smooth: it loses its speed on
   // the way that it was on.
   bool slow_down() {
     const double enough = std::exchange(enough_m, -kTooNear_m);
     const bool slows = std::ranges::any_of(kCoasts, [&](double steps) {
-      for (const int p : limb.parts) coast_part(character, at(p), past.earlier, past.before, steps, shown);
-      for (const int j : limb.joints) {
-        const Joint& joint = character.joint(j);
-        clamp_to_range(joint, shown.coords.data() + joint.coord);
-      }
+      coast(steps);
       return is_clear_slow_and_smooth();
     });
     enough_m = enough;
@@ -231,7 +235,18 @@ struct Clearance::Case {
     coords[0] = q.w, coords[1] = q.x, coords[2] = q.y, coords[3] = q.z;
   }
 
+  // Bodies that are too near do not touch yet: a limb that is too fast to stop at once may use that.
+  bool coast_beside() {
+    constexpr double kNarrow_m = 0.001;
+    const auto is_apart = [&] { return place(), room.has_room(part, world, -kTooNear_m, kNarrow_m); };
+    return std::ranges::any_of(kCoasts, [&](double steps) {
+      return coast(steps), is_apart() && is_slow() && is_smooth();
+    });
+  }
+
   void get_out() {
+    if (!is_smooth() && coast_beside()) return;
+    go(0.0);
     double most_m = room_m({});
     for (int round = 0; round < kRounds && most_m < -kTooNear_m; ++round)
       for (const int j : limb.joints)

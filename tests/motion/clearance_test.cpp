@@ -65,6 +65,17 @@ TEST(Clearance, AFastLegLosesItsSpeedBeforeItsOwnBodySmoothly) {
       }
 }
 
+// The trunk comes towards the leg that goes up beside it.
+TEST(Clearance, ALegToWhichABodyHasComeTooNearLosesItsSpeedSmoothly) {
+  const auto dog = std::make_shared<const Character>(fixtures::built({"quadruped", {}, {}}));
+  const ActionUse blow = use("hit_reaction", "trunk", 20, 30, {{"azimuth_deg", -120.0}, {"strength_deg", 39.0}});
+  ActionUse rise = use("reach", "leg_fore_left", 0, 30, {{"target_m", Vec3(0.28, 0.64, 0.99)}});
+  rise.blend_in_frames = ActionUse{}.blend_in_frames;
+  StageEvaluator evaluator;
+  for (const Finding& finding : evaluator.run(fixtures::stage_of({sequence({blow, rise})}, 0, dog)).findings)
+    ADD_FAILURE() << finding.check << " " << finding.subject << " at " << finding.worst_frame;
+}
+
 TEST(Clearance, PosesAreTakenAsTheyAre) {
   const ActionUse pose = use("pose", "arm_left", 0, 30, {{"shoulder_deg", Vec3(0.0, 0.0, -40.0)}});
   EXPECT_FALSE(collisions(fixtures::stage_of({sequence({pose})}, 5)).empty());
