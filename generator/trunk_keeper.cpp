@@ -59,10 +59,11 @@ bool LimbKeeper::has_moved(const Limb& limb) const {
 }
 
 // Whether all feet on legs that the limb carries could stay where they stand, or go where a course has them, if it went
-// so many of this frame's steps.
+// so many of this frame's steps. On a course legs must not touch other bodies either.
 bool LimbKeeper::feet_reach(const Playback& playback, const Limb& limb, double steps,
                             const std::optional<FramesAhead>& course) {
   constexpr double kReaches_m = 0.002;
+  constexpr RoomRange kApart{.low_m = -kTooNear_m, .high_m = -kTooNear_m, .gap_m = 0.001};
   const Character& character = *stage_.character;
   const StandingFeet& feet = s_.rules.feet();
   std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
@@ -79,7 +80,8 @@ bool LimbKeeper::feet_reach(const Playback& playback, const Limb& limb, double s
     if (!course || !is_carried_on_course(playback, limb, i)) return true;
     return std::ranges::all_of(*course, [&](const GaitFrame& frame) {
       const Rigid sole = s_.rest_world[0] * inverse(frame.root) * frame.feet[leg].world_from_sole;
-      return feet.missed_m(leg, sole, s_.rest_world, s_.between.coords) < kReaches_m;
+      if (feet.missed_m(leg, sole, s_.rest_world, s_.between.coords) >= kReaches_m) return false;
+      return s_.rules.room().apart_m(at(stage_.legs[leg].part), s_.rest_world, kApart) >= -kTooNear_m;
     });
   });
 }

@@ -103,7 +103,7 @@ TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
 TEST(FeetStay, WhereATrunkTurnsOverACourse) {
   StageEvaluator evaluator;
   for (const char* course : {"run", "walk", "squat"})
-    for (const double elevation_deg : {10.0, 30.0}) {
+    for (const double elevation_deg : {-20.0, 10.0, 30.0}) {
       ActionUse look;
       look.action = "direction", look.slot = "trunk";
       look.params = {{"elevation_deg", elevation_deg}, {"azimuth_deg", 15.0}};
