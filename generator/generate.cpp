@@ -10,6 +10,7 @@
 #include "generator/motion/blend.h"
 #include "generator/motion/way.h"
 #include "generator/promise_watch.h"
+#include "model/motion/kinematics.h"
 
 namespace contort {
 
@@ -196,7 +197,22 @@ class Generation {
     s_.legs_taken = playback.frame();
     std::array<Rigid, kMaxLegs>& seen = s_.rules.body(planned(playback, hold)).seen_soles;
     seen = s_.carry.soles_in(s_.rules.world());
+    coast_moving_legs(seen);
     s_.shift_count += seen != s_.carry.soles();
+  }
+
+  // A leg that is on the move when a course takes it over cannot stop at once: its foot is seen where it comes to.
+  void coast_moving_legs(std::span<Rigid> soles) {
+    constexpr double kCoasts = 0.35;  // of its last step
+    std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
+    for (std::size_t i = 0; i < stage_.legs.size(); ++i) {
+      const Leg& leg = stage_.legs[i];
+      if (!s_.rules.feet().moves(i)) continue;
+      for (const int p : {leg.part, leg.foot_part})
+        coast_part(character_, at(p), s_.past.earlier, s_.past.before, kCoasts, s_.between);
+      forward_kinematics(character_, s_.between.coords, leg.joints, s_.rest_world);
+      soles[i] = world_from_socket(character_, s_.rest_world, leg.sole);
+    }
   }
 
   void overwrite(const Playback& playback, std::size_t p, bool begins) {

@@ -121,7 +121,7 @@ void LimbKeeper::finish(const Playback& playback, const Limb& limb) {
   if (use == LegUse::idle) plant(limb);
   held_off = s_.shift[at(limb.parts.back())] == Shift::held_off ? held_off + 1 : 0;
   if (held_off > 0) try_again(playback, limb);
-  hold_over_feet(limb);
+  hold_over_feet(playback, limb);
   note_grasp(playback, limb, held);
 }
 
@@ -185,7 +185,8 @@ bool LimbKeeper::land(const Playback& playback, const Limb& limb) {
   for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
   for (const int i : limb.legs) {
     home_[at(i)] = home_sole(limb, stage_.legs[at(i)]);
-    is_raised_[at(i)] = !returns(limb) && s_.rules.feet().put_on_ground(at(i), home_[at(i)]);
+    const bool rested_there = is_as_rested(stage_.legs[at(i)]);
+    is_raised_[at(i)] = !returns(limb) && !rested_there && s_.rules.feet().put_on_ground(at(i), home_[at(i)]);
   }
   // A hand that waits beside the thigh, and for which the thigh waits, would keep the leg in the air for good.
   if (land(playback, limb, kComfortable_m) || land(playback, limb, kNarrow_m) || rise(limb)) return true;
@@ -268,55 +269,6 @@ Rigid LimbKeeper::home_sole(const Limb& limb, const Leg& leg) {
 const Posture& LimbKeeper::home_of(const Limb& limb, int part) const {
   if (returns(limb)) return s_.postures.plain;
   return s_.rests[at(part)] != 0 ? s_.postures.stand : s_.postures.base;
-}
-
-// A trunk goes only as far as the legs that it carries reach to where their feet stand. It looks ahead by as much as it
-// needs to stop, losing a fifth of its speed a frame.
-void LimbKeeper::hold_over_feet(const Limb& limb) {
-  constexpr std::array kShares = {1.0, 0.8, 0.6, 0.4, 0.2, 0.1};
-  constexpr double kAhead = 5.0;  // steps
-  const bool carries_feet = std::ranges::any_of(limb.legs, [&](int i) { return is_carried_and_stands(limb, i); });
-  if (!carries_feet || !has_moved(limb)) return;
-  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
-  const auto fits = std::ranges::find_if(kShares, [&](double share) { return feet_reach(limb, kAhead * share); });
-  if (fits == kShares.begin() || (fits == kShares.end() && !feet_reach(limb, 0.0))) return;
-  const double share = fits != kShares.end() ? *fits : 0.0;
-  shift(limb, Shift::over_feet);
-  for (const int p : limb.parts) {
-    blend_part(*stage_.character, at(p), s_.past.before, s_.wanted, share, s_.postures.shown);
-    s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
-  }
-  forward_kinematics(*stage_.character, s_.postures.shown.coords, limb.joints, s_.rules.world());
-}
-
-// A foot that an additive has lifted comes back to where it stood, too.
-bool LimbKeeper::is_carried_and_stands(const Limb& limb, int leg) const {
-  const std::size_t part = at(stage_.legs[at(leg)].part);
-  const bool comes_back = s_.rests[part] != 0 && s_.stacks[part].ik().action < 0;
-  return !limb.is_its_own(stage_.legs[at(leg)]) && (s_.rules.feet().is_planted(at(leg)) || comes_back);
-}
-
-bool LimbKeeper::has_moved(const Limb& limb) const {
-  return std::ranges::any_of(limb.joints, [&](int j) {
-    const Joint& joint = stage_.character->joint(j);
-    return joint_way(joint, &s_.past.before.coords[at(joint.coord)], &s_.postures.shown.coords[at(joint.coord)]) > 0.0;
-  });
-}
-
-// Whether all feet that stand on legs that the limb carries could stay there if it went so many of this frame's steps.
-bool LimbKeeper::feet_reach(const Limb& limb, double steps) {
-  constexpr double kReaches_m = 0.002;
-  const Character& character = *stage_.character;
-  std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
-  s_.between.coords = s_.past.before.coords;
-  for (const int p : limb.parts) coast_part(character, at(p), s_.past.before, s_.wanted, steps - 1.0, s_.between);
-  forward_kinematics(character, s_.between.coords, limb.joints, s_.rest_world);
-  return std::ranges::all_of(limb.legs, [&](int i) {
-    if (!is_carried_and_stands(limb, i)) return true;
-    forward_kinematics(character, s_.between.coords, stage_.legs[at(i)].joints, s_.rest_world);
-    s_.rules.feet().put_to_rest(at(i), s_.rest_world, s_.between.coords);
-    return s_.rules.feet().off_m(at(i), s_.rest_world) < kReaches_m;
-  });
 }
 
 bool LimbKeeper::is_smooth(const Limb& limb) const {

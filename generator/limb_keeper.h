@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "generator/actions/course_ahead.h"
 #include "generator/generate.h"
 
 namespace contort {
@@ -48,10 +50,12 @@ class LimbKeeper {
   bool step_home(const Limb& limb, LandingStep step);
   void go_on_landing(const Limb& limb);
   bool rise(const Limb& limb);
-  void hold_over_feet(const Limb& limb);
+  void hold_over_feet(const Playback& playback, const Limb& limb);
   bool is_carried_and_stands(const Limb& limb, int leg) const;
+  bool is_carried_on_course(const Playback& playback, const Limb& limb, int leg) const;
+  std::optional<FramesAhead> course_of_legs(const Playback& playback) const;
   bool has_moved(const Limb& limb) const;
-  bool feet_reach(const Limb& limb, double steps);
+  bool feet_reach(const Playback& playback, const Limb& limb, double steps, const std::optional<FramesAhead>& course);
   bool is_smooth(const Limb& limb) const;
   bool has_room_on_the_way(const Limb& limb, double gap_m, bool is_rising = false);
   void arrive(const Limb& limb);

@@ -123,6 +123,8 @@ struct WholeBody {
   bool is_slower = false;                     // it walks more slowly than requested, or turns less
   Vec3 over_feet_m{0.0};                      // offset of lowered hips that balances the figure's mass over its feet
   double deepest_bend = 1.0;                  // fraction of the way down that the legs allow, [0, 1]
+  double since_s = 0.0;                       // time of `frame`, s of content since the root was taken
+  std::optional<GaitFrame> lowest;            // of a bend
 };
 
 // The data that a rule may look at. Joints of carriers are final for this frame. On the layers ik and additive the

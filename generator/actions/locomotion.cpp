@@ -93,7 +93,7 @@ const GaitFrame& frame_of(const RuleInput& in, Make make) {
   for (std::size_t i = 0; i < in.legs.size(); ++i)
     body.lands[i] = body.made_in >= 0 && body.frame.feet[i].stands && !before.feet[i].stands;
   for (std::size_t i = 0; i < in.legs.size(); ++i) body.frame.feet[i].world_from_sole = blended_sole(in, i);
-  body.made_in = in.frame;
+  body.made_in = in.frame, body.since_s = in.time.since_s;
   return body.frame;
 }
 
@@ -246,10 +246,12 @@ void begin_bend(const RuleInput& in, const BendShape& shape, Posture& posture) {
   if (in.has_mass)
     body.over_feet_m = shift_over_feet_m(in.character, in.legs, whole, in.world, in.scratch, posture.coords);
   body.deepest_bend = deepest_bend(in.character, in.room, whole, in.world, in.scratch, posture.coords);
-  if (!in.has_mass) return;
-  const double calm = calm_bend({whole, shape.share_at});
-  body.is_slower = calm < body.deepest_bend;
-  body.deepest_bend = std::min(body.deepest_bend, calm);
+  if (in.has_mass) {
+    const double calm = calm_bend({whole, shape.share_at});
+    body.is_slower = calm < body.deepest_bend;
+    body.deepest_bend = std::min(body.deepest_bend, calm);
+  }
+  body.lowest = frame_at(body.deepest_bend);
 }
 
 void bend(const RuleInput& in, const BendShape& shape, Posture& posture) {

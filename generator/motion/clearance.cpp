@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "generator/motion/blend.h"
 #include "generator/motion/joint_clamp.h"
@@ -23,6 +24,7 @@ constexpr double kYield = 0.3;  // of a joint's greatest speed, at which it gets
 constexpr int kRounds = 2;
 constexpr double kRise_s = 0.022;  // from rest to the greatest speed
 constexpr double kCoast = 0.35;   // of its last step: the way of a joint that stops as soon as it can
+constexpr std::array kCoasts = {kCoast, 0.6, 0.8};
 constexpr double kFarStep = 0.2;       // of a joint's greatest step in a frame
 constexpr std::array kBetween = {0.25, 0.5, 0.75};
 constexpr double kWithMass = 2.0;  // of the acceleration at ease: what is more is a jolt (soft_joints.h)
@@ -120,10 +122,10 @@ struct Clearance::Case {
   bool can_stop() {
     const double most = past.frame_s / kRise_s;
     if (all_joints([&](int j) { return length(step_of(j)) <= most * greatest_step(j); })) return true;
-    save();
-    for (const int p : limb.parts) coast_part(character, at(p), past.before, saved, kCoast, shown);
+    for (const int p : limb.parts) copy_part(character, at(p), shown, spare);
+    for (const int p : limb.parts) coast_part(character, at(p), past.before, spare, kCoast, shown);
     const bool is_clear_there = has_room(-kTooNear_m);
-    restore();
+    for (const int p : limb.parts) copy_part(character, at(p), spare, shown);
     place();
     return is_clear_there;
   }
@@ -164,7 +166,28 @@ struct Clearance::Case {
       if (!smooth) smooth = share;
     }
     if (!good) return false;
+    if (!smooth && slow_down()) return true;
     return is_good(smooth.value_or(*good));  // goes there once more
+  }
+
+  void coast(double steps) const {
+    for (const int p : limb.parts) coast_part(character, at(p), past.earlier, past.before, steps, shown);
+    for (const int j : limb.joints) {
+      const Joint& joint = character.joint(j);
+      clamp_to_range(joint, shown.coords.data() + joint.coord);
+    }
+  }
+
+  // What can stop after a step may be wanted elsewhere next, where no share of the way is smooth: it loses its speed on
+  // the way that it was on.
+  bool slow_down() {
+    const double enough = std::exchange(enough_m, -kTooNear_m);
+    const bool slows = std::ranges::any_of(kCoasts, [&](double steps) {
+      coast(steps);
+      return is_clear_slow_and_smooth();
+    });
+    enough_m = enough;
+    return slows;
   }
 
   // Joints that may go where they are wanted go there, one by one, those that carry the others first.
@@ -173,7 +196,7 @@ struct Clearance::Case {
       save();
       const Joint& joint = character.joint(j);
       std::copy_n(wanted.coords.begin() + joint.coord, coord_size(joint.kind), shown.coords.begin() + joint.coord);
-      if (!is_clear_slow_and_smooth()) restore();
+      if (!is_clear_slow_and_smooth() || !can_stop()) restore();
     }
     place();
   }
@@ -212,7 +235,18 @@ struct Clearance::Case {
     coords[0] = q.w, coords[1] = q.x, coords[2] = q.y, coords[3] = q.z;
   }
 
+  // Bodies that are too near do not touch yet: a limb that is too fast to stop at once may use that.
+  bool coast_beside() {
+    constexpr double kNarrow_m = 0.001;
+    const auto is_apart = [&] { return place(), room.has_room(part, world, -kTooNear_m, kNarrow_m); };
+    return std::ranges::any_of(kCoasts, [&](double steps) {
+      return coast(steps), is_apart() && is_slow() && is_smooth();
+    });
+  }
+
   void get_out() {
+    if (!is_smooth() && coast_beside()) return;
+    go(0.0);
     double most_m = room_m({});
     for (int round = 0; round < kRounds && most_m < -kTooNear_m; ++round)
       for (const int j : limb.joints)

@@ -253,7 +253,8 @@ GaitFrame Gait::at(const GaitParams& params, double time_s, double duration_s) {
     Step& step = steps_[i];
     const FootCycle cycle = timing.cycle(legs_[i], time_s);
     take_step(params, timing, legs_[i], cycle.step, step);
-    holds[i] = params.trot ? hold_of(cycle.swing) : 1.0;
+    // A foot that stays, or has come to stand at the end, holds the hips all the time.
+    holds[i] = params.trot && step.bump_m > 0.0 ? 1.0 - moving * (1.0 - hold_of(cycle.swing)) : 1.0;
     feet[i] = straight_way(step, cycle.swing);
     frame.feet[i] = {swung_sole(*environment_, legs_[i], step, cycle, params, moving),
                      cycle.swing == 0.0 || step.bump_m == 0.0};

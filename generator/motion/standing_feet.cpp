@@ -106,6 +106,11 @@ void StandingFeet::put_to_rest(std::size_t leg, std::span<Rigid> world, std::spa
   put_back(leg, *rests_[leg], world, row);
 }
 
+double StandingFeet::missed_m(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const {
+  put(leg, sole, world, row);
+  return length(world_from_socket(*character_, world, legs_[leg].sole).p_m - sole.p_m);
+}
+
 double StandingFeet::off_m(std::size_t leg, std::span<const Rigid> world) const {
   return length(world_from_socket(*character_, world, legs_[leg].sole).p_m - rests_[leg]->p_m);
 }

@@ -52,8 +52,14 @@ class StandingFeet {
   // their transforms in `world`, which must hold what carries the leg, and the leg. False if it is there already.
   bool plant(std::size_t leg, std::span<Rigid> world, std::span<double> row) const;
 
+  // Whether an action moved the foot in the frame before, or it was on its way back from one.
+  bool moves(std::size_t leg) const { return use_[leg] == LegUse::acts || use_[leg] == LegUse::lands; }
+
   // The distance of the foot from where it rested, m. It must have rested.
   double off_m(std::size_t leg, std::span<const Rigid> world) const;
+
+  // Puts the foot there as near as its leg reaches, and returns by how much it misses the place, m.
+  double missed_m(std::size_t leg, const Rigid& sole, std::span<Rigid> world, std::span<double> row) const;
 
   // Returns the last place where the foot stood while no action moved its leg; nullopt if it was in the air then.
   const std::optional<Rigid>& rests_at(std::size_t leg) const { return rests_[leg]; }

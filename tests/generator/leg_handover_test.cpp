@@ -84,5 +84,20 @@ TEST(LegHandover, ABlowDoesNotDragAFootThatStandsOnItsToes) {
   }
 }
 
+// The leg stopped within a frame where the course had seen it.
+TEST(LegHandover, ALegThatIsTakenInTheMiddleOfABlowLosesItsSpeedSmoothly) {
+  const auto mech = std::make_shared<const Character>(fixtures::built({"mech", {}, {}}));
+  for (const char* name : {"crouch", "squat", "walk"})
+    for (const double azimuth_deg : {-117.0, 180.0})
+      for (const int start_frame : {3, 4, 6, 15}) {
+        ActionUse blow = use("hit_reaction", "leg_left", 0, 36, {{"azimuth_deg", azimuth_deg}});
+        blow.blend_in_frames = ActionUse{}.blend_in_frames;
+        StageEvaluator evaluator;
+        const Stage stage = stage_of({sequence({blow, course(name, start_frame, 110, {}, {})})}, 10, mech);
+        EXPECT_TRUE(evaluator.run(stage, "angular_acceleration").findings.empty())
+            << name << " at " << start_frame << ", " << azimuth_deg << " degrees";
+      }
+}
+
 }  // namespace
 }  // namespace contort

@@ -66,6 +66,19 @@ TEST(LegReturns, ALegThatIsCutWithItsFootInTheGroundIsHeldOnTheGround) {
   EXPECT_EQ(fixtures::coord(motion, 24, *mech, "leg_right/knee"), fixtures::coord(motion, 33, *mech, "leg_right/knee"));
 }
 
+// Legs do not fit a steep slope at rest: a foot that was in the ground before a blow comes back to there.
+TEST(LegReturns, AHitLegThatRestedInASteepSlopeRestsThereAgain) {
+  Spec spec;
+  spec.environment.ground = SlopeGround{.slope_deg = 25.0, .heading_deg = -120.0};
+  spec.sequences = {sequence({blow("leg_left", 1, 30, 100.0)})};
+  spec.hold_frames = 40;
+  const Result<Stage> stage = build_stage(spec, fixtures::shared_human());
+  ASSERT_TRUE(stage) << to_line(stage.issue());
+  const Motion motion = generate(*stage);
+  for (std::size_t c = 0; c < motion.row(0).size(); ++c)
+    EXPECT_EQ(motion.row(motion.frame_count - 1)[c], motion.row(0)[c]) << c;
+}
+
 // The room that a lifted foot has over the ground is none, which must not let the leg go on at full speed.
 TEST(LegReturns, ALiftedLegSlowsDownBeforeTheOtherLeg) {
   const auto mech = stock("mech");

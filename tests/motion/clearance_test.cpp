@@ -51,6 +51,31 @@ TEST(Clearance, AnArmGetsOutOfTheWayOfAPose) {
     EXPECT_EQ(finding.subject.find("arm_left"), std::string::npos) << finding.subject;
 }
 
+// Joints that may go on while the limb stops must be able to stop, too, wherever they are wanted next.
+TEST(Clearance, AFastLegLosesItsSpeedBeforeItsOwnBodySmoothly) {
+  const auto mech = std::make_shared<const Character>(fixtures::built({"mech", {}, {}}));
+  for (const auto& character : {fixtures::shared_human(), mech})
+    for (const double forward_m : {0.04, 0.3, 0.5})
+      for (const double speed : {1.0, 1.15, 1.4, 2.0}) {
+        ActionUse kick = use("reach", "leg_right", 0, 30, {{"target_m", Vec3(0.0, 1.0, forward_m)}});
+        kick.blend_in_frames = ActionUse{}.blend_in_frames, kick.speed = speed;
+        StageEvaluator evaluator;
+        const Stage stage = fixtures::stage_of({sequence({kick})}, 10, character);
+        EXPECT_TRUE(evaluator.run(stage, "angular_acceleration").findings.empty()) << forward_m << " m, " << speed;
+      }
+}
+
+// The trunk comes towards the leg that goes up beside it.
+TEST(Clearance, ALegToWhichABodyHasComeTooNearLosesItsSpeedSmoothly) {
+  const auto dog = std::make_shared<const Character>(fixtures::built({"quadruped", {}, {}}));
+  const ActionUse blow = use("hit_reaction", "trunk", 20, 30, {{"azimuth_deg", -120.0}, {"strength_deg", 39.0}});
+  ActionUse rise = use("reach", "leg_fore_left", 0, 30, {{"target_m", Vec3(0.28, 0.64, 0.99)}});
+  rise.blend_in_frames = ActionUse{}.blend_in_frames;
+  StageEvaluator evaluator;
+  for (const Finding& finding : evaluator.run(fixtures::stage_of({sequence({blow, rise})}, 0, dog)).findings)
+    ADD_FAILURE() << finding.check << " " << finding.subject << " at " << finding.worst_frame;
+}
+
 TEST(Clearance, PosesAreTakenAsTheyAre) {
   const ActionUse pose = use("pose", "arm_left", 0, 30, {{"shoulder_deg", Vec3(0.0, 0.0, -40.0)}});
   EXPECT_FALSE(collisions(fixtures::stage_of({sequence({pose})}, 5)).empty());

@@ -103,5 +103,24 @@ TEST(Course, IdleArmsSwingAgainstTheLegs) {
   EXPECT_GT(against, 2.0) << "the left arm is behind while the left leg is in front";
 }
 
+// Hips of a runner are not held by a foot that swings, but at the end both stand, however short the run was.
+TEST(Course, AShortRunOnASlopeEndsWithHipsWhereLegsReach) {
+  for (const char* name : {"mech", "human"})
+    for (const int frames : {17, 24, 40}) {
+      ActionUse run = use("run", "waist", 0, frames, {});
+      run.blend_in_frames = -1;
+      Spec spec;
+      spec.character.name = name;
+      spec.environment.ground = SlopeGround{.slope_deg = 22.0, .heading_deg = -104.0};
+      spec.hold_frames = 10;
+      spec.sequences = {sequence({run})};
+      const Result<Stage> stage = build_stage(spec, stock_library());
+      ASSERT_TRUE(stage) << to_line(stage.issue());
+      StageEvaluator evaluator;
+      for (const Finding& finding : evaluator.run(*stage).findings)
+        ADD_FAILURE() << name << ", " << frames << " frames: " << finding.check << " " << finding.subject;
+    }
+}
+
 }  // namespace
 }  // namespace contort

@@ -99,5 +99,19 @@ TEST_P(FeetStay, AWalkThatFadesOutStaysWhereItWent) {
   EXPECT_EQ(of_feet(walk(30)), std::vector<std::string>{});
 }
 
+// Fore legs go along a course while the trunk that carries them turns: they bent beyond their ranges to reach the ground.
+TEST(FeetStay, WhereATrunkTurnsOverACourse) {
+  StageEvaluator evaluator;
+  for (const char* course : {"run", "walk", "squat"})
+    for (const double elevation_deg : {-20.0, 10.0, 30.0}) {
+      ActionUse look;
+      look.action = "direction", look.slot = "trunk";
+      look.params = {{"elevation_deg", elevation_deg}, {"azimuth_deg", 15.0}};
+      const Spec spec = spec_of("quadruped", {legs("quadruped", course, 0, 90, 10, {}), look});
+      for (const Finding& finding : evaluator.run(stage_of(spec)).findings)
+        ADD_FAILURE() << course << " " << elevation_deg << ": " << finding.check << " " << finding.subject;
+    }
+}
+
 }  // namespace
 }  // namespace contort

@@ -1,0 +1,89 @@
+// The part of LimbKeeper that holds a trunk over the feet of the legs that it carries.
+#include <algorithm>
+#include <array>
+
+#include "generator/actions/course_ahead.h"
+#include "generator/limb_keeper.h"
+#include "generator/motion/blend.h"
+#include "generator/motion/way.h"
+#include "model/motion/kinematics.h"
+
+namespace contort {
+
+// A trunk goes only as far as the legs that it carries reach to where their feet stand, or go in a course of legs. It
+// looks ahead by as much as it needs to stop, losing a fifth of its speed a frame.
+void LimbKeeper::hold_over_feet(const Playback& playback, const Limb& limb) {
+  constexpr std::array kShares = {1.0, 0.8, 0.6, 0.4, 0.2, 0.1};
+  constexpr double kAhead = 5.0;  // steps
+  const auto carries_foot = [&](int i) {
+    return is_carried_and_stands(limb, i) || is_carried_on_course(playback, limb, i);
+  };
+  if (std::ranges::none_of(limb.legs, carries_foot) || !has_moved(limb)) return;
+  for (const int p : limb.parts) copy_part(*stage_.character, at(p), s_.postures.shown, s_.wanted);
+  const std::optional<FramesAhead> course = course_of_legs(playback);
+  const auto reach = [&](double steps) { return feet_reach(playback, limb, steps, course); };
+  const auto fits = std::ranges::find_if(kShares, [&](double share) { return reach(kAhead * share); });
+  if (fits == kShares.begin() || (fits == kShares.end() && !reach(0.0))) return;
+  const double share = fits != kShares.end() ? *fits : 0.0;
+  shift(limb, Shift::over_feet);
+  for (const int p : limb.parts) {
+    blend_part(*stage_.character, at(p), s_.past.before, s_.wanted, share, s_.postures.shown);
+    s_.path.correct(at(p), s_.past.before.coords, s_.postures.shown.coords);
+  }
+  forward_kinematics(*stage_.character, s_.postures.shown.coords, limb.joints, s_.rules.world());
+}
+
+// A foot that an additive has lifted comes back to where it stood, too.
+bool LimbKeeper::is_carried_and_stands(const Limb& limb, int leg) const {
+  const std::size_t part = at(stage_.legs[at(leg)].part);
+  const bool comes_back = s_.rests[part] != 0 && s_.stacks[part].ik().action < 0;
+  return !limb.is_its_own(stage_.legs[at(leg)]) && (s_.rules.feet().is_planted(at(leg)) || comes_back);
+}
+
+bool LimbKeeper::is_carried_on_course(const Playback& playback, const Limb& limb, int leg) const {
+  const LayerHold& hold = s_.stacks[at(stage_.legs[at(leg)].part)].ik();
+  return !limb.is_its_own(stage_.legs[at(leg)]) && hold.action >= 0 && moves_legs(playback, hold);
+}
+
+std::optional<FramesAhead> LimbKeeper::course_of_legs(const Playback& playback) const {
+  const LayerHold& hold = s_.stacks[0].ik();
+  if (hold.action < 0 || !moves_legs(playback, hold)) return std::nullopt;
+  return frames_ahead(s_.rules.body(planned(playback, hold)));
+}
+
+bool LimbKeeper::has_moved(const Limb& limb) const {
+  return std::ranges::any_of(limb.joints, [&](int j) {
+    const Joint& joint = stage_.character->joint(j);
+    return joint_way(joint, &s_.past.before.coords[at(joint.coord)], &s_.postures.shown.coords[at(joint.coord)]) > 0.0;
+  });
+}
+
+// Whether all feet on legs that the limb carries could stay where they stand, or go where a course has them, if it went
+// so many of this frame's steps. On a course legs must not touch other bodies either.
+bool LimbKeeper::feet_reach(const Playback& playback, const Limb& limb, double steps,
+                            const std::optional<FramesAhead>& course) {
+  constexpr double kReaches_m = 0.002;
+  constexpr RoomRange kApart{.low_m = -kTooNear_m, .high_m = -kTooNear_m, .gap_m = 0.001};
+  const Character& character = *stage_.character;
+  const StandingFeet& feet = s_.rules.feet();
+  std::ranges::copy(s_.rules.world(), s_.rest_world.begin());
+  s_.between.coords = s_.past.before.coords;
+  for (const int p : limb.parts) coast_part(character, at(p), s_.past.before, s_.wanted, steps - 1.0, s_.between);
+  forward_kinematics(character, s_.between.coords, limb.joints, s_.rest_world);
+  return std::ranges::all_of(limb.legs, [&](int i) {
+    const std::size_t leg = at(i);
+    forward_kinematics(character, s_.between.coords, stage_.legs[leg].joints, s_.rest_world);
+    if (is_carried_and_stands(limb, i)) {
+      feet.put_to_rest(leg, s_.rest_world, s_.between.coords);
+      return feet.off_m(leg, s_.rest_world) < kReaches_m;
+    }
+    if (!course || !is_carried_on_course(playback, limb, i)) return true;
+    return std::ranges::all_of(*course, [&](const GaitFrame& frame) {
+      const Rigid sole = s_.rest_world[0] * inverse(frame.root) * frame.feet[leg].world_from_sole;
+      if (feet.missed_m(leg, sole, s_.rest_world, s_.between.coords) >= kReaches_m) return false;
+      return s_.rules.room().apart_m(at(stage_.legs[leg].part), s_.rest_world, kApart) >= -kTooNear_m;
+    });
+  });
+}
+
+}  // namespace contort
