@@ -124,7 +124,7 @@ namespace {
 // Along the ground from place to place, as high as planned but not higher than a foot must be to pass over it.
 Rigid lowest(const Rigid& from, const Rigid& to, double share, const Rigid& planned) {
   const double way = minimum_jerk(share);
-  Rigid low{slerp_short(from.q, to.q, way), glm::mix(from.p_m, to.p_m, way)};
+  Rigid low{slerp_short(from.q, to.q, way), from.p_m + way * (to.p_m - from.p_m)};
   low.p_m.y += std::clamp(planned.p_m.y - low.p_m.y, 0.0, kLowest_m);
   return low;
 }
@@ -137,7 +137,7 @@ Rigid Retreat::sole(int frame, int sole) const {
     if (lift.sole != sole || lift.size == 1.0 || frame < lift.first || frame > lift.last) continue;
     const double share = static_cast<double>(frame - lift.first + 1) / (lift.last - lift.first + 2);
     const Rigid low = lowest(lift.from, lift.to, share, planned);
-    return {slerp_short(low.q, planned.q, lift.size), glm::mix(low.p_m, planned.p_m, lift.size)};
+    return {slerp_short(low.q, planned.q, lift.size), low.p_m + lift.size * (planned.p_m - low.p_m)};
   }
   return planned;
 }
