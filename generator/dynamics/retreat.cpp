@@ -11,18 +11,12 @@ namespace {
 constexpr double kShare = 0.25;       // of the way to standing, at once
 constexpr double kNear_s = 0.3;
 constexpr double kStays_m = 0.15;     // a root that travels farther within kNear_s to either side is that of a gait
-constexpr double kStep_m = 0.1;       // a foot that lands as far away, or is turned as far, has made a step
-constexpr double kStep_rad = 0.1;
 constexpr double kLowest_m = 0.03;    // height that a foot keeps over the ground
 constexpr double kLeastSize = 0.02;   // of a lift that can still become smaller
 
 bool any_of(std::span<const char> frames, int first, int end) {
   first = std::max(first, 0), end = std::min(end, static_cast<int>(frames.size()));
   return std::ranges::any_of(frames.subspan(at(first), at(end - first)), [](char one) { return one != 0; });
-}
-
-bool is_step(const Rigid& from, const Rigid& to) {
-  return length(to.p_m - from.p_m) > kStep_m || rotation_angle(glm::conjugate(from.q) * to.q) > kStep_rad;
 }
 
 std::vector<char> staying_frames(const Motion& motion, int reach) {
@@ -43,20 +37,7 @@ Retreat::Retreat(const Character& character, const ContactPlan& plan, std::span<
       legs_(legs),
       reach_(std::max(1, static_cast<int>(kNear_s * motion.rate_hz))),
       stays_(staying_frames(motion, reach_)) {
-  for (int sole = 0; sole < static_cast<int>(legs.size()); ++sole) find_lifts(sole);
-}
-
-void Retreat::find_lifts(int sole) {
-  const int frames = plan_.frame_count();
-  for (int f = 0, last = 0; f < frames; f = last + 1) {
-    last = f;
-    if (plan_.airborne(f, sole) == 0) continue;
-    while (last + 1 < frames && plan_.airborne(last + 1, sole) != 0) ++last;
-    const bool leaves = f > 0, lands = last + 1 < frames;
-    const Rigid& from = plan_.sole(leaves ? f - 1 : lands ? last + 1 : f, sole);
-    const Rigid& to = lands ? plan_.sole(last + 1, sole) : from;
-    if (!is_step(from, to)) lifts_.push_back({sole, f, last, from, to});
-  }
+  for (const FootLift& one : foot_lifts(plan, static_cast<int>(legs.size()))) lifts_.push_back({one});
 }
 
 bool Retreat::go(std::span<const char> impossible, Motion& motion) {
@@ -67,7 +48,7 @@ bool Retreat::go(std::span<const char> impossible, Motion& motion) {
 bool Retreat::lower(std::span<const char> impossible) {
   bool any = false;
   for (Lift& lift : lifts_) {
-    if (lift.size <= kLeastSize || !any_of(impossible, lift.first - reach_, lift.last + 1 + reach_)) continue;
+    if (lift.size <= kLeastSize || !any_of(impossible, lift.of.first - reach_, lift.of.last + 1 + reach_)) continue;
     lift.size *= 1.0 - kShare;
     any = true;
   }
@@ -115,7 +96,7 @@ double Retreat::ground_m(int frame) const {
 std::uint8_t Retreat::lifted(int frame) const {
   std::uint8_t soles = 0;
   for (const Lift& lift : lifts_)
-    if (lift.first <= frame && frame <= lift.last) soles |= static_cast<std::uint8_t>(1U << lift.sole);
+    if (lift.of.first <= frame && frame <= lift.of.last) soles |= static_cast<std::uint8_t>(1U << lift.of.sole);
   return soles;
 }
 
@@ -134,9 +115,9 @@ Rigid lowest(const Rigid& from, const Rigid& to, double share, const Rigid& plan
 Rigid Retreat::sole(int frame, int sole) const {
   const Rigid& planned = plan_.sole(frame, sole);
   for (const Lift& lift : lifts_) {
-    if (lift.sole != sole || lift.size == 1.0 || frame < lift.first || frame > lift.last) continue;
-    const double share = static_cast<double>(frame - lift.first + 1) / (lift.last - lift.first + 2);
-    const Rigid low = lowest(lift.from, lift.to, share, planned);
+    if (lift.of.sole != sole || lift.size == 1.0 || frame < lift.of.first || frame > lift.of.last) continue;
+    const double share = static_cast<double>(frame - lift.of.first + 1) / (lift.of.last - lift.of.first + 2);
+    const Rigid low = lowest(lift.of.from, lift.of.to, share, planned);
     return {slerp_short(low.q, planned.q, lift.size), low.p_m + lift.size * (planned.p_m - low.p_m)};
   }
   return planned;

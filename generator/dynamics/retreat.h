@@ -8,8 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/dynamics/contact_plan.h"
-#include "model/motion/legs.h"
+#include "generator/dynamics/foot_lifts.h"
 
 namespace contort {
 
@@ -30,14 +29,9 @@ class Retreat {
 
  private:
   struct Lift {
-    int sole = 0;
-    int first = 0;  // frames in the air
-    int last = 0;
-    Rigid from;
-    Rigid to;
+    FootLift of;
     double size = 1.0;  // share of the planned way
   };
-  void find_lifts(int sole);
   bool lower(std::span<const char> impossible);
   bool stand_up(std::span<const char> impossible, Motion& motion) const;
   void stand_up(int frame, double share, Rigid& root) const;

@@ -1,6 +1,7 @@
 #include "generator/dynamics/simulate.h"
 
 #include "generator/dynamics/closed_chain.h"
+#include "generator/dynamics/foot_lifts.h"
 #include "generator/dynamics/joint_ends.h"
 #include "generator/dynamics/linear.h"
 #include "generator/dynamics/racing.h"
@@ -232,7 +233,9 @@ class Simulation {
 
 void simulate(const Character& character, const DynamicsSetup& setup, const Environment& environment,
               SimulationScratch& scratch, Motion& motion) {
-  soften_legs(character, find_legs(character), environment, setup.easy, motion);
+  const std::vector<Leg> legs = find_legs(character);
+  soften_legs(character, legs, environment, setup.easy, motion);
+  keep_enough_feet(character, legs, setup.figure, environment, motion);
   ContactPlan plan(character, setup.figure, environment, motion);
   const BalancePlan balance = make_possible(character, setup.figure, setup.easy, plan, motion);
   plan.move_airborne(character, setup.figure, motion);

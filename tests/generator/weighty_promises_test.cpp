@@ -11,14 +11,14 @@ namespace {
 using fixtures::sequence;
 using fixtures::use;
 
-// The findings of one action on a standing figure with mass, one a line; of one check, if it is named.
-std::string found(const std::string& character, ActionUse action, std::string_view check = {}) {
+// The findings of actions on a standing figure with mass, one a line; of one check, if it is named.
+std::string found(const std::string& character, std::vector<ActionUse> actions, std::string_view check = {}) {
   Spec spec;
   spec.character.name = character;
   spec.dynamics.mode = Mode::tracking;
   spec.hold_frames = 30;
-  action.blend_in_frames = -1;
-  spec.sequences = {sequence({action})};
+  for (ActionUse& action : actions) action.blend_in_frames = -1;
+  spec.sequences = {sequence(std::move(actions))};
   const Result<Stage> stage = build_stage(spec, stock_library());
   if (!stage) return to_line(stage.issue());
   StageEvaluator evaluator;
@@ -26,6 +26,10 @@ std::string found(const std::string& character, ActionUse action, std::string_vi
   for (const Finding& finding : evaluator.run(*stage).findings)
     if (check.empty() || finding.check == check) lines += finding.check + " " + finding.subject + "\n";
   return lines;
+}
+
+std::string found(const std::string& character, const ActionUse& action, std::string_view check = {}) {
+  return found(character, std::vector{action}, check);
 }
 
 TEST(WeightyPromises, ALegIsLiftedWithTheWeightOverTheOther) {
@@ -62,6 +66,17 @@ TEST(WeightyPromises, ALegIsHeldOutOnlyAsFarAsTheOtherOneBears) {
 TEST(WeightyPromises, ACrouchThatLeansBackStaysInTheRangesOfItsAnkles) {
   const std::map<std::string, ParamValue> back = {{"share", 0.6}, {"lean_deg", -30.0}, {"back_m", -0.07}};
   for (const char* name : {"human", "mech"}) EXPECT_EQ(found(name, use("crouch", "waist", 0, 60, back)), "") << name;
+}
+
+// A blow on the leg that bears, and blows on both feet at the same time.
+TEST(WeightyPromises, AFootStaysWhereTheOtherOneIsLifted) {
+  const std::map<std::string, ParamValue> aside = {{"azimuth_deg", 30.0}, {"strength_deg", 25.0}};
+  const ActionUse left = use("hit_reaction", "foot_left", 0, 50, {{"azimuth_deg", 30.0}, {"strength_deg", 20.0}});
+  ActionUse right = left;
+  right.slot = "foot_right";
+  EXPECT_EQ(found("human", {left, right}), "");
+  const ActionUse reach = use("reach", "leg_left", 0, 90, {{"target_m", Vec3(0.2, 0.4, 0.4)}});
+  EXPECT_EQ(found("human", {reach, use("hit_reaction", "leg_right", 20, 50, aside)}), "");
 }
 
 TEST(WeightyPromises, WalksAndTurnsKeepTheBalanceWhereFeetComeAndGo) {
