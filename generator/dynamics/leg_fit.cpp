@@ -10,7 +10,7 @@ namespace contort {
 
 namespace {
 
-constexpr double kBeyond_rad = 0.001;
+constexpr double kBeyond_rad = 1e-5;
 constexpr double kOverlap_m = 0.0005;
 
 }  // namespace

@@ -29,6 +29,25 @@ std::vector<char> staying_frames(const Motion& motion, int reach) {
   return stays;
 }
 
+std::vector<int> joints_to_legs(const Character& character, std::span<const Leg> legs) {
+  std::vector<int> joints;
+  for (const Leg& leg : legs)
+    for (int j = character.joint(leg.joints.front()).parent; j > 0; j = character.joint(j).parent)
+      if (std::ranges::find(joints, j) == joints.end()) joints.push_back(j);
+  return joints;
+}
+
+// Brings a joint nearer to its posture at rest, in which all coordinates are 0 and quaternions 1.
+void straighten(const Joint& joint, double share, std::span<double> row) {
+  double* coords = &row[at(joint.coord)];
+  if (joint.kind != JointKind::ball) {
+    coords[0] *= 1.0 - share;
+    return;
+  }
+  const Quat nearer = slerp_short(quat_at(coords), Quat(1.0, 0.0, 0.0, 0.0), share);
+  coords[0] = nearer.w, coords[1] = nearer.x, coords[2] = nearer.y, coords[3] = nearer.z;
+}
+
 }  // namespace
 
 Retreat::Retreat(const Character& character, const ContactPlan& plan, std::span<const Leg> legs, const Motion& motion)
@@ -36,6 +55,7 @@ Retreat::Retreat(const Character& character, const ContactPlan& plan, std::span<
       plan_(plan),
       legs_(legs),
       reach_(std::max(1, static_cast<int>(kNear_s * motion.rate_hz))),
+      carriers_(joints_to_legs(character, legs)),
       stays_(staying_frames(motion, reach_)) {
   for (const FootLift& one : foot_lifts(plan, static_cast<int>(legs.size()))) lifts_.push_back({one});
 }
@@ -66,18 +86,20 @@ bool Retreat::stand_up(std::span<const char> impossible, Motion& motion) const {
     for (int g = f; g < end; ++g) {
       const int from_start = f == 0 ? reach_ : g - f, to_end = end == frames ? reach_ : end - 1 - g;
       const double near = std::min(1.0, static_cast<double>(std::min(from_start, to_end)) / reach_);
-      stand_up(g, kShare * minimum_jerk(near), motion.root[at(g)]);
+      stand_up(g, kShare * minimum_jerk(near), motion);
     }
   }
   return any;
 }
 
-void Retreat::stand_up(int frame, double share, Rigid& root) const {
+void Retreat::stand_up(int frame, double share, Motion& motion) const {
+  Rigid& root = motion.root[at(frame)];
   const Rigid& rest = character_.rest_root();
   const Vec3 up(0, 1, 0);
   const Quat upright = shortest_arc(root.q * (glm::conjugate(rest.q) * up), up) * root.q;
   root.q = slerp_short(root.q, upright, share);
   root.p_m.y += share * std::max(0.0, ground_m(frame) + rest.p_m.y - root.p_m.y);
+  for (const int j : carriers_) straighten(character_.joint(j), share, motion.row(frame));
 }
 
 bool Retreat::all_bear(int frame) const {

@@ -1,7 +1,7 @@
 // The way back to standing of a target that its legs or the ground cannot bear, such as a leg that is held out too far
 // or a trunk that leans back in a crouch. Lifts of feet that are no steps become smaller, each as a whole, so that the
 // foot goes nearer to the ground between the places where it leaves and lands. Where all soles bear and the figure
-// stays in its place, the root turns upright and rises.
+// // stays in its place, the root turns upright and rises, and joints between it and the legs straighten.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class Retreat {
   };
   bool lower(std::span<const char> impossible);
   bool stand_up(std::span<const char> impossible, Motion& motion) const;
-  void stand_up(int frame, double share, Rigid& root) const;
+  void stand_up(int frame, double share, Motion& motion) const;
   bool all_bear(int frame) const;
   double ground_m(int frame) const;
 
@@ -42,6 +42,7 @@ class Retreat {
   const ContactPlan& plan_;
   std::span<const Leg> legs_;
   int reach_ = 1;             // frames that are near by
+  std::vector<int> carriers_;  // joints between the root and the legs
   std::vector<char> stays_;   // by frame: the figure does not travel
   std::vector<Lift> lifts_;
 };
