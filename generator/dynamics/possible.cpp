@@ -6,6 +6,7 @@
 
 #include "generator/dynamics/feet.h"
 #include "generator/dynamics/leg_fit.h"
+#include "generator/dynamics/re_aim.h"
 #include "generator/dynamics/retreat.h"
 #include "generator/dynamics/shift_rows.h"
 #include "generator/dynamics/soft_height.h"
@@ -74,6 +75,8 @@ class PossibleTarget {
     soften();
     settle();
     for (int again = 0; again < kRetreats && retreat(); ++again) settle();
+    re_aim(character_, legs_, motion_);
+    measure();
     return balance();
   }
 

@@ -92,6 +92,11 @@ TEST(WeightyPromises, WalksAndTurnsKeepTheBalanceWhereFeetComeAndGo) {
 }
 
 TEST(WeightyPromises, HeadsAndTrunksArriveWhereTheyLook) {
+  for (const Vec3& target_m : {Vec3(0.42, 1.53, 0.94), Vec3(-0.66, 1.9, 1.76), Vec3(0.08, 1.39, 0.83)})
+    EXPECT_EQ(found("human", use("aim", "torso", 0, 60, {{"point", std::string("chest")}, {"target_m", target_m}}),
+                    "aim_error"),
+              "")
+        << target_m.x << ": hips have swayed aside";
   EXPECT_EQ(
       found("quadruped", use("aim", "head", 0, 60, {{"point", std::string("face")}, {"target_m", Vec3(1, 1.2, 1.5)}})),
       "");
