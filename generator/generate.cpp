@@ -250,7 +250,10 @@ class Generation {
   // A course of legs that should come in faster than joints can take its legs over comes in as fast as they can.
   void take_time_to_come_in(const Playback& playback, const LayerHold& hold, std::size_t p) {
     const PlannedAction& action = planned(playback, hold);
-    if (takes_its_time(action)) return s_.stacks[p].set_ik_blend(way_frames(playback, hold, p));
+    if (takes_its_time(action)) {
+      const bool at_once = moves_legs(playback, hold) && s_.rules.body(action).comes_at_once;
+      return s_.stacks[p].set_ik_blend(at_once ? 0 : way_frames(playback, hold, p));
+    }
     if (action.cuts || !moves_legs(playback, hold)) return;
     const int needs = static_cast<int>(std::ceil(kHurry * way_frames(playback, hold, p)));
     if (needs > action.blend_in) s_.stacks[p].set_ik_blend(needs);

@@ -19,7 +19,7 @@ ActionTime time_of(const PlannedAction& action, double came, int content, double
   const double takes_s = (action.end - action.start) / action.speed / rate_hz;
   const double comes_in_s = std::max(0.0, action.blend_in) / rate_hz;
   return {u,       u * duration_s, duration_s,                 u * duration_s - missed_s, duration_s - missed_s,
-          takes_s, comes_in_s,     action.blend_out / rate_hz, 1.0 / rate_hz};
+          takes_s, comes_in_s,     action.blend_out / rate_hz, 1.0 / rate_hz, (action.end - action.start) / rate_hz};
 }
 
 // Legs that walk must not be clamped one joint at a time: their feet would leave the ground that they stand on.

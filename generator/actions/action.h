@@ -66,6 +66,7 @@ struct ActionTime {
   double fades_s = 0.0;
   double frame_s = 0.0;     // duration of a frame of the motion; a frame plays duration_s / takes_s times as much
                             // content
+  double fades_by_s = 0.0;  // from its start to the end of its period, by which it has faded, as it is played
 };
 
 // The other hand that is to hold the object that is aimed.
@@ -119,6 +120,7 @@ struct WholeBody {
   bool had_help = false;                      // in the frame before
   Pace pace;                                  // the share of the requested gait that the legs can make
   GaitParams gait_params;                     // at this pace
+  bool comes_at_once = false;                 // the course begins where the figure stands, and no blend must hurry it
   double lasts_s = 0.0;                       // duration of the walk, s of content; then the figure stands
   bool is_slower = false;                     // it walks more slowly than requested, or turns less
   Vec3 over_feet_m{0.0};                      // offset of lowered hips that balances the figure's mass over its feet

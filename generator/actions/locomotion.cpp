@@ -7,7 +7,9 @@
 #include "generator/motion/place_foot.h"
 #include "generator/motion/foot_roll.h"
 #include "generator/motion/pace.h"
+#include "generator/motion/root_blend.h"
 #include "generator/motion/stand_on.h"
+#include "generator/motion/way.h"
 #include "generator/motion/weighty_bend.h"
 #include "model/core/detmath.h"
 #include "model/core/index.h"
@@ -132,11 +134,38 @@ double heading_rad(const RuleInput& in) {
 
 using ParamsFor = GaitParams (*)(std::span<const Leg>, double speed_m_s, double heading_rad, const Pace& pace);
 
+double ramp(double time_s, double length_s) {
+  return length_s > 0.0 ? minimum_jerk(std::min(1.0, time_s / length_s)) : 1.0;
+}
+
+// A course as it is seen while it comes in and fades: its root goes from where it was found, and back to standing.
+GaitFrame with_blends(const RuleInput& in, const GaitFrame& frame, double content_s, double comes_in_s) {
+  const ActionTime& time = in.time;
+  const double played_s = content_s * time.takes_s / time.duration_s;
+  const double left_s = time.fades_by_s - (time.duration_s - time.left_s + content_s) * time.takes_s / time.duration_s;
+  const LegsBelow below{in.character, in.legs, in.environment};
+  const Rigid& first = in.world[0];
+  const Rigid home = brought_along(below, first, in.stands_at, frame.stands_at);
+  GaitFrame seen = frame;
+  seen.root = blend_root(below, first, seen.root, ramp(played_s, comes_in_s));
+  seen.root = blend_root(below, home, seen.root, ramp(std::max(0.0, left_s), time.fades_s));
+  return seen;
+}
+
 bool begins_on_its_feet(const RuleInput& in) {
   constexpr double kStands_m = 0.002;
   for (std::size_t leg = 0; leg < in.legs.size(); ++leg)
     if (length(in.body.seen_soles[leg].p_m - in.body.first_soles[leg].p_m) > kStands_m) return false;
   return true;
+}
+
+bool begins_where_it_stands(const RuleInput& in, const GaitParams& params) {
+  constexpr double kNear_m = 0.002, kNear_rad = 0.005;
+  Gait gait = in.body.gait;
+  const Rigid root = gait.at(params, 0.0, in.time.left_s).root;
+  const Rigid& now = in.world[0];
+  return begins_on_its_feet(in) && length(root.p_m - now.p_m) < kNear_m &&
+         rotation_angle(glm::conjugate(root.q) * now.q) < kNear_rad;
 }
 
 // The length of a half cycle from `even_s` on, if the course goes straight over level ground there at its full speed and
@@ -176,15 +205,25 @@ void begin_gait(const RuleInput& in, ParamsAt params_at, Posture& posture) {
   const double lasts_s = in.time.left_s, step_s = in.time.duration_s / in.time.takes_s * in.time.frame_s;
   GaitParams params = params_at(Pace{});
   Pace pace_of_params;
+  double comes_in_s = std::max(kLeastWay_s, in.time.comes_in_s);
   const auto frame_at = [&](Gait& gait, const Pace& pace, double time_s) {
     if (!(pace == pace_of_params)) params = params_at(pace), pace_of_params = pace;
-    return gait.at(params, time_s, lasts_s);
+    return with_blends(in, gait.at(params, time_s, lasts_s), time_s, comes_in_s);
   };
-  body.pace = {};
+  body.pace = {}, body.comes_at_once = false;
   if (step_s > 0.0) {
     const double even_s = 0.5 * (lasts_s - params.cycle_s);  // half of the time in which it moves
     const CourseTrial course{frame_at, lasts_s, step_s, in.time.frame_s, even_s, even_for_s(in, params, lasts_s, even_s)};
-    body.pace = fitting_pace(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
+    const auto pace = [&] {
+      return fitting_pace(in.character, in.room, body.gait, course, in.world, in.scratch, posture.coords);
+    };
+    body.pace = pace();
+    if (body.pace.speed < 1.0 && in.time.comes_in_s <= 0.0 && begins_where_it_stands(in, params_at(Pace{}))) {
+      comes_in_s = 0.0;
+      const Pace at_once = pace();
+      body.comes_at_once = at_once.speed > body.pace.speed;
+      if (body.comes_at_once) body.pace = at_once;
+    }
   }
   body.gait_params = params_at(body.pace);
   const GaitTiming timing(body.gait_params, in.legs, lasts_s);
@@ -218,10 +257,6 @@ struct BendShape {
   double (*share_at)(double progress);
   double peak;  // the greatest rate of the share, in whole ways for each duration
 };
-
-double ramp(double time_s, double length_s) {
-  return length_s > 0.0 ? minimum_jerk(std::min(1.0, time_s / length_s)) : 1.0;
-}
 
 // The peak of the share that is seen: a course that comes in while it bends makes both ways at once.
 double peak_with_blends(const BendShape& shape, const ActionTime& time) {

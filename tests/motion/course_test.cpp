@@ -122,5 +122,23 @@ TEST(Course, AShortRunOnASlopeEndsWithHipsWhereLegsReach) {
     }
 }
 
+// What is seen of a run's start is made of the run and of how it comes in; together they must be slow enough for knees.
+TEST(Course, ARunThatIsPlayedFastComesInAsFastAsKneesBend) {
+  for (const double speed : {1.25, 2.0})
+    for (const int blend : {-1, 3, 10}) {
+      ActionUse run = use("run", "waist", 1, 32, {{"speed_m_s", 7.5}});
+      run.speed = speed, run.blend_in_frames = blend;
+      Spec spec;
+      spec.character.name = "mech";
+      spec.hold_frames = 10;
+      spec.sequences = {sequence({run})};
+      const Result<Stage> stage = build_stage(spec, stock_library());
+      ASSERT_TRUE(stage) << to_line(stage.issue());
+      StageEvaluator evaluator;
+      for (const Finding& finding : evaluator.run(*stage).findings)
+        ADD_FAILURE() << "speed " << speed << ", blend " << blend << ": " << finding.check << " " << finding.subject;
+    }
+}
+
 }  // namespace
 }  // namespace contort
