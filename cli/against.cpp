@@ -11,6 +11,7 @@
 
 #include "cli/input.h"
 #include "cli/print.h"
+#include "cli/replay_text.h"
 #include "cli/tested.h"
 #include "model/core/files.h"
 #include "model/core/hash.h"
@@ -107,7 +108,7 @@ std::string sentence_about_base(const Provenance& from) {
 namespace {
 
 std::string text_of_row(const AgainstRow& row, const Sources& sources) {
-  return std::string(row.is_worse ? "WORSE  " : "BROKE  ") + printable(print_family(family_of(row.minimal))) +
+  return std::string(row.is_worse ? "WORSE  " : "BROKE  ") + printable(failure_text(row.minimal)) +
          "  depth " + decimal(depth_of(row.minimal.expect), 2) + ": " +
          sentence_about_base(row.minimal.provenance) + "  " + replay_command(row.path, sources);
 }
@@ -234,9 +235,18 @@ Result<Done> check_same_pair(std::span<const Corpus> corpora) {
   return Done{};
 }
 
+namespace {
+
+constexpr std::size_t kMostRows = 20;  // that are printed; the others are only counted
+
+}  // namespace
+
 void print_comparison(const RunResult& result, const AgainstConfig& against,
                       const Sources& sources) {
-  for (const AgainstRow& row : rows_of(result)) std::printf("%s\n", text_of_row(row, sources).c_str());
+  const std::vector<AgainstRow> rows = rows_of(result);
+  for (std::size_t i = 0; i < std::min(rows.size(), kMostRows); ++i)
+    std::printf("%s\n", text_of_row(rows[i], sources).c_str());
+  if (rows.size() > kMostRows) std::printf("and %zu more, in contort report CORPUS -o DIR\n", rows.size() - kMostRows);
   const std::vector<std::string> missing = not_compared(against);
   for (const std::string& name : missing) std::printf("not compared: %s, a check that the base lacks\n", name.c_str());
   const AgainstCounts& counts = *result.record.against;

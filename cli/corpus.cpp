@@ -115,7 +115,7 @@ void show(const CorpusOptions& options, Context& context) {
   };
   if (minimal) line("cause", cause_text(*minimal));
   line("bucket", folder_name(bucket));
-  line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", fails a build" : ""));
+  line("state", std::string(state_name(bucket.state)) + (is_gating(bucket, context.day()) ? ", fails the build" : ""));
   line("known", known_text(bucket, context.day()));
   line("note", bucket.note);
   line("family", print_family(bucket.family));

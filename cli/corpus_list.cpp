@@ -44,7 +44,7 @@ class CorpusList {
   }
 
   std::string gates_text(const Bucket& bucket) const {
-    return is_gating(bucket, listed_.today) ? ", fails a build" : "";
+    return is_gating(bucket, listed_.today) ? ", fails the build" : "";
   }
 
   void add_line(const Bucket& bucket) {
@@ -80,9 +80,11 @@ class CorpusList {
   std::string last_line(std::size_t causes) const {
     const auto gating =
         std::ranges::count_if(buckets_, [&](const Bucket& bucket) { return is_gating(bucket, listed_.today); });
-    return counted(std::ssize(buckets_), "failure", "failures") + " of " +
-           counted(static_cast<std::int64_t>(causes), "cause", "causes") + ", " + std::to_string(gating) +
-           (gating == 1 ? " fails a build\n" : " fail a build\n");
+    const auto fixed = std::ranges::count(buckets_, BucketState::fixed, &Bucket::state);
+    return counted(std::ssize(buckets_) - fixed, "failure", "failures") + " of " +
+           counted(static_cast<std::int64_t>(causes), "cause", "causes") + ", " +
+           counted(gating, "fails", "fail") + " the build" +
+           (fixed > 0 ? "; " + counted(fixed, "other is", "others are") + " fixed\n" : "\n");
   }
 
   const ListedCorpus& listed_;

@@ -74,7 +74,8 @@ class RunLine {
                          : config_.time_s > 0.0 ? p.elapsed_s / config_.time_s
                                                 : 0.0;
     std::string text = std::to_string(p.cases) + " cases, " + std::to_string(p.failing) + " failing, " +
-                       std::to_string(p.families) + " families, " + std::to_string(p.buckets_new) + " new buckets, ";
+                       std::to_string(p.families) + " kinds of failure, " + std::to_string(p.buckets_new) +
+                       " new failures, ";
     if (p.shrinking > 0) text += "shrinking " + std::to_string(p.shrinking) + ", ";
     line_.show(share, text + std::to_string(std::lround(p.elapsed_s)) + " s");
   }
@@ -359,12 +360,12 @@ void add_fuzz(CLI::App& app, Context& context) {
   add_limit_options(*command, options->limits);
   command
       ->add_option("--shrinks-per-family", options->shrinks_per_family,
-                   "Number of failures of one family that are shrunk and stored")
+                   "Number of failures of one kind that are shrunk and stored")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--shrinks-per-case", options->shrinks_per_case,
-                   "Number of families of one case that are shrunk and stored, the earliest first; others are counted")
+                   "Number of kinds of failure of one case that are shrunk and stored, the earliest first; others are counted")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command

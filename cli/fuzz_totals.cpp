@@ -65,7 +65,7 @@ std::string verdict(const RunRecord& record, std::span<const CauseRow> causes) {
       clean_share(judged, record.failing) + " of " + counted(judged, "case is clean", "cases are clean");
   if (record.failing == 0) return share + ".";
   const std::string failing = share + "; " + counted(record.failing, "fails", "fail");
-  if (causes.empty()) return failing + "; none has a bucket yet, so no cause is known.";
+  if (causes.empty()) return failing + "; none has a smallest case yet, so no cause is known.";
   return failing + ", by " + counted(std::ssize(causes), "cause", "causes") + ", " + news_text(causes) + ".";
 }
 
@@ -135,24 +135,31 @@ void print_totals_json(const RunResult& result, const TotalsRequest& request) {
   std::printf("%s\n", out.dump(2, ' ', false, json_fields::Json::error_handler_t::replace).c_str());
 }
 
+std::string kinds_text(std::int64_t count) { return counted(count, "kind of failure", "kinds of failure"); }
+
+void print_counts(const RunResult& result, const TotalsRequest& request) {
+  const RunRecord& t = result.record;
+  const std::string cases = counted(t.cases, "case", "cases"), frames = counted(t.frames, "frame", "frames");
+  const std::string failed = count_text(t.failing) + (request.against ? " broke or got worse" : " failed");
+  std::printf("%s (%s) in %.1f s: %s, in %s; stored in %s\n", cases.c_str(), frames.c_str(), result.elapsed_s,
+              failed.c_str(), kinds_text(std::ssize(t.families)).c_str(), request.corpus.c_str());
+  const auto late =
+      std::ranges::count_if(t.families, [](const auto& family) { return family.second.first_indices.empty(); });
+  if (late > 0)
+    std::printf("%s only counted, not shrunk and stored: never among the %d earliest of a case (--shrinks-per-case)\n",
+                (kinds_text(late) + (late == 1 ? " is" : " are")).c_str(), request.shrinks_per_case);
+}
+
 void print_totals_text(const RunResult& result, const TotalsRequest& request) {
   const RunRecord& t = result.record;
   print_found(result, request);
   for (const std::string& line : waiver_lines(request.settings, result.waivers)) std::printf("%s\n", line.c_str());
   for (const std::string& line : refusal_lines(t.refusals, t.discarded, t.cases, kMostReasons))
     std::printf("%s\n", printable(line).c_str());
-  std::printf("%lld cases (%lld frames) in %.1f s: %lld %s, %zu families; corpus: %s\n",
-              static_cast<long long>(t.cases), static_cast<long long>(t.frames), result.elapsed_s,
-              static_cast<long long>(t.failing), request.against ? "broke or got worse" : "failing", t.families.size(),
-              request.corpus.c_str());
-  if (const auto late = std::ranges::count_if(t.families, [](const auto& f) { return f.second.first_indices.empty(); }))
-    std::printf(
-        "%lld families were never among the %d earliest failures of a case: counted, not shrunk "
-        "(--shrinks-per-case)\n",
-        static_cast<long long>(late), request.shrinks_per_case);
+  print_counts(result, request);
   if (t.cases > t.discarded && !request.against) std::printf("%s\n", outlook(progress_of(std::span(&t, 1))).c_str());
   if (result.interrupted)
-    std::printf("%d failures wait to be shrunk: the same command with --resume continues from here\n", result.unsettled);
+    std::printf("%d failures wait to be shrunk: the same command with --resume goes on from here\n", result.unsettled);
   if (!result.waiting.empty())
     std::printf("%zu failures wait in %s/leads, as time was up: the next contort fuzz there shrinks them\n",
                 result.waiting.size(), request.corpus.c_str());

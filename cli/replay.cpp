@@ -13,6 +13,7 @@
 #include "cli/limits.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
+#include "cli/replay_text.h"
 #include "cli/side_by_side.h"
 #include "cli/tested.h"
 #include "corpus/corpus.h"
@@ -40,19 +41,6 @@ struct ReplayOptions {
   std::string baseline;
   LimitOptions limits;
 };
-
-std::string explain(const Case& stored, const Replay& result) {
-  std::string text;
-  if (result.verdict == Verdict::refused) return to_line(result.issue);
-  text += print_family(family_of(stored));
-  if (result.verdict != Verdict::passes)
-    text += "  " + margin_text(result.now.worst_margin, result.now.unit) + " at frame " +
-            std::to_string(result.now.worst_frame);
-  if (result.verdict == Verdict::different) text += " of " + result.now.check + " " + result.now.subject;
-  if (result.first_difference >= 0) text += ", first differing frame " + std::to_string(result.first_difference);
-  if (result.character_changed) text += ", the character has changed";
-  return text;
-}
 
 Json as_json(const std::string& path, const Family& family, const Replay& result) {
   Json out = {{"case", path},
@@ -87,6 +75,7 @@ struct Totals {
   std::map<Verdict, int> verdicts;  // of cases
   int cases = 0;
   int buckets = 0;
+  std::map<Outcome, int> files, failures;  // case files by themselves, and the buckets of corpora
   std::map<BucketState, int> states;  // of buckets, afterwards
   int gating = 0;
   int skipped = 0;  // buckets that the time did not reach
@@ -115,22 +104,22 @@ class ReplayCommand {
     const Result<Case> stored = read_case_input(path);
     if (!stored) {
       context_.fail(stored.issue());
-      ++totals_.verdicts[Verdict::refused];
+      count_file(Verdict::refused);
       return;
     }
     if (const Result<Done> same = check_generator(*stored, manifest_); !same) {
       context_.fail(about_file(path, same.issue()));
-      ++totals_.verdicts[Verdict::refused];
+      count_file(Verdict::refused);
       return;
     }
     const Replay result = replay_(*stored);
-    ++totals_.verdicts[result.verdict];
+    count_file(result.verdict);
     raise(exit_code_of(result.verdict));
     if (options_.json)
       list_.push_back(as_json(path, family_of(*stored), result));
     else
-      std::printf("%-11s  %s  %s\n", std::string(verdict_name(result.verdict)).c_str(), path.c_str(),
-                  (explain(*stored, result) + change_of_build(*stored)).c_str());
+      std::printf("%-17s  %s  %s\n", outcome_words(cli::outcome_of(result.verdict)).c_str(), path.c_str(),
+                  printable(case_text(*stored, result) + change_of_build(*stored)).c_str());
   }
 
   void run_corpus(const std::string& folder) {
@@ -150,11 +139,12 @@ class ReplayCommand {
   }
 
   void finish() {
-    if (unwritten_ > 1) std::fprintf(stderr, "contort: %d more buckets could not be updated\n", unwritten_ - 1);
+    if (unwritten_ > 1) std::fprintf(stderr, "contort: %d more failures could not be updated\n", unwritten_ - 1);
     if (options_.json) {
       std::printf("%s\n", list_.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
       return;
     }
+    print_tallies();
     const auto verdicts = [&](Verdict verdict) { return totals_.verdicts[verdict]; };
     std::printf("RESULT cases=%d same=%d same_family=%d different=%d passes=%d refused=%d", totals_.cases,
                 verdicts(Verdict::same), verdicts(Verdict::same_family), verdicts(Verdict::different),
@@ -167,6 +157,25 @@ class ReplayCommand {
   }
 
  private:
+  void count_file(Verdict verdict) {
+    ++totals_.verdicts[verdict];
+    ++totals_.files[cli::outcome_of(verdict)];
+  }
+
+  // What became of everything, in a sentence. The line of a single case says that already.
+  void print_tallies() const {
+    int files = 0;
+    for (const auto& [outcome, count] : totals_.files) files += count;
+    if (files > 1) std::printf("%s: %s.\n", counted(files, "case", "cases").c_str(), tally_text(totals_.files).c_str());
+    if (!has_corpus_) return;
+    std::string text = counted(totals_.buckets, "stored failure", "stored failures");
+    if (totals_.buckets > 0)
+      text += " in " + counted(totals_.cases - files, "case", "cases") + ": " + tally_text(totals_.failures);
+    text += "; " + counted(totals_.gating, "fails", "fail") + " the build";
+    if (totals_.skipped > 0) text += "; the time was up before " + counted(totals_.skipped, "other", "others");
+    std::printf("%s.\n", text.c_str());
+  }
+
   std::string change_of_build(const Case& stored) const {
     const std::string& before = stored.provenance.generator_build;
     if (before.empty() || before == manifest_.build) return "";
@@ -194,7 +203,7 @@ class ReplayCommand {
     if (options_.json)
       list_.push_back(bucket_json(ran, *next));
     else
-      print_bucket_line(ran, *next);
+      print_bucket_line(corpus, ran, *next);
   }
 
   void count(const BucketReplay& ran, const Bucket& next) {
@@ -202,6 +211,7 @@ class ReplayCommand {
     totals_.cases += static_cast<int>(ran.cases.size());
     for (const CaseReplay& one : ran.cases) ++totals_.verdicts[one.result.verdict];
     ++totals_.states[next.state];
+    ++totals_.failures[outcome_of(ran)];
     totals_.stale += is_stale(next) ? 1 : 0;
     const bool gating = gates(ran, next, context_.day(), known_);
     totals_.gating += gating ? 1 : 0;
@@ -218,20 +228,34 @@ class ReplayCommand {
     return nullptr;
   }
 
-  void print_bucket_line(const BucketReplay& ran, const Bucket& next) {
-    std::string text(state_name(ran.bucket.state));
-    if (next.state != ran.bucket.state) text += " -> " + std::string(state_name(next.state));
-    if (gates(ran, next, context_.day(), known_)) text += ", GATES";
+  static Outcome outcome_of(const BucketReplay& ran) {
+    return ran.shown == Shown::unsteady ? Outcome::unsteady : cli::outcome_of(ran.verdict);
+  }
+
+  // By its headline; by its check and place alone if its minimal case cannot be read.
+  static std::string name_of(const Corpus& corpus, Bucket bucket) {
+    if (const Result<Case> minimal = corpus.minimal_of(bucket); minimal) return failure_text(*minimal);
+    return failure_in_words(bucket.family.check, bucket.family.subject) + " (" + bucket.family.character + ")";
+  }
+
+  std::string news_of(const BucketReplay& ran, const Bucket& next) const {
+    std::string text = state_text(ran.bucket.state, next.state);
+    if (gates(ran, next, context_.day(), known_)) text += ", fails the build";
     if (is_expired(ran.bucket, context_.day())) text += ", the quarantine is over";
-    if (is_stale(next)) text += ", STALE: it passes";
-    text += "  " + print_family(ran.bucket.family);
+    if (is_stale(next)) text += ", passes every time: the quarantine is needed no more";
+    return text;
+  }
+
+  void print_bucket_line(const Corpus& corpus, const BucketReplay& ran, const Bucket& next) {
+    std::string text = news_of(ran, next) + "  " + name_of(corpus, ran.bucket);
     if (const CaseReplay* one = shown_case(ran)) {
+      text += change_text(one->result);
       if (one->result.verdict == Verdict::refused) text += "  " + to_line(one->result.issue);
       if (const Result<Case> stored = read_case_input(one->path); stored) text += change_of_build(*stored);
       text += "  " + replay_command(one->path, context_.sources);
     }
-    const std::string verdict(ran.shown == Shown::unsteady ? "unsteady" : verdict_name(ran.verdict));
-    std::printf("%-11s  %s  %s\n", verdict.c_str(), folder_name(ran.bucket).c_str(), printable(text).c_str());
+    std::printf("%-17s  %s  %s\n", outcome_words(outcome_of(ran)).c_str(), folder_name(ran.bucket).c_str(),
+                printable(text).c_str());
   }
 
   Json bucket_json(const BucketReplay& ran, const Bucket& next) {
@@ -298,7 +322,7 @@ void add_replay(CLI::App& app, Context& context) {
       ->add_option("--against", options->against,
                    "With --generator: also run this program, and say from which frame on its motions differ")
       ->type_name("CMD");
-  command->add_flag("--update", options->update, "For a corpus: write the new states of buckets into it");
+  command->add_flag("--update", options->update, "For a corpus: write the new states of its failures into it");
   command->add_option("--time", options->time,
                       "For a corpus: stop after this time: 45s, 1.5m, 2h; without a unit, seconds");
   command->add_option("--build", options->build,
@@ -307,9 +331,9 @@ void add_replay(CLI::App& app, Context& context) {
   add_baseline_option(*command, options->baseline);
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
-      "Verdicts: same (equal motion, equal finding), same family, different, passes, refused.\n"
-      "Exit code for case files: 1 if one still fails, 0 if all pass. For a corpus: 1 if a bucket fails that is\n"
-      "new, has regressed, or whose quarantine is over (docs/reference/corpus.md).\n"
+      "Each line begins with what became of a case or failure: still fails, fails differently, passes now, cannot\n"
+      "run, runs differ. Exit code for case files: 1 if one still fails, 0 if all pass. For a corpus: 1 if a failure\n"
+      "fails the build: it is new, has regressed, or its quarantine is over (docs/reference/corpus.md).\n"
       "Example: contort replay contort-out/corpus\n"
       "         contort replay CASE --level part:arm_right");
   command->callback([options, &context] { run(*options, context); });

@@ -292,8 +292,7 @@ void write_page(const ReportRequest& request, const ReportModel& model, Media me
     if (const Result<Done> written = write_single_file(model, request.folder, request.single_file); !written)
       return context.fail(written.issue(), kInternal);
   if (!request.announce) return;
-  std::printf("report: %s/index.html (%zu failures, %lld families)\n", request.folder.c_str(), model.rows.size(),
-              static_cast<long long>(model.families));
+  std::printf("report: %s/index.html (%s)\n", request.folder.c_str(), failures_text(model).c_str());
 }
 
 }  // namespace

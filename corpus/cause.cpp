@@ -203,9 +203,14 @@ std::vector<std::string> limbs_of(std::string_view subject) {
   return {limbs.begin(), limbs.end()};
 }
 
-std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject) {
+std::string failure_in_words(std::string_view check, std::string_view subject) {
   std::string text = what_happens(check, subject);
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 32);
+  return text;
+}
+
+std::string cause_headline(const Cause& cause, std::string_view check, std::string_view subject) {
+  std::string text = failure_in_words(check, subject);
   switch (cause.scope) {
     case CauseScope::alone: text += " during " + joined(cause.names, ", ") ; break;
     case CauseScope::company: text += " during " + first_joined(cause.names, " together with "); break;

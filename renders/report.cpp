@@ -7,6 +7,7 @@
 #include "model/core/json_fields.h"
 #include "renders/report_rest.h"
 #include "renders/tested_html.h"
+#include "renders/wording.h"
 
 namespace contort {
 namespace {
@@ -69,6 +70,26 @@ Json search_json(const SearchProgress& search) {
 }
 
 }  // namespace
+
+RowCounts row_counts(const ReportModel& model) {
+  RowCounts counts;
+  for (const ReportRow& row : model.rows)
+    ++(row.state == "fixed"         ? counts.fixed
+       : row.state == "waiting"     ? counts.waiting
+       : row.state == "unconfirmed" ? counts.unconfirmed
+                                    : counts.failures);
+  return counts;
+}
+
+std::string failures_text(const ReportModel& model) {
+  const RowCounts counts = row_counts(model);
+  std::string text = counted(counts.failures, "failure", "failures") + " of " +
+                     counted(std::ssize(model.causes), "cause", "causes");
+  if (counts.fixed > 0) text += "; " + count_text(counts.fixed) + " fixed";
+  if (counts.waiting > 0) text += "; " + counted(counts.waiting, "waits", "wait") + " to be shrunk";
+  if (counts.unconfirmed > 0) text += "; " + count_text(counts.unconfirmed) + " seen only once";
+  return text;
+}
 
 std::string report_json(const ReportModel& model) {
   Json json = {{"format", "contort.report/1"}, {"title", model.title},       {"cases", model.cases},

@@ -88,6 +88,18 @@ struct ReportModel {
   RefusalCounts refusals{};  // the generator's reasons
 };
 
+// The rows by what they are: failures that are neither fixed nor without a smallest case, and the others.
+struct RowCounts {
+  std::int64_t failures = 0;
+  std::int64_t fixed = 0;
+  std::int64_t waiting = 0;      // found when time was up
+  std::int64_t unconfirmed = 0;  // seen once
+};
+RowCounts row_counts(const ReportModel& model);
+
+// "12 failures of 3 causes; 1 waits to be shrunk".
+std::string failures_text(const ReportModel& model);
+
 // The files of a page that contains everything, by their paths from it ("viewer/viewer.js", "strips/x.png"), and the
 // data of each case and strip, as "cases/<key>.json" and "strips/x.json".
 using PageFiles = std::map<std::string, std::string>;

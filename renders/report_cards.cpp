@@ -17,7 +17,7 @@ std::string chip(const std::string& state, bool gating) {
   static const std::set<std::string> kStyled = {"new", "regressed", "open", "quarantined", "fixed", "flaky"};
   const std::string look = kStyled.contains(state) ? " state-" + state : "";
   return "<span class='chip" + look + "'>" + html_text(state.empty() ? "no state" : state) +
-         (gating ? "<span class='unseen'> (gating)</span>" : "") + "</span>";
+         (gating ? "<span class='unseen'> (fails the build)</span>" : "") + "</span>";
 }
 
 std::string worst_text(const ReportRow& row) {

@@ -51,25 +51,35 @@ Verdict verdict_of(const ReportModel& model) {
   }
   std::int64_t count = 0;
   for (const auto& [state, n] : gating) count += n;
-  const std::string others = known.empty() ? "" : "Known, not gating: " + states_text(known) + ".";
+  const std::string others = known.empty() ? "" : "These do not fail the build: " + states_text(known) + ".";
   if (count == 0 && model.cases == 0 && model.rows.empty())
     return {"idle", "Nothing was tested", "No case was run, so this says nothing about the animation."};
   if (count == 0 && model.cases == model.refused && model.rows.empty())
     return {"idle", "Nothing was tested",
             "The generator refused every request, so this says nothing about the animation."};
-  if (count == 0) return {"good", "Nothing gating", others.empty() ? "No failure is known." : others};
+  if (count == 0) return {"good", "Nothing fails the build", others.empty() ? "No failure is known." : others};
   const bool all_new = gating.size() == 1 && gating.contains("new");
   const std::int64_t causes = gating_causes(model, gating_buckets);
   std::string detail = causes > 0 ? "By " + counted(causes, "cause", "causes")
-                                  : "In " + counted(std::ssize(gating_families), "family", "families");
+                                  : "In " + counted(std::ssize(gating_families), "kind of failure", "kinds of failure");
   if (!all_new) detail += ": " + states_text(gating);
-  const std::string kind = all_new ? "new" : "gating";
-  return {"bad", counted(count, kind + " failure", kind + " failures"), detail + ". " + others};
+  const std::string text = all_new ? counted(count, "new failure", "new failures")
+                                   : counted(count, "failure fails", "failures fail") + " the build";
+  return {"bad", text, detail + ". " + others};
 }
 
 // `singular`: the word of the glossary that explains the name.
 std::string number_item(const std::string& value, std::string_view name, std::string_view singular = {}) {
   return "<div><dt>" + term_html(singular, name) + "</dt><dd>" + html_text(value) + "</dd></div>\n";
+}
+
+// Those that a person need not look at now have their own numbers, if there are any.
+std::string failure_items(const RowCounts& counts) {
+  std::string out = number_item(count_text(counts.failures), "failures", "failure");
+  if (counts.fixed > 0) out += number_item(count_text(counts.fixed), "fixed", "state");
+  if (counts.waiting > 0) out += number_item(count_text(counts.waiting), "waiting", "state");
+  if (counts.unconfirmed > 0) out += number_item(count_text(counts.unconfirmed), "unconfirmed", "state");
+  return out;
 }
 
 std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
@@ -80,8 +90,7 @@ std::string verdict_html(const ReportModel& model, const Verdict& verdict) {
   if (model.search.cases > model.refused)
     out += number_item(clean_share(model.search.cases - model.refused, model.search.failing), "of them clean");
   out += number_item(count_text(std::ssize(model.causes)), "causes", "cause") +
-         number_item(count_text(std::ssize(model.rows)), "failures", "failure") +
-         number_item(count_text(model.frames), "frames");
+         failure_items(row_counts(model)) + number_item(count_text(model.frames), "frames");
   if (!model.elapsed.empty()) out += number_item(model.elapsed, "elapsed");
   return out + "</dl>\n</div>\n</header>\n";
 }

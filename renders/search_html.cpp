@@ -22,14 +22,14 @@ constexpr std::int64_t kFewCases = 30;  // of which nothing can be said about th
 
 std::string what_is_left(const SearchProgress& search) {
   const std::string odds = one_in(unseen_share(search));
-  if (search.cases < kFewCases) return "These are too few cases to say how many families are left.";
+  if (search.cases < kFewCases) return "These are too few cases to say how many kinds of failure are left.";
   if (search.failing == 0)
     return "With 95 % confidence, fewer than " + odds + " of the cases that this run draws would.";
   if (search.lone_cases == 0)
     return "Each was met by two cases or more, so probably fewer than " + odds +
            " further cases would show another one.";
-  return counted(search.lone_cases, "case", "cases") + " showed a family that no other case showed, so about " + odds +
-         " further cases should show a family that none has shown yet.";
+  return counted(search.lone_cases, "case", "cases") +
+         " showed a kind of failure that no other case showed, so about " + odds + " further cases should show one that none has shown yet.";
 }
 
 void add_point(std::string& path, const char* move, double cases, double families, const SearchProgress& search) {
@@ -50,7 +50,7 @@ std::string curve_html(const SearchProgress& search) {
     add_point(path, "L", at, static_cast<double>(i + 1), search);
   }
   add_point(path, "L", static_cast<double>(search.cases), static_cast<double>(search.discovered.size()), search);
-  return "<figure class='curve'><figcaption>Families met, up to " +
+  return "<figure class='curve'><figcaption>Kinds of failure met, up to " +
          html_text(count_text(static_cast<std::int64_t>(search.discovered.size()))) + ", over " +
          html_text(counted(search.cases, "case", "cases")) +
          "</figcaption><svg viewBox='0 -4 600 128' preserveAspectRatio='none' aria-hidden='true'><path d='" + path +
@@ -62,7 +62,7 @@ std::string cell(std::int64_t count) { return "<td>" + html_text(count_text(coun
 std::string arms_html(const SearchProgress& search) {
   std::string out =
       "<table class='arms'>\n<thead><tr><th scope='col'>way of drawing</th><th scope='col'>cases</th>"
-      "<th scope='col'>failing</th><th scope='col'>families it met first</th></tr></thead>\n<tbody>\n";
+      "<th scope='col'>failing</th><th scope='col'>kinds of failure it met first</th></tr></thead>\n<tbody>\n";
   for (const ArmProgress& arm : search.arms)
     out += "<tr><th scope='row'>" + html_text(arm.name) + "</th>" + cell(arm.cases) + cell(arm.failing) +
            cell(arm.families) + "</tr>\n";
@@ -74,10 +74,11 @@ std::string arms_html(const SearchProgress& search) {
 std::string outlook(const SearchProgress& search) {
   if (search.cases == 0) return "";
   const auto families = static_cast<std::int64_t>(search.discovered.size());
-  const std::string met = families == 0 ? "No case failed."
-                                        : "The last of " + counted(families, "family", "families") + " was met after " +
-                                              count_text(search.discovered.back()) + " of " +
-                                              counted(search.cases, "case", "cases") + ".";
+  const std::string met = families == 0
+                              ? "No case failed."
+                              : "The last of " + counted(families, "kind of failure", "kinds of failure") +
+                                    " was met after " + count_text(search.discovered.back()) + " of " +
+                                    counted(search.cases, "case", "cases") + ".";
   const bool guided =
       std::ranges::any_of(search.arms, [](const ArmProgress& arm) { return arm.name == "guided" && arm.cases > 0; });
   return met + " " + what_is_left(search) +

@@ -7,7 +7,7 @@
 
 namespace contort {
 
-// Returns sentences such as "The last of 5 families was met after 900 of 2 000 cases. …", which tell whether a longer
+// Returns sentences such as "The last of 5 kinds of failure was met after 900 of 2 000 cases. …", which tell whether a longer
 // search would find more. "" if nothing ran.
 std::string outlook(const SearchProgress& search);
 

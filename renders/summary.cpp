@@ -66,7 +66,8 @@ std::string markdown_summary(const ReportModel& model) {
   const auto gating =
       static_cast<std::size_t>(std::ranges::count_if(rows, [](const ReportRow* row) { return row->gating; }));
   std::string out = "## " + md_text(model.title) + ": ";
-  out += gating == 0 ? "nothing gates" : std::to_string(gating) + (gating == 1 ? " failure gates" : " failures gate");
+  out += gating == 0 ? "nothing fails the build"
+                     : std::to_string(gating) + (gating == 1 ? " failure fails the build" : " failures fail the build");
   out += "\n\n";
   if (gating > 0) out += md_text(counts_text(model, true)) + ". ";
   const std::string known = counts_text(model, false);

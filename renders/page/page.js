@@ -105,7 +105,7 @@
       if (card.hidden === fits) card.hidden = !fits;
       shown += fits ? 1 : 0;
     }
-    document.getElementById('shown').textContent = `${shown} of ${list.cards.length} families shown`;
+    document.getElementById('shown').textContent = `${shown} of ${list.cards.length} kinds of failure shown`;
     document.getElementById('no-match').hidden = shown > 0;
   };
 

@@ -73,7 +73,7 @@ TEST_F(CausesCommand, AreNotClaimedOfFailuresWithoutABucket) {
   const Ran ran = contort_program({"fuzz", "--profile", "stress", "--character", "human", "--seed", "12", "--cases", "2",
                                    "--shrink-evaluations", "1", "--shrinks-per-case", "1", "--shard", "0/2", "--corpus",
                                    folder_ / "shard"});
-  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 fail; none has a bucket yet, so no cause is known.\n"))
+  EXPECT_TRUE(ran.out.starts_with("0.0 % of 2 cases are clean; 2 fail; none has a smallest case yet, so no cause is known.\n"))
       << ran.out << ran.err;
 }
 

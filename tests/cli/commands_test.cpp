@@ -208,7 +208,7 @@ TEST_F(Commands, FuzzFindsAndReplayConfirms) {
   EXPECT_NE(last_line(replayed.out).find("same_family=0 different=0 passes=0 refused=0"), std::string::npos);
   const Json list = Json::parse(with_library({"replay", corpus, "--json"}).out, nullptr, false);
   ASSERT_TRUE(list.is_array());
-  EXPECT_EQ(list.size() + 1, lines_of(replayed.out).size());
+  EXPECT_EQ(list.size() + 2, lines_of(replayed.out).size()) << "a line for each, what became of all, and the result";
   for (const Json& one : list) EXPECT_EQ(one["verdict"], "same");
 }
 

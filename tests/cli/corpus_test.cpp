@@ -81,14 +81,14 @@ TEST_F(StoredCorpus, EveryCommandHasHelpWithAnExample) {
 TEST_F(StoredCorpus, ListShowsWhatIsAskedFor) {
   ASSERT_EQ(corpus("ack", {left().id, "--owner", "ana", "--ticket", "12"}).code, 0);
   const auto shown = [&](const std::vector<std::string>& filters) { return last_line(corpus("list", filters).out); };
-  const char* both = "2 failures of 1 cause, 1 fails a build";
+  const char* both = "2 failures of 1 cause, 1 fails the build";
   EXPECT_EQ(shown({}), both);
-  EXPECT_EQ(shown({"--state", "open"}), "1 failure of 1 cause, 0 fail a build");
+  EXPECT_EQ(shown({"--state", "open"}), "1 failure of 1 cause, 0 fail the build");
   EXPECT_EQ(shown({"--state", "open", "--state", "new"}), both);
-  EXPECT_EQ(shown({"--state", "fixed"}), "0 failures of 0 causes, 0 fail a build");
+  EXPECT_EQ(shown({"--state", "fixed"}), "0 failures of 0 causes, 0 fail the build");
   EXPECT_EQ(shown({"--check", "joint_range", "--character", "human"}), both);
-  EXPECT_EQ(shown({"--check", "pop"}), "0 failures of 0 causes, 0 fail a build");
-  EXPECT_EQ(shown({"--character", "mech"}), "0 failures of 0 causes, 0 fail a build");
+  EXPECT_EQ(shown({"--check", "pop"}), "0 failures of 0 causes, 0 fail the build");
+  EXPECT_EQ(shown({"--character", "mech"}), "0 failures of 0 causes, 0 fail the build");
   EXPECT_EQ(corpus("list", {"--state", "odd"}).code, 2);
   const Json list = Json::parse(corpus("list", {"--json"}).out, nullptr, false);
   ASSERT_EQ(list.size(), 2U);
@@ -99,7 +99,7 @@ TEST_F(StoredCorpus, ListNamesTheCauseOfEachFailure) {
   const std::string text = corpus("list").out;
   const std::string cause = Json::parse(corpus("list", {"--json"}).out).at(0).at("cause").get<std::string>();
   EXPECT_TRUE(text.starts_with("1. ") && says(text, "leaves its range") && says(text, "\n    cause " + cause + "\n"));
-  EXPECT_TRUE(says(text, left().id + "  joint_range of " + kElbow + ", human, fails a build\n")) << text;
+  EXPECT_TRUE(says(text, left().id + "  joint_range of " + kElbow + ", human, fails the build\n")) << text;
   EXPECT_TRUE(says(corpus("show", {left().id}).out, cause + ": "));
 }
 
@@ -110,7 +110,7 @@ TEST_F(StoredCorpus, ListTellsFixedFailuresAndUnreadableOnesApart) {
   const std::string text = corpus("list").out;
   EXPECT_TRUE(says(text, "Failures whose smallest case cannot be read:\n    new ")) << text;
   EXPECT_TRUE(says(text, "Fixed failures:\n    fixed        " + right.id)) << text;
-  EXPECT_EQ(last_line(text), "2 failures of 0 causes, 1 fails a build");
+  EXPECT_EQ(last_line(text), "1 failure of 0 causes, 1 fails the build; 1 other is fixed");
 }
 
 TEST_F(StoredCorpus, SidesCanBeFolded) {
@@ -119,8 +119,8 @@ TEST_F(StoredCorpus, SidesCanBeFolded) {
   ASSERT_EQ(lines.size(), 4U) << folded.out;
   const std::string first = buckets()[0].id, second = buckets()[1].id;
   EXPECT_TRUE(says(lines[2], "new          " + first)) << lines[2];
-  EXPECT_TRUE(lines[2].ends_with("  other side: " + second + ", fails a build")) << lines[2];
-  EXPECT_EQ(lines[3], "2 failures of 1 cause, 2 fail a build");
+  EXPECT_TRUE(lines[2].ends_with("  other side: " + second + ", fails the build")) << lines[2];
+  EXPECT_EQ(lines[3], "2 failures of 1 cause, 2 fail the build");
   EXPECT_EQ(lines_of(corpus("list").out).size(), 5U);
   EXPECT_EQ(corpus("list", {"--fold-sides", "--json"}).code, 2);
 }
@@ -249,7 +249,7 @@ TEST_F(StoredCorpus, ReplayOfACorpusThatCannotBeUpdatedSaysSoOnceAndTellsWhatItS
   EXPECT_EQ(ran.code, 3);
   ASSERT_EQ(lines_of(ran.err).size(), 2U) << ran.err;
   EXPECT_TRUE(says(ran.err, "file.unwritable")) << ran.err;
-  EXPECT_EQ(last_line(ran.err), "contort: 1 more buckets could not be updated");
+  EXPECT_EQ(last_line(ran.err), "contort: 1 more failures could not be updated");
   EXPECT_TRUE(says(last_line(ran.out), "buckets=3 gating=0 ")) << ran.out;
   EXPECT_NE(first_difference(before, tree_of(writable.folder())), "") << "the other one is updated";
 }
@@ -263,13 +263,14 @@ TEST_F(StoredCorpus, WhatPassesInTwoBuildsIsFixedAndRegressesWhenItFails) {
   EXPECT_EQ(replay("a", true).code, 0);
   EXPECT_EQ(replay("a", true).code, 0);
   EXPECT_EQ(left().state, BucketState::fresh) << "one build is not enough";
-  EXPECT_TRUE(says(replay("b", true).out, "new -> fixed"));
+  EXPECT_TRUE(says(replay("b", true).out, "was new, now fixed"));
   const std::string version = last_line(contort_program({"version"}).out);
   EXPECT_EQ(left().passed_in, (std::vector<std::string>{version + " a", version + " b"}));
   EXPECT_TRUE(says(last_line(run({"replay", corpus_.folder(), "--settings", fixed_settings()}).out), "fixed=2"));
   const Ran failing = replay("c", false);
   EXPECT_EQ(failing.code, 1);
-  EXPECT_TRUE(says(failing.out, "fixed -> regressed, GATES") && says(last_line(failing.out), "regressed=2"));
+  EXPECT_TRUE(says(failing.out, "was fixed, now regressed, fails the build")) << failing.out;
+  EXPECT_TRUE(says(last_line(failing.out), "regressed=2"));
   EXPECT_EQ(left().state, BucketState::regressed);
 }
 
@@ -322,11 +323,11 @@ TEST_F(StoredCorpus, ASpecThatNoLongerBuildsIsToldOnceAndComesBackAsItWas) {
     }
   const Ran first = run({"replay", corpus_.folder(), "--update"});
   EXPECT_EQ(first.code, 2) << first.out;
-  EXPECT_TRUE(says(first.out, "open -> invalid") && says(first.out, "gone")) << first.out;
+  EXPECT_TRUE(says(first.out, "was open, now invalid") && says(first.out, "gone")) << first.out;
   EXPECT_EQ(run({"replay", corpus_.folder(), "--update"}).code, 0) << "it is known now";
   for (const auto& [path, bytes] : before)
     if (!path.ends_with("bucket.json")) spill(corpus_.folder() + "/" + path, bytes);
-  EXPECT_TRUE(says(run({"replay", corpus_.folder(), "--update"}).out, "invalid -> open"));
+  EXPECT_TRUE(says(run({"replay", corpus_.folder(), "--update"}).out, "was invalid, now open"));
 }
 
 TEST_F(StoredCorpus, ReplayOfACorpusPrintsJsonByBucket) {
@@ -355,7 +356,7 @@ TEST_F(StoredCorpus, ReportWritesWhatCiReads) {
   for (const std::string& line : lines_of(ran.out)) EXPECT_TRUE(line.starts_with("::error file=buckets/")) << line;
   EXPECT_TRUE(says(slurp(folder_ / "j.xml"), "failures=\"2\""));
   EXPECT_EQ(Json::parse(slurp(folder_ / "s.sarif"), nullptr, false)["runs"][0]["results"].size(), 2U);
-  EXPECT_TRUE(slurp(folder_ / "m.md").starts_with("## Contort report: 2 failures gate"));
+  EXPECT_TRUE(slurp(folder_ / "m.md").starts_with("## Contort report: 2 failures fail the build"));
   EXPECT_TRUE(says(slurp(folder_ / "m.md"), "Known: none. 0 cases"));
 }
 

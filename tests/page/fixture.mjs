@@ -212,7 +212,7 @@ function card(one, state, more = '') {
   return `<article tabindex='-1' class='card gating' data-check='${html(check.replaceAll(' ', '_'))}' data-state='${state}' data-character='${html(one.character)}' data-parts='${html(parts)}' data-phase='${phaseOf(one)}'>
 <div class='head'>
 <h3><span class='check'>${html(check)}</span> <span class='subject'>${html(subject)}</span></h3>
-<p class='summary'><span class='chip state-${state}'>${state}<span class='unseen'> (gating)</span></span> <span>12 cases</span></p>
+<p class='summary'><span class='chip state-${state}'>${state}<span class='unseen'> (fails the build)</span></span> <span>12 cases</span></p>
 </div>
 <section class='bucket' id='b-${html(one.key)}' data-case='${html(one.key)}'>
 <div class='strip tile-5'><a href='strips/${one.strip ?? one.key}.png'><img src='strips/${one.strip ?? one.key}.png' loading='lazy' alt='Film strip: ${html(check)}' data-missing='picture missing'></a></div>
@@ -281,7 +281,7 @@ ${read('rows.js')}${read('page.js')}</script>
 <div class='page'>
 <p class='title'>fixture</p>
 <h1>${count} new failures</h1>
-<p class='detail'>In ${count} families.</p>
+<p class='detail'>In ${count} kinds of failure.</p>
 <dl class='numbers'>
 <div><dt>cases</dt><dd>1 000</dd></div>
 </dl>

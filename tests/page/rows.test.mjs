@@ -14,10 +14,10 @@ for (const way of ['file', 'http']) {
     const { page, wrong, close } = await openPage(await urlOf(way, options.large));
     await whole(page);
     assert.equal(await page.locator('.card').count(), 3000);
-    assert.equal(await told(page), '3000 of 3000 families shown');
+    assert.equal(await told(page), '3000 of 3000 kinds of failure shown');
     assert.equal(await page.locator('.rest').count(), 0, 'nothing is elsewhere any more');
     await page.fill('#words', 'joint_2999');
-    assert.equal(await told(page), '1 of 3000 families shown');
+    assert.equal(await told(page), '1 of 3000 kinds of failure shown');
     await page.fill('#words', '');
     assert.equal(await page.locator('.card').first().locator('details .bucket').count(), 1, 'a card goes on');
     await page.selectOption('#phase', 'mid_clip');

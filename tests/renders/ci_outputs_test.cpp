@@ -245,10 +245,10 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(Markdown, TheVerdictComesFirst) {
-  EXPECT_TRUE(markdown_summary(all_states()).starts_with("## Contort report: 3 failures gate\n"));
-  EXPECT_TRUE(markdown_summary(model_of({row_of("new", true)})).starts_with("## Contort report: 1 failure gates\n"));
+  EXPECT_TRUE(markdown_summary(all_states()).starts_with("## Contort report: 3 failures fail the build\n"));
+  EXPECT_TRUE(markdown_summary(model_of({row_of("new", true)})).starts_with("## Contort report: 1 failure fails the build\n"));
   const std::string clean = markdown_summary(model_of({row_of("open", false), row_of("open", false)}));
-  EXPECT_TRUE(clean.starts_with("## Contort report: nothing gates\n")) << clean;
+  EXPECT_TRUE(clean.starts_with("## Contort report: nothing fails the build\n")) << clean;
   EXPECT_NE(clean.find("Known: 2 open."), std::string::npos) << clean;
   EXPECT_EQ(count(clean, "|"), 0U) << "no table without failures";
 }

@@ -57,7 +57,7 @@ TEST(Report, NamesNewFailuresFirst) {
   const std::string html = report_html(page({row_of("joint_range", "a", "new", true)}));
   EXPECT_TRUE(contains(html, "<h1>1 new failure</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict bad'"));
-  EXPECT_TRUE(contains(html, "In 1 family"));
+  EXPECT_TRUE(contains(html, "In 1 kind of failure"));
 }
 
 TEST(Report, SaysOfAFailureThatNoCaseShowedWhereItWasMet) {
@@ -78,7 +78,7 @@ TEST(Report, SaysHowFarTheSearchGot) {
   model.search.met_once = 7, model.search.lone_cases = 2;
   const std::string html = report_html(model);
   EXPECT_TRUE(contains(html, "met after 1\u202F500 of 3\u202F000 cases"));
-  EXPECT_TRUE(contains(html, "2 cases showed a family that no other case showed, so about 1 in 1\u202F500 further cases"));
+  EXPECT_TRUE(contains(html, "2 cases showed a kind of failure that no other case showed, so about 1 in 1\u202F500 further cases"));
   EXPECT_FALSE(contains(html, "Guided"));
   model.search.arms = {{"guided", 5, 0, 0}};
   EXPECT_TRUE(contains(report_html(model), "Guided cases follow others"));
@@ -90,13 +90,26 @@ TEST(Report, SaysHowFarTheSearchGot) {
 TEST(Report, CountsWhatGatesByState) {
   const std::string html = report_html(
       page({row_of("c", "a", "new", true), row_of("c", "b", "regressed", true), row_of("c", "d", "open", false)}));
-  EXPECT_TRUE(contains(html, "<h1>2 gating failures</h1>"));
-  EXPECT_TRUE(contains(html, "In 2 families: 1 new, 1 regressed. Known, not gating: 1 open."));
+  EXPECT_TRUE(contains(html, "<h1>2 failures fail the build</h1>"));
+  EXPECT_TRUE(contains(html, "In 2 kinds of failure: 1 new, 1 regressed. These do not fail the build: 1 open."));
+}
+
+TEST(Report, CountsFailuresThatAreFixedOrWithoutASmallestCaseApart) {
+  ReportModel model = page({row_of("c", "a", "new", true), row_of("c", "b", "open", false),
+                            row_of("c", "d", "fixed", false), row_of("c", "e", "waiting", true),
+                            row_of("c", "f", "unconfirmed", false)});
+  model.causes.resize(1);
+  EXPECT_EQ(failures_text(model), "2 failures of 1 cause; 1 fixed; 1 waits to be shrunk; 1 seen only once");
+  const std::string html = report_html(model);
+  for (const char* item : {">failures</abbr></dt><dd>2</dd>", ">fixed</abbr></dt><dd>1</dd>",
+                           ">waiting</abbr></dt><dd>1</dd>", ">unconfirmed</abbr></dt><dd>1</dd>"})
+    EXPECT_TRUE(contains(html, item)) << item;
+  EXPECT_EQ(failures_text(page({row_of("c", "a", "new", true)})), "1 failure of 0 causes");
 }
 
 TEST(Report, SaysWhenNothingGates) {
   const std::string html = report_html(page({row_of("c", "d", "open", false)}));
-  EXPECT_TRUE(contains(html, "<h1>Nothing gating</h1>"));
+  EXPECT_TRUE(contains(html, "<h1>Nothing fails the build</h1>"));
   EXPECT_TRUE(contains(html, "class='verdict good'"));
 }
 

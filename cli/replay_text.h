@@ -1,0 +1,36 @@
+// The result of a replay in words, for people who know neither the checks nor the program.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "corpus/bucket.h"
+#include "corpus/case.h"
+#include "corpus/replay.h"
+
+namespace contort::cli {
+
+// What became of a stored case or failure, as people say it.
+enum class Outcome : std::uint8_t { fails, differs, passes, refused, unsteady };
+Outcome outcome_of(Verdict verdict);
+std::string outcome_words(Outcome outcome);  // "still fails"
+
+// "2 still fail, 1 passes now"; "" if nothing ran.
+std::string tally_text(const std::map<Outcome, int>& outcomes);
+
+// A failure by its headline and its character: "Elbow leaves its range during swing (hero)".
+std::string failure_text(const Case& minimal);
+
+// The failure of a case and what its replay shows: "Elbow leaves its range during swing (hero), 0.21 rad (12°) beyond
+// the limit at frame 30". For a case that was refused, the reason.
+std::string case_text(const Case& stored, const Replay& result);
+
+// How a motion that fails as before differs from the stored one, with a comma before it; "" if it does not differ, or
+// does not fail as before.
+std::string change_text(const Replay& result);
+
+// "new"; "was fixed, now regressed".
+std::string state_text(BucketState before, BucketState after);
+
+}  // namespace contort::cli
