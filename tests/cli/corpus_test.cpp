@@ -10,7 +10,6 @@
 #include "tests/corpus/sample_corpus.h"
 
 namespace contort {
-
 namespace {
 
 using Json = nlohmann::json;

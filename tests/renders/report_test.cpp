@@ -94,19 +94,6 @@ TEST(Report, CountsWhatGatesByState) {
   EXPECT_TRUE(contains(html, "In 2 kinds of failure: 1 new, 1 regressed. These do not fail the build: 1 open."));
 }
 
-TEST(Report, CountsFailuresThatAreFixedOrWithoutASmallestCaseApart) {
-  ReportModel model = page({row_of("c", "a", "new", true), row_of("c", "b", "open", false),
-                            row_of("c", "d", "fixed", false), row_of("c", "e", "waiting", true),
-                            row_of("c", "f", "unconfirmed", false)});
-  model.causes.resize(1);
-  EXPECT_EQ(failures_text(model), "2 failures of 1 cause; 1 fixed; 1 waits to be shrunk; 1 seen only once");
-  const std::string html = report_html(model);
-  for (const char* item : {">failures</abbr></dt><dd>2</dd>", ">fixed</abbr></dt><dd>1</dd>",
-                           ">waiting</abbr></dt><dd>1</dd>", ">unconfirmed</abbr></dt><dd>1</dd>"})
-    EXPECT_TRUE(contains(html, item)) << item;
-  EXPECT_EQ(failures_text(page({row_of("c", "a", "new", true)})), "1 failure of 0 causes");
-}
-
 TEST(Report, SaysWhenNothingGates) {
   const std::string html = report_html(page({row_of("c", "d", "open", false)}));
   EXPECT_TRUE(contains(html, "<h1>Nothing fails the build</h1>"));
