@@ -24,10 +24,11 @@ Result<Baseline> from_corpus(const std::string& folder) {
   Baseline known;
   std::vector<Bucket> buckets = corpus->buckets(damaged);
   if (!damaged.empty()) return damaged.front();
-  const auto fixed = std::ranges::stable_partition(
-      buckets, [](const Bucket& bucket) { return bucket.state != BucketState::fixed; });
-  const std::vector<Bucket> gone(fixed.begin(), fixed.end());
-  buckets.erase(fixed.begin(), fixed.end());
+  const auto fixed = std::stable_partition(buckets.begin(), buckets.end(), [](const Bucket& bucket) {
+    return bucket.state != BucketState::fixed;
+  });
+  const std::vector<Bucket> gone(fixed, buckets.end());
+  buckets.erase(fixed, buckets.end());
   for (const Bucket& bucket : buckets) known.add(bucket.id, bucket.family);
   // Damage to a run's record leaves it uncounted; reports say so.
   std::vector<Issue> of_runs;
@@ -133,7 +134,7 @@ void add(const Baseline& more, Baseline& known) {
 
 void mark_news(std::vector<CauseRow>& rows, const Baseline& known, const GroupCounts& now) {
   for (CauseRow& row : rows) row.news = news_of(row, known, now);
-  std::ranges::stable_partition(rows, is_news, &CauseRow::news);
+  std::stable_partition(rows.begin(), rows.end(), [](const CauseRow& row) { return is_news(row.news); });
 }
 
 }  // namespace contort
