@@ -162,7 +162,7 @@ class ReplayCommand {
     ++totals_.files[cli::outcome_of(verdict)];
   }
 
-  // What became of everything, in a sentence. The line of a single case says that already.
+  // Sums up all verdicts in a sentence. The line of a single case says its verdict already.
   void print_tallies() const {
     int files = 0;
     for (const auto& [outcome, count] : totals_.files) files += count;

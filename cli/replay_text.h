@@ -11,7 +11,7 @@
 
 namespace contort::cli {
 
-// What became of a stored case or failure, as people say it.
+// Verdicts on stored cases and failures, in the words of people.
 enum class Outcome : std::uint8_t { fails, differs, passes, refused, unsteady };
 Outcome outcome_of(Verdict verdict);
 std::string outcome_words(Outcome outcome);  // "still fails"

@@ -48,7 +48,7 @@ bool is_still(const ContactPlan& plan, int frame, int sole) {
          rotation_angle(glm::conjugate(now.q) * then.q) < kStill_rad;
 }
 
-// Of one sole; two that follow each other soon are one.
+// Adds the unrest of one sole. Two times of it that follow each other soon count as one.
 void add_unrest(const ContactPlan& plan, int sole, double between, std::vector<Unrest>& all) {
   const std::size_t first = all.size();
   for (int f = 0; f < plan.frame_count(); ++f) {

@@ -20,7 +20,7 @@ struct FootLift {
 std::vector<FootLift> foot_lifts(const ContactPlan& plan, int soles);
 
 // Keeps feet flat on the ground that bear the figure while another foot is lifted, as far as they would come back to
-// their place: one of two, three of four. Of two feet that are lifted, the one that is in the air for less time stays.
+// their place: one of two, three of four. If two feet are lifted, the one that is in the air for less time stays.
 void keep_enough_feet(const Character& character, std::span<const Leg> legs, const DynamicFigure& figure,
                       const Environment& environment, Motion& motion);
 

@@ -50,6 +50,17 @@ TEST_F(CausesCommand, AreNotNewIfTheBaselineHasThem) {
   }
 }
 
+// One case says little against a baseline that never saw its failures: they are listed, and do not fail the build.
+TEST_F(CausesCommand, AreRareIfOneCaseShowsThemAndTheBaselineNeverDid) {
+  const std::string calm = folder_ / "calm";
+  ASSERT_EQ(contort_program({"fuzz", "--profile", "tame", "--cases", "64", "--seed", "3", "--corpus", calm}).code, 0);
+  ASSERT_EQ(fuzz(folder_ / "alone", 12).code, 1);
+  const Ran compared = fuzz(folder_ / "compared", 12, {"--baseline", calm});
+  EXPECT_EQ(compared.code, 0) << compared.out;
+  EXPECT_NE(compared.out.find(", 0 of them new, "), std::string::npos) << compared.out;
+  EXPECT_NE(compared.out.find("\n1.  RARE  "), std::string::npos) << compared.out;
+}
+
 TEST_F(CausesCommand, FailARunFromTheSeverityOnThatIsAskedFor) {
   EXPECT_EQ(fuzz(folder_ / "c", 12).code, 1);
   const double severity = json_of({"causes", folder_ / "c"})["causes"][0]["severity"];
