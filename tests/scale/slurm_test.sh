@@ -6,7 +6,6 @@ set -euo pipefail
 root=$1
 contort=$2
 cases=${CASES:-64}
-options=(--character human --shrinks-per-family 1 --shrinks-per-case 1 --shrink-evaluations 6)
 
 skip() { echo "skipped: $*"; exit 77; }
 for program in slurmctld slurmd sbatch scontrol munged; do
@@ -15,6 +14,8 @@ done
 [ "$(id -u)" -eq 0 ] || skip "the daemons of a test cluster need root"
 
 folder=$(mktemp -d)
+options=(--character human --shrinks-per-family 1 --shrinks-per-case 1 --shrink-evaluations 6
+  --settings "$folder/strict.json")
 daemons=()
 clean_up() {
   for pid in "${daemons[@]}"; do kill -KILL "$pid" 2>/dev/null || true; done
@@ -22,6 +23,14 @@ clean_up() {
   rm -rf "$folder"
 }
 trap clean_up EXIT
+
+# Moves the limits of speeds so far that ordinary motion breaks them: there are failures however good the motion is.
+write_strict_settings() {
+  cat >"$folder/strict.json" <<'JSON'
+{"format": "contort.settings/1",
+ "limits": [{"check": "angular_velocity", "tolerance": -1.5, "reason": "Ordinary motion has to fail."}]}
+JSON
+}
 
 start_munge() {
   install -d -o munge -g munge "$folder/munge"
@@ -98,6 +107,7 @@ requeue_one() {
 PATH=$(dirname "$contort"):$PATH
 export PATH
 mkdir -p "$folder/out"
+write_strict_settings
 start_munge
 start_slurm
 CASES=$cases SEED=3
