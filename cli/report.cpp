@@ -213,7 +213,9 @@ std::map<std::string, std::int64_t> add_runs(const Corpus& corpus, ReportModel& 
     model.frames += run.frames;
     model.refused += run.discarded;
     add_refusals(run.refusals, model.refusals);
-    for (const auto& [what, count] : run.tested) tested[what] += count;
+    add_counts(run.tested, tested);
+    add_counts(run.unmet, model.unmet);
+    add_counts(run.not_judged, model.not_judged);
     for (const auto& [family, count] : run.families) seen[print_family(family)] += count.cases;
   }
   model.tested.assign(tested.begin(), tested.end());

@@ -71,9 +71,10 @@ void fields(V& v, const RunRecord*) {
   v.field("groups", &RunRecord::groups, run_rules::kTotal, "Groups of cases that share a setting; 0: not counted.");
   v.field("discarded", &RunRecord::discarded, run_rules::kTotal, "Drawn specs that were refused.");
   using json_fields::Text;
-  v.field("tested", &RunRecord::tested,
-          {.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = Text::label},
-          "What the cases were made of.");
+  const json_fields::Rule counts{.low = 0, .high = 0x1p53, .max_count = run_rules::kMostEntries, .key_text = Text::label};
+  v.field("tested", &RunRecord::tested, counts, "What the cases were made of.");
+  v.field("unmet", &RunRecord::unmet, counts, "Cases with a request that the generator could not meet.");
+  v.field("not_judged", &RunRecord::not_judged, counts, "Cases that a check could not judge, with the reason.");
   v.field("families", &RunRecord::families, {.max_count = run_rules::kMostEntries, .key_text = Text::prose},
           "Failures, by family.");
   v.field("arms", &RunRecord::arms, {.max_count = 100}, "Ways of drawing.");

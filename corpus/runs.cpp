@@ -68,7 +68,9 @@ RunRecord added_up(const std::vector<RunRecord>& shards) {
     sum.cases += shard.cases, sum.frames += shard.frames, sum.failing += shard.failing;
     sum.groups += shard.groups, sum.discarded += shard.discarded;
     add_refusals(shard.refusals, sum.refusals);
-    for (const auto& [label, count] : shard.tested) sum.tested[label] += count;
+    add_counts(shard.tested, sum.tested);
+    add_counts(shard.unmet, sum.unmet);
+    add_counts(shard.not_judged, sum.not_judged);
     add_families(shard, sum);
     if (shard.against) {
       if (!sum.against) sum.against.emplace();
@@ -80,6 +82,10 @@ RunRecord added_up(const std::vector<RunRecord>& shards) {
     }
   }
   return sum;
+}
+
+void add_counts(const std::map<std::string, std::int64_t>& from, std::map<std::string, std::int64_t>& to) {
+  for (const auto& [label, count] : from) to[label] += count;
 }
 
 void drop_run(const Corpus& corpus, const RunRecord& run) {

@@ -64,6 +64,8 @@ struct RunRecord {
   std::int64_t groups = 0;                      // groups of cases that share a setting (fuzz/stages.h); 0: not counted
   std::int64_t discarded = 0;                   // drawn specs that were refused; a fault if the generator is built in
   std::map<std::string, std::int64_t> tested;   // "action pose on arm_left", "part mech_arm_shield": cases or uses
+  std::map<std::string, std::int64_t> unmet{};       // "reach on arm_left: out_of_reach": cases with such a request
+  std::map<std::string, std::int64_t> not_judged{};  // "balance: the motion has no dynamics": cases
   std::map<Family, FamilyCount> families;
   std::map<std::string, StrategyCount> arms;         // "uniform", "guided"
   std::optional<AgainstCounts> against;  // for a run that was compared; only failures that count in the comparison are
@@ -77,6 +79,9 @@ std::string record_name(const RunRecord& run);
 
 // Reads a record. Code json.* if it is not of this version.
 Result<RunRecord> read_run(const std::string& path);
+
+// Adds the counts of each label.
+void add_counts(const std::map<std::string, std::int64_t>& from, std::map<std::string, std::int64_t>& to);
 
 void drop_run(const Corpus& corpus, const RunRecord& run);
 

@@ -95,8 +95,9 @@ EvaluateReport CaseWork::report_of(const EvaluateTask& task, const Spec& spec, c
   EvaluateReport report;
   const Execution& execution = evaluator_.execution();
   report.built = true;
-  report.unmet = execution.intent && !execution.intent->unmet.empty();
   report.tested = labels_of(spec, generator_, execution);
+  report.unmet = unmet_labels(execution);
+  report.not_judged = not_judged_labels(evaluation.not_judged);
   report.frames = evaluation.frame_count;
   report.motion_hash = to_hex(evaluation.motion_hash);
   report.waivers = evaluation.waivers;

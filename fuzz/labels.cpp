@@ -115,4 +115,19 @@ std::set<std::string> possible_labels(Generator& generator, const Character& cha
   return labels;
 }
 
+std::vector<std::string> unmet_labels(const Execution& execution) {
+  std::set<std::string> labels;
+  if (!execution.intent) return {};
+  for (const UnmetRequest& unmet : execution.intent->unmet)
+    labels.insert(unmet.action + " on " + execution.character->parts()[static_cast<std::size_t>(unmet.part)].slot + ": " +
+                  std::string(shortfall_name(unmet.why)));
+  return {labels.begin(), labels.end()};
+}
+
+std::vector<std::string> not_judged_labels(const std::vector<NotJudged>& not_judged) {
+  std::vector<std::string> labels;
+  for (const NotJudged& one : not_judged) labels.push_back(std::string(one.check) + ": " + std::string(one.reason));
+  return labels;
+}
+
 }  // namespace contort

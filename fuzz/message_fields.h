@@ -74,10 +74,11 @@ template <class V>
 void fields(V& v, const EvaluateReport*) {
   v.constant("type", "evaluated");
   v.field("built", &EvaluateReport::built, {}, "The spec builds.");
-  v.field("unmet", &EvaluateReport::unmet, {}, "The generator could not meet a request.");
   v.field("frames", &EvaluateReport::frames, {.low = 0}, "Of the motion.");
   v.field("motion_hash", &EvaluateReport::motion_hash, message_rules::kHash, "Of all frames.");
   v.field("tested", &EvaluateReport::tested, message_rules::kLabels, "What it was made of.");
+  v.field("unmet", &EvaluateReport::unmet, message_rules::kLabels, "Requests that were not met.");
+  v.field("not_judged", &EvaluateReport::not_judged, message_rules::kLabels, "Checks that could not judge.");
   v.field("broken", &EvaluateReport::broken, message_rules::kFamilies, "Families that failed.");
   v.field("near", &EvaluateReport::near, {.max_count = 100'000}, "Near misses.");
   v.field("waivers", &EvaluateReport::waivers, {.max_count = 1000}, "Use of each.");

@@ -24,10 +24,11 @@ struct EvaluateTask {
 
 struct EvaluateReport {
   bool built = false;
-  bool unmet = false;  // the generator could not meet a request
   int frames = 0;
   std::string motion_hash;
   std::vector<std::string> tested;  // labels of the actions, parts and so on that the case uses
+  std::vector<std::string> unmet;       // requests that the generator could not meet (unmet_labels)
+  std::vector<std::string> not_judged;  // checks that could not judge the motion (not_judged_labels)
   std::vector<Family> broken;       // sorted by first frame, then by depth in the check's scale, the deepest first
   std::vector<NearMiss> near;       // near misses of the subjects of the island's group
   std::vector<WaiverUse> waivers;

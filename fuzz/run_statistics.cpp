@@ -40,6 +40,8 @@ void RunStatistics::count(const EvaluateReport& report, std::int64_t index, bool
   if (!report.built) count_refusal(report.refusal, index, record.refusals);
   record.failing += fails, strategy.failing += fails;
   for (const std::string& label : report.tested) ++record.tested[label];
+  for (const std::string& label : report.unmet) ++record.unmet[label];
+  for (const std::string& label : report.not_judged) ++record.not_judged[label];
   add_uses(report.waivers, state_.waivers);
 }
 
@@ -70,7 +72,7 @@ void RunStatistics::learn(const Lineage& lineage, const EvaluateReport& report) 
   if (is_seed(config_, lineage.back())) return;
   const auto island = static_cast<std::size_t>(island_of(lineage.back()));
   if (config_.draw.profile.staged)
-    state_.ingredients[island].learn(lineage, report.built && report.broken.empty() && !report.unmet);
+    state_.ingredients[island].learn(lineage, report.built && report.broken.empty() && report.unmet.empty());
   else
     state_.islands[island].learn(lineage, report.near, report.broken);
 }

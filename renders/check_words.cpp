@@ -63,4 +63,11 @@ std::string_view shortfall_text(Shortfall why) {
   return "";
 }
 
+std::string_view shortfall_text(std::string_view name) {
+  for (const Shortfall why : {Shortfall::out_of_reach, Shortfall::joint_range, Shortfall::joint_speed,
+                              Shortfall::clearance, Shortfall::rule_failed})
+    if (shortfall_name(why) == name) return shortfall_text(why);
+  return name;
+}
+
 }  // namespace contort

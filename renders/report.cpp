@@ -91,6 +91,16 @@ std::string failures_text(const ReportModel& model) {
   return text;
 }
 
+namespace {
+
+Json counts_json(const std::map<std::string, std::int64_t>& counts) {
+  Json list = Json::array();
+  for (const auto& [name, cases] : counts) list.push_back({{"name", name}, {"cases", cases}});
+  return list;
+}
+
+}  // namespace
+
 std::string report_json(const ReportModel& model) {
   Json json = {{"format", "contort.report/1"}, {"title", model.title},       {"cases", model.cases},
                {"frames", model.frames},       {"findings", model.findings}, {"families", model.families},
@@ -102,6 +112,7 @@ std::string report_json(const ReportModel& model) {
   for (const ReportRow& row : model.rows) json["rows"].push_back(row_json(row));
   for (const ReportCause& cause : model.causes) json["causes"].push_back(cause_json(cause));
   for (const auto& [name, count] : model.tested) json["tested"].push_back({{"name", name}, {"count", count}});
+  json["unmet"] = counts_json(model.unmet), json["not_judged"] = counts_json(model.not_judged);
   if (model.refused > 0) json["refused"] = model.refused, json["refusals"] = Json::array();
   for (const RefusalCount& count : by_frequency(model.refusals))
     json["refusals"].push_back({{"reason", count.text}, {"cases", count.cases}});

@@ -86,6 +86,8 @@ struct ReportModel {
   std::vector<std::pair<std::string, std::int64_t>> tested;  // contents of the cases, and how often; 0: never
   std::int64_t refused = 0;  // cases that the generator refused, so that nothing was judged
   RefusalCounts refusals{};  // the generator's reasons
+  std::map<std::string, std::int64_t> unmet{};       // cases with a request that was not met (RunRecord::unmet)
+  std::map<std::string, std::int64_t> not_judged{};  // cases that a check could not judge (RunRecord::not_judged)
 };
 
 // The rows by what they are: failures that are neither fixed nor without a smallest case, and the others.

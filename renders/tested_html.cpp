@@ -8,7 +8,7 @@
 
 #include "checks/circumstances.h"
 #include "renders/html.h"
-#include "renders/report_cards.h"
+#include "renders/not_judged_html.h"
 #include "renders/wording.h"
 
 namespace contort {
@@ -150,26 +150,10 @@ PairCounts pair_counts(const ReportModel& model) {
   return counts;
 }
 
-namespace {
-
-constexpr std::size_t kMostReasonsOnPage = 50;
-
-// In the words of `contort generator check`.
-std::string refused_html(const ReportModel& model) {
-  if (model.refused == 0) return "";
-  std::string out = "<h3>Not judged</h3>\n<p>The generator refused " + html_text(count_text(model.refused)) + " of " +
-                    html_text(counted(model.cases, "case", "cases")) +
-                    ", so that nothing was judged in them.</p>\n<ul id='refused'>\n";
-  for (const std::string& line : refusal_lines(model.refusals, model.refused, model.cases, kMostReasonsOnPage))
-    out += "<li>" + html_text(line) + "</li>\n";
-  return out + "</ul>\n";
-}
-
-}  // namespace
-
 std::string tested_html(const ReportModel& model) {
-  if (model.tested.empty() && model.refused == 0) return "";
-  return "<section id='tested'>\n<h2>What was tested</h2>\n" + refused_html(model) + others_html(model) +
+  const std::string rest = not_judged_html(model);
+  if (model.tested.empty() && rest.empty()) return "";
+  return "<section id='tested'>\n<h2>What was tested</h2>\n" + rest + others_html(model) +
          uses_html(use_rows(model)) + pairs_html(model) + "</section>\n";
 }
 

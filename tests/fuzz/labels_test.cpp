@@ -69,5 +69,19 @@ TEST(Labels, WhatIsCountedIsAmongWhatIsPossible) {
   EXPECT_GT(seen, 200);
 }
 
+TEST(Labels, NameEachUnmetRequestOnceWithItsReason) {
+  Spec spec;
+  spec.sequences = {sequence({elbow(0, 20)})};
+  Execution execution = execute(stock_generator(), spec).value();
+  const int arm = execution.character->find_part("arm_left"), leg = execution.character->find_part("leg_left");
+  execution.intent.emplace().unmet = {{0, 3, leg, "reach", Shortfall::clearance},
+                                      {0, 3, arm, "reach", Shortfall::out_of_reach},
+                                      {9, 12, arm, "reach", Shortfall::out_of_reach}};
+  EXPECT_EQ(unmet_labels(execution), (std::vector<std::string>{"reach on arm_left: out_of_reach",
+                                                               "reach on leg_left: clearance"}));
+  execution.intent.reset();
+  EXPECT_TRUE(unmet_labels(execution).empty()) << "a generator without an intent says nothing of it";
+}
+
 }  // namespace
 }  // namespace contort

@@ -41,8 +41,15 @@ TEST(Messages, ATaskHasTheFieldsOfItsOwnType) {
 }
 
 TEST(Messages, ReportsArriveAsTheyWereSent) {
-  const EvaluateReport evaluated{true,      true,           60, "0123456789abcdef", {"ground steps"},
-                                 {kFamily}, {{kFamily, 0.1}}, {{3, true}}};
+  const EvaluateReport evaluated{.built = true,
+                                 .frames = 60,
+                                 .motion_hash = "0123456789abcdef",
+                                 .tested = {"ground steps"},
+                                 .unmet = {"reach on arm_left: out_of_reach"},
+                                 .not_judged = {"balance: the motion has no dynamics"},
+                                 .broken = {kFamily},
+                                 .near = {{kFamily, 0.1}},
+                                 .waivers = {{3, true}}};
   EXPECT_EQ(parse_report<EvaluateReport>(print_report(evaluated)), evaluated);
   EvaluateReport compared = evaluated;
   compared.against = Comparison{"", true, 17, "fedcba9876543210", {kFamily}, {kFamily}, {kFamily}};

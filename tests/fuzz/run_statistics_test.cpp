@@ -12,7 +12,7 @@ class CountedCases : public testing::Test {
  protected:
   std::vector<SettleTask> add(std::int64_t index, std::vector<Family> broken) {
     RoundCase one{{index}};
-    one.report = EvaluateReport{true, false, 60, "0123456789abcdef", {"ground steps"}, std::move(broken), {}, {}};
+    one.report = EvaluateReport{true, 60, "0123456789abcdef", {"ground steps"}, {}, {}, std::move(broken), {}, {}};
     one.ends_process = ends_process_;
     return statistics_.add(one);
   }
@@ -74,7 +74,7 @@ TEST_F(CountedCases, AgainstABaseCountOnlyWhatChanged) {
   state_.record.against.emplace();
   const auto add_compared = [&](std::int64_t index, const Comparison& comparison) {
     RoundCase one{{index}};
-    one.report = EvaluateReport{true, false, 60, "0123456789abcdef", {}, {hip_, knee_}, {}, {}, comparison};
+    one.report = EvaluateReport{true, 60, "0123456789abcdef", {}, {}, {}, {hip_, knee_}, {}, {}, comparison};
     return statistics_.add(one);
   };
   const std::vector<SettleTask> wanted = {{{1}, knee_, 0, "0123456789abcdef", false, true, "bb"}};
@@ -105,12 +105,28 @@ TEST_F(CountedCases, AgainstABaseTeachTheirIslandAllThatFailed) {
 TEST_F(CountedCases, OfSinglesOnlyThoseThatAreCleanAndMetAreIngredients) {
   const auto add_single = [&](std::int64_t index, bool built, bool unmet, std::vector<Family> broken) {
     RoundCase one{{index}};
-    one.report = EvaluateReport{built, unmet, 60, "0123456789abcdef", {}, std::move(broken), {}, {}};
+    one.report = EvaluateReport{built, 60, "0123456789abcdef", {}, {}, {}, std::move(broken), {}, {}};
+    if (unmet) one.report->unmet = {"reach on arm_left: out_of_reach"};
     statistics_.add(one);
   };
   add_single(8, true, false, {}), add_single(9, true, true, {});
   add_single(10, true, false, {knee_}), add_single(11, false, false, {});
   EXPECT_EQ(state_.ingredients[static_cast<std::size_t>(island_of(8))].clean, std::vector<std::int64_t>{8});
+}
+
+TEST_F(CountedCases, CountRequestsThatWereNotMetAndChecksThatCouldNotJudge) {
+  RoundCase one{{8}};
+  one.report.emplace().built = true;
+  one.report->unmet = {"reach on arm_left: out_of_reach"};
+  one.report->not_judged = {"balance: the motion has no dynamics"};
+  statistics_.add(one);
+  one.lineage = {9}, one.report->unmet.clear();
+  statistics_.add(one);
+  EXPECT_EQ(state_.record.unmet, (std::map<std::string, std::int64_t>{{"reach on arm_left: out_of_reach", 1}}));
+  EXPECT_EQ(state_.record.not_judged, (std::map<std::string, std::int64_t>{{"balance: the motion has no dynamics", 2}}));
+  const RunRecord both = added_up({state_.record, state_.record});
+  EXPECT_EQ(both.unmet.at("reach on arm_left: out_of_reach"), 2);
+  EXPECT_EQ(both.not_judged.at("balance: the motion has no dynamics"), 4);
 }
 
 TEST_F(CountedCases, TeachTheirIsland) {

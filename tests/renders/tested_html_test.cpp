@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renders/check_words.h"
+
 namespace contort {
 namespace {
 
@@ -47,6 +49,20 @@ TEST(Tested, OfManyPairsSomeAreListed) {
   ReportModel model;
   for (int i = 0; i < 1200; ++i) model.tested.emplace_back("pair a + b" + std::to_string(i) + " on arm_left", 0);
   EXPECT_TRUE(contains(tested_html(model), "<li>and 700 more</li>"));
+}
+
+// Both lists name the reason in plain words, and the most frequent line comes first.
+TEST(Tested, ListsUnmetRequestsAndChecksThatCouldNotJudge) {
+  ReportModel model;
+  EXPECT_FALSE(contains(tested_html(model), "id='unmet'"));
+  model.unmet = {{"aim on head: joint_speed", 3}, {"reach on arm_left: out_of_reach", 12}};
+  model.not_judged = {{"balance: the motion has no dynamics", 2}};
+  const std::string html = tested_html(model);
+  const std::size_t reach = html.find("reach on arm_left</th><td>it is out of reach</td><td>12</td>");
+  const std::size_t aim = html.find("aim on head</th><td>there was not enough time for the speed of a joint</td><td>3</td>");
+  EXPECT_LT(reach, aim);
+  EXPECT_NE(aim, std::string::npos);
+  EXPECT_TRUE(contains(html, check_title("balance") + "</th><td>the motion has no dynamics</td><td>2</td>"));
 }
 
 }  // namespace
