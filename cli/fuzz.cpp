@@ -173,7 +173,7 @@ Result<RunConfig> configure(const FuzzOptions& options, const CheckSettings& set
   return config;
 }
 
-// The ids of the run's buckets that gate: they are neither acknowledged nor in the baseline.
+// The ids of the run's buckets that gate a build (is_gating).
 Result<std::set<std::string>> gating_buckets(const RunResult& result, const std::string& today,
                                              const Baseline& baseline) {
   const GroupCounts now = group_counts_of(std::span(&result.record, 1));
